@@ -1,0 +1,31 @@
+//! Small linear algebra under names of the field, and the numerical helpers every room uses.
+//!
+//! This is the only file that names nalgebra's types, so that a change of library is a change here.
+
+pub mod inertia;
+pub mod rotation;
+
+/// Complex number, `f64` real and imaginary part.
+pub type Complex = num_complex::Complex64;
+/// Vector in space; unit as the field says.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// Wrench (force N, moment N·m) or small motion (translation m, rotation vector rad).
+pub type Vec6 = nalgebra::Vector6<f64>;
+/// 3×3 matrix.
+pub type Mat3 = nalgebra::Matrix3<f64>;
+/// 6×6 matrix over small motions; mixed units N/m, N, N·m/rad.
+pub type Mat6 = nalgebra::Matrix6<f64>;
+/// Complex 6-vector.
+pub type CVec6 = nalgebra::Vector6<Complex>;
+/// Complex 3×3 matrix.
+pub type CMat3 = nalgebra::Matrix3<Complex>;
+/// Complex 6×6 matrix.
+pub type CMat6 = nalgebra::Matrix6<Complex>;
+/// Rotation from the platform frame to the world frame.
+pub type Rotation = nalgebra::UnitQuaternion<f64>;
+
+/// Cross-product matrix `[v]×`: `skew(v) * u == v × u`.
+#[inline]
+pub fn skew(v: &Vec3) -> Mat3 {
+    v.cross_matrix()
+}

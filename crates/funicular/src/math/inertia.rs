@@ -1,0 +1,1 @@
+//! Signs of the eigenvalues of a symmetric matrix.

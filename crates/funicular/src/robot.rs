@@ -1,0 +1,158 @@
+//! The robot: platform, cables, ropes and gravity; immutable, and valid once it exists.
+//!
+//! Frames: `w` world, `p` platform. `anchor_w` is a point in world coordinates, `attachment_p` one in platform
+//! coordinates, `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
+
+pub mod spec;
+
+use crate::math::{Mat3, Rotation, Vec3, rotation};
+
+/// A cable-driven parallel robot, as read from a robot file. SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// What the robot is called.
+    pub name: String,
+    /// Where its numbers come from.
+    pub source: String,
+    /// Acceleration of gravity in world axes [m/s²]; any direction, zero for none.
+    pub gravity_w: Vec3,
+    /// The moving platform.
+    pub platform: Platform,
+    /// The cables, in file order.
+    pub cables: Vec<Cable>,
+    /// What the file says about the state: unstrained lengths or a pose.
+    pub state: State,
+}
+
+/// Which motions the platform has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Freedoms {
+    /// Three translations and three rotations.
+    #[default]
+    Rigid,
+    /// Translations only: all cables end in one point that carries the mass.
+    PointMass,
+}
+
+impl Freedoms {
+    /// Number of freedoms: 6 or 3. The first ones of (δp, δθ).
+    pub fn count(self) -> usize {
+        match self {
+            Self::Rigid => 6,
+            Self::PointMass => 3,
+        }
+    }
+}
+
+/// The moving platform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Platform {
+    /// Mass [kg], positive.
+    pub mass: f64,
+    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass.
+    pub inertia_p: Mat3,
+    /// Centre of mass in the platform frame [m].
+    pub center_of_mass_p: Vec3,
+    /// Which motions it has.
+    pub freedoms: Freedoms,
+}
+
+/// Material damping of a rope; enters the cable's frequency only (theory, section 4).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Damping {
+    /// Constant ratio ξ: `ω_c² = ω²(1 − 2iξ)`.
+    Ratio(f64),
+    /// Viscous coefficient c per length [N s/m²]: `ω_c² = ω² − iωc/m`.
+    Viscous(f64),
+}
+
+/// A rope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name in the robot file.
+    pub name: String,
+    /// Axial stiffness EA [N].
+    pub axial_stiffness: f64,
+    /// Mass per unstrained length [kg/m]; zero is a massless cable.
+    pub mass_per_length: f64,
+    /// Damping.
+    pub damping: Damping,
+}
+
+/// One cable, from the platform to its anchor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cable {
+    /// Name in the robot file; unique.
+    pub name: String,
+    /// Its rope.
+    pub material: Material,
+    /// Anchor (exit point) in the world frame [m].
+    pub anchor_w: Vec3,
+    /// Attachment point in the platform frame [m].
+    pub attachment_p: Vec3,
+}
+
+/// What is known of the state before an analysis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum State {
+    /// Unstrained lengths, one a cable, file order [m]: forward statics gives the pose.
+    Lengths(Vec<f64>),
+    /// Pose: inverse statics gives the lengths.
+    Pose(Pose),
+    /// The file gives none; a command has to.
+    Unknown,
+}
+
+/// Position and orientation of the platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Origin of the platform frame in the world frame [m].
+    pub position_w: Vec3,
+    /// Rotation from platform to world axes.
+    pub rot_wp: Rotation,
+}
+
+impl Pose {
+    /// From position [m] and roll, pitch, yaw [degrees], `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    pub fn new(position_w: [f64; 3], roll_pitch_yaw_deg: [f64; 3]) -> Self {
+        let [roll, pitch, yaw] = roll_pitch_yaw_deg;
+        Self { position_w: Vec3::from(position_w), rot_wp: rotation::from_roll_pitch_yaw_deg(roll, pitch, yaw) }
+    }
+
+    /// The pose after a small motion: translation [m] and rotation vector [rad], world axes.
+    #[must_use]
+    pub fn moved(&self, translation_w: &Vec3, turn_w: &Vec3) -> Self {
+        Self { position_w: self.position_w + translation_w, rot_wp: rotation::turned(&self.rot_wp, turn_w) }
+    }
+
+    /// A point of the platform in world coordinates [m].
+    pub fn point_w(&self, point_p: &Vec3) -> Vec3 {
+        self.position_w + self.rot_wp * point_p
+    }
+}
+
+impl Robot {
+    /// Unit vector against gravity; z when there is none.
+    pub fn up_w(&self) -> Vec3 {
+        let g = self.gravity_w.norm();
+        if g > 0.0 { -self.gravity_w / g } else { Vec3::z() }
+    }
+
+    /// Length ℓ that makes rotations comparable with translations [m]: the mean distance of the attachments from the
+    /// platform origin; 1 for a point mass.
+    ///
+    /// Every norm, pivot count and tolerance on 6×6 matrices acts on `S K S`, `S = diag(1,1,1,1/ℓ,1/ℓ,1/ℓ)`.
+    pub fn platform_length(&self) -> f64 {
+        let n = self.cables.len() as f64;
+        let mean = self.cables.iter().map(|c| c.attachment_p.norm()).sum::<f64>() / n;
+        if mean > 0.0 { mean } else { 1.0 }
+    }
+
+    /// This robot with another platform mass [kg]; inertia tensor and centre of mass stay.
+    #[must_use]
+    pub fn with_mass(&self, mass: f64) -> Self {
+        let mut robot = self.clone();
+        robot.platform.mass = mass;
+        robot
+    }
+}
