@@ -1,0 +1,532 @@
+//! The elastic catenary: one uniform cable that hangs and stretches between two points, in its own plane.
+//!
+//! Irvine's two equations (theory, section 2) hold two unknowns, H and V. They reduce to one equation in one unknown.
+//! With the weight `W = w L0`, the sum of the two end tensions `S` and `v = atanh(W/S)`, the identity
+//! `asinh b − asinh a = 2 atanh((b − a)/(√(1+a²) + √(1+b²)))` turns them into
+//!
+//! ```text
+//! H = w x / (2 (v + k)),   V_m = w z / (2 (tanh v + k)),   k = w L0 / (2 EA)
+//! F(v) = (x sinh v/(v + k))² + (z tanh v/(tanh v + k))² − L0² = 0
+//! ```
+//!
+//! V_m is the mean of the two vertical end forces. F grows strictly with v, so there is exactly one solution; v runs
+//! from 0 (taut) to ∞ (a loop that hangs straight down), and no term cancels on the way: a cable of any tautness,
+//! sag and inclination, vertical included, is one case. Derivation: docs/theory.md, equations (6) to (10).
+
+pub mod space;
+
+use thiserror::Error;
+
+/// What is wrong with the input of [`Catenary::between`].
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CatenaryError {
+    /// A quantity is not a usable number.
+    #[error("{quantity} is {value}: it must be {must}")]
+    Input {
+        /// Which one, with unit.
+        quantity: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        must: &'static str,
+    },
+}
+
+/// The rope of one cable as the catenary sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rope {
+    /// Unstrained length L0 [m].
+    pub unstrained_length: f64,
+    /// Weight per unstrained length w [N/m]; zero is a massless cable, straight and without force when slack.
+    pub weight_per_length: f64,
+    /// Axial stiffness EA [N].
+    pub axial_stiffness: f64,
+}
+
+/// An elastic catenary in equilibrium, from its start (arc length 0) to its end (arc length L0).
+///
+/// x is horizontal from start to end, z is up. Forces are those that hold the cable at its **end**; the same
+/// horizontal force acts at the start, reversed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Catenary {
+    rope: Rope,
+    span: f64,
+    rise: f64,
+    horizontal: f64,
+    vertical_mean: f64,
+    slope: Slope,
+}
+
+/// The quantities of the solved equation that tangent and length derivative share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Slope {
+    /// Weight and tension: the general case.
+    Curved { v: f64, tanh_v: f64, sech2_v: f64, sinh_v: f64, v_cosh_minus_sinh: f64 },
+    /// Both ends on one vertical and longer than needed: a loop without horizontal force.
+    Loop,
+    /// Massless and taut: a straight spring.
+    Straight,
+    /// Massless and longer than its chord: no force.
+    Slack,
+}
+
+impl Catenary {
+    /// The cable that hangs from the origin to `(span, rise)` [m].
+    ///
+    /// About 0.2 µs. `span` must not be negative; `rise` may have either sign.
+    ///
+    /// # Errors
+    /// [`CatenaryError::Input`] for a value that is not finite or not in its range. Every other input has a solution.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::catenary::{Catenary, Rope};
+    /// let rope = Rope { unstrained_length: 105.0, weight_per_length: 10.0, axial_stiffness: 1e7 };
+    /// let cable = Catenary::between(100.0, 0.0, rope)?;
+    /// assert!((cable.horizontal_force() / 918.634_473_646_241_4 - 1.0).abs() < 1e-13);
+    /// assert!((cable.vertical_force_at_end() - 525.0).abs() < 1e-10);
+    /// # Ok::<(), funicular::catenary::CatenaryError>(())
+    /// ```
+    ///
+    /// # References
+    /// H. M. Irvine, Cable Structures, MIT Press 1981, section 1.2.
+    pub fn between(span: f64, rise: f64, rope: Rope) -> Result<Self, CatenaryError> {
+        let check = |ok: bool, quantity, value, must| {
+            if ok { Ok(()) } else { Err(CatenaryError::Input { quantity, value, must }) }
+        };
+        check(span >= 0.0 && span.is_finite(), "span [m]", span, "finite and not negative")?;
+        check(rise.is_finite(), "rise [m]", rise, "finite")?;
+        let Rope { unstrained_length, weight_per_length, axial_stiffness } = rope;
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        check(positive(unstrained_length), "unstrained length [m]", unstrained_length, "finite and positive")?;
+        check(
+            weight_per_length >= 0.0 && weight_per_length.is_finite(),
+            "weight per length [N/m]",
+            weight_per_length,
+            "finite and not negative",
+        )?;
+        check(positive(axial_stiffness), "axial stiffness [N]", axial_stiffness, "finite and positive")?;
+        Ok(Self::solve(span, rise, rope))
+    }
+
+    /// As [`Catenary::between`] for numbers that a [`crate::robot::Robot`] has already checked.
+    #[inline]
+    pub(crate) fn solve(span: f64, rise: f64, rope: Rope) -> Self {
+        let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = rope;
+        if w == 0.0 {
+            return Self::straight(span, rise, rope);
+        }
+        let k = w * length / (2.0 * ea);
+        let (x, z) = (span / length, rise / length);
+        // A span this far below the length is a vertical cable to every digit; squares of smaller ones underflow.
+        const VERTICAL: f64 = 1e-140;
+        if x < VERTICAL && z.abs() <= 1.0 + k {
+            let vertical_mean = w * rise / (2.0 * (1.0 + k));
+            return Self { rope, span, rise, horizontal: 0.0, vertical_mean, slope: Slope::Loop };
+        }
+        let root = root(if x < VERTICAL { 0.0 } else { x }, z, k);
+        let Hyperbolic { sinh, cosh, v_cosh_minus_sinh, .. } = root.hyperbolic;
+        let tanh_v = sinh / cosh;
+        Self {
+            rope,
+            span,
+            rise,
+            horizontal: w * span / (2.0 * (root.v + k)),
+            vertical_mean: w * rise / (2.0 * (tanh_v + k)),
+            slope: Slope::Curved { v: root.v, tanh_v, sech2_v: 1.0 / (cosh * cosh), sinh_v: sinh, v_cosh_minus_sinh },
+        }
+    }
+
+    fn straight(span: f64, rise: f64, rope: Rope) -> Self {
+        let chord = span.hypot(rise);
+        let tension = rope.axial_stiffness * (chord / rope.unstrained_length - 1.0);
+        if tension > 0.0 {
+            let (horizontal, vertical_mean) = (tension * span / chord, tension * rise / chord);
+            Self { rope, span, rise, horizontal, vertical_mean, slope: Slope::Straight }
+        } else {
+            Self { rope, span, rise, horizontal: 0.0, vertical_mean: 0.0, slope: Slope::Slack }
+        }
+    }
+
+    /// The rope it hangs by.
+    #[inline]
+    pub fn rope(&self) -> Rope {
+        self.rope
+    }
+
+    /// Horizontal distance from start to end [m].
+    #[inline]
+    pub fn span(&self) -> f64 {
+        self.span
+    }
+
+    /// Horizontal force H along the whole cable [N].
+    #[inline]
+    pub fn horizontal_force(&self) -> f64 {
+        self.horizontal
+    }
+
+    /// Vertical force V_B that holds the end [N], up positive.
+    #[inline]
+    pub fn vertical_force_at_end(&self) -> f64 {
+        self.vertical_mean + 0.5 * self.weight()
+    }
+
+    /// Vertical component V_A of the internal force at the start [N], up along increasing arc length; what holds the
+    /// start is (−H, −V_A).
+    #[inline]
+    pub fn vertical_force_at_start(&self) -> f64 {
+        self.vertical_mean - 0.5 * self.weight()
+    }
+
+    /// Tension at the start [N].
+    #[inline]
+    pub fn tension_at_start(&self) -> f64 {
+        hypot(self.horizontal, self.vertical_force_at_start())
+    }
+
+    /// Tension at the end [N].
+    #[inline]
+    pub fn tension_at_end(&self) -> f64 {
+        hypot(self.horizontal, self.vertical_force_at_end())
+    }
+
+    /// Tension at arc length `s` of the unstrained cable [m] from the start [N].
+    pub fn tension_at(&self, s: f64) -> f64 {
+        hypot(self.horizontal, self.vertical_force_at_start() + self.rope.weight_per_length * s)
+    }
+
+    /// Weight w L0 [N].
+    #[inline]
+    pub fn weight(&self) -> f64 {
+        self.rope.weight_per_length * self.rope.unstrained_length
+    }
+
+    /// Position (x, z) [m] of the point at unstrained arc length `s` [m] from the start.
+    ///
+    /// A massless slack cable has no shape of its own; its points lie on the chord.
+    pub fn point_at(&self, s: f64) -> [f64; 2] {
+        let h = self.horizontal;
+        let va = self.vertical_force_at_start();
+        let v = va + self.rope.weight_per_length * s;
+        let (ta, t) = (hypot(h, va), hypot(h, v));
+        let sum = ta + t;
+        let compliance = 1.0 / self.rope.axial_stiffness;
+        match self.slope {
+            Slope::Slack => {
+                let part = s / self.rope.unstrained_length;
+                return [self.span * part, self.rise * part];
+            }
+            _ if sum == 0.0 => return [0.0, 0.0],
+            _ => {}
+        }
+        let part_weight = self.rope.weight_per_length * s;
+        let u = part_weight / sum;
+        let x = if h == 0.0 {
+            0.0
+        } else if u < 0.1 {
+            h * s * (compliance + 2.0 / sum * atanh_over(u))
+        } else {
+            // 2 atanh u = ln((sum + ws)/(sum − ws)), and sum − ws = (T_A + V_A) + (T − V) without cancellation.
+            let less = plus_stable(h, ta, va) + plus_stable(h, t, -v);
+            h * (s * compliance + ((sum + part_weight) / less).ln() / self.rope.weight_per_length)
+        };
+        [x, s * (va + v) * (0.5 * compliance + 1.0 / sum)]
+    }
+
+    /// Stiffness of the end, start held: `[[∂H/∂x, ∂H/∂z], [∂V/∂x, ∂V/∂z]]` [N/m], symmetric. The stiffness of the
+    /// start, end held, is the same matrix.
+    pub fn tangent(&self) -> [[f64; 2]; 2] {
+        let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
+        let (x, z) = (self.span, self.rise);
+        match self.slope {
+            Slope::Slack => [[0.0; 2]; 2],
+            Slope::Straight => {
+                let chord = hypot(x, z);
+                let (cos, sin) = (x / chord, z / chord);
+                let along = ea / length;
+                let across = hypot(self.horizontal, self.vertical_mean) / chord;
+                let mixed = (along - across) * cos * sin;
+                [[along * cos * cos + across * sin * sin, mixed], [mixed, along * sin * sin + across * cos * cos]]
+            }
+            Slope::Loop => [[0.0, 0.0], [0.0, w / (2.0 * (1.0 + self.half_strain_of_weight()))]],
+            Slope::Curved { v, tanh_v, sech2_v, .. } => {
+                let k = self.half_strain_of_weight();
+                let (by_x, by_z, _) = self.parameter_derivatives();
+                let (across, along) = (v + k, tanh_v + k);
+                let mixed = -w * x / (2.0 * across * across) * by_z;
+                [
+                    [w / (2.0 * across) * (1.0 - x * by_x / across), mixed],
+                    [mixed, w / (2.0 * along) * (1.0 - z * sech2_v * by_z / along)],
+                ]
+            }
+        }
+    }
+
+    /// Stiffness against motion out of the cable's plane, H/x exactly [N/m].
+    pub fn out_of_plane_stiffness(&self) -> f64 {
+        let w = self.rope.weight_per_length;
+        match self.slope {
+            Slope::Slack | Slope::Loop => 0.0,
+            Slope::Straight => hypot(self.horizontal, self.vertical_mean) / hypot(self.span, self.rise),
+            Slope::Curved { v, .. } => w / (2.0 * (v + self.half_strain_of_weight())),
+        }
+    }
+
+    /// τ = H/cos α, α the chord's inclination [N]: the tension parallel to the chord, also where the cable is vertical
+    /// (there H and cos α both vanish). It falls as the cable grows longer, to zero.
+    #[inline]
+    pub fn parallel_tension(&self) -> f64 {
+        self.out_of_plane_stiffness() * hypot(self.span, self.rise)
+    }
+
+    /// Derivative of [`Self::parallel_tension`] by the unstrained length [N/m].
+    pub fn parallel_tension_by_length(&self) -> f64 {
+        let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
+        let chord = hypot(self.span, self.rise);
+        match self.slope {
+            Slope::Slack | Slope::Loop => 0.0,
+            Slope::Straight => -ea * chord / (length * length),
+            Slope::Curved { v, .. } => {
+                let across = v + self.half_strain_of_weight();
+                let (_, _, by_length) = self.parameter_derivatives();
+                -chord * w / (2.0 * across * across) * (by_length + w / (2.0 * ea))
+            }
+        }
+    }
+
+    /// How the force that holds the **start** is reversed, `(H, V_A)`, changes with the unstrained length [N/m].
+    pub fn start_force_by_length(&self) -> [f64; 2] {
+        let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
+        match self.slope {
+            Slope::Slack => [0.0; 2],
+            Slope::Straight => {
+                let chord = hypot(self.span, self.rise);
+                let rate = -ea * chord / (length * length);
+                [rate * self.span / chord, rate * self.rise / chord]
+            }
+            Slope::Loop => {
+                let k = self.half_strain_of_weight();
+                [0.0, -self.vertical_mean / (1.0 + k) * w / (2.0 * ea) - 0.5 * w]
+            }
+            Slope::Curved { v, tanh_v, sech2_v, .. } => {
+                let k = self.half_strain_of_weight();
+                let k_by_length = w / (2.0 * ea);
+                let (_, _, by_length) = self.parameter_derivatives();
+                [
+                    -self.horizontal / (v + k) * (by_length + k_by_length),
+                    -self.vertical_mean / (tanh_v + k) * (sech2_v * by_length + k_by_length) - 0.5 * w,
+                ]
+            }
+        }
+    }
+
+    /// Potential energy [J] of stretch and weight, the start at height zero: its gradient by the end is (H, V_B).
+    pub fn energy(&self) -> f64 {
+        let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
+        let (h, vm) = (self.horizontal, self.vertical_mean);
+        let sum = self.tension_at_start() + self.tension_at_end();
+        // Legendre transform of the complementary energy ∫ T + T²/(2EA) ds.
+        let (tension_integral, weight) = match self.slope {
+            Slope::Slack => return 0.0,
+            Slope::Straight => return 0.5 * length / ea * (h * h + vm * vm),
+            Slope::Loop => (0.5 * length * (2.0 * vm * vm / sum + 0.5 * sum), self.weight()),
+            Slope::Curved { v, .. } => {
+                let weight = self.weight();
+                (0.5 * length * (2.0 * vm * vm / sum + 0.5 * sum + 2.0 * h * h * v / weight), weight)
+            }
+        };
+        let square_integral = length * (h * h + vm * vm + weight * weight / 12.0);
+        let vertical_end = vm + 0.5 * w * length;
+        h * self.span + vertical_end * self.rise - tension_integral - square_integral / (2.0 * ea)
+    }
+
+    /// `k = w L0/(2 EA)`: the strain at mid-length of a cable that hangs from its two ends side by side.
+    #[inline]
+    fn half_strain_of_weight(&self) -> f64 {
+        self.weight() / (2.0 * self.rope.axial_stiffness)
+    }
+
+    /// (∂v/∂x, ∂v/∂z, ∂v/∂L0) [1/m], from F(v; x, z, L0) = 0.
+    fn parameter_derivatives(&self) -> (f64, f64, f64) {
+        let Slope::Curved { v, tanh_v, sech2_v, sinh_v, v_cosh_minus_sinh } = self.slope else {
+            return (0.0, 0.0, 0.0);
+        };
+        let (x, z, length) = (self.span, self.rise, self.rope.unstrained_length);
+        let k = self.half_strain_of_weight();
+        let (across, along) = (v + k, tanh_v + k);
+        let (a, b) = (sinh_v / across, tanh_v / along);
+        let cosh_v = sinh_v / tanh_v;
+        let a_by_v = (k * cosh_v + v_cosh_minus_sinh) / (across * across);
+        let b_by_v = k * sech2_v / (along * along);
+        let half_slope = x * x * a * a_by_v + z * z * b * b_by_v;
+        let k_by_length = self.rope.weight_per_length / (2.0 * self.rope.axial_stiffness);
+        let (xa, zb) = (x * a, z * b);
+        let by_length = (length + (xa * xa / across + zb * zb / along) * k_by_length) / half_slope;
+        (-x * a * a / half_slope, -z * b * b / half_slope, by_length)
+    }
+}
+
+/// sinh, cosh and their differences without cancellation.
+#[derive(Debug, Clone, Copy)]
+struct Hyperbolic {
+    sinh: f64,
+    cosh: f64,
+    /// sinh v − v.
+    sinh_minus_v: f64,
+    /// v cosh v − sinh v.
+    v_cosh_minus_sinh: f64,
+}
+
+impl Hyperbolic {
+    #[inline]
+    fn of(v: f64) -> Self {
+        if v < 1.0 {
+            // Taylor of sinh v − v; at v = 1 the first term left out, v¹⁹/19!, is 8e-18.
+            const C: [f64; 8] = [
+                1.0 / 6.0,
+                1.0 / 120.0,
+                1.0 / 5_040.0,
+                1.0 / 362_880.0,
+                1.0 / 39_916_800.0,
+                1.0 / 6_227_020_800.0,
+                1.0 / 1_307_674_368_000.0,
+                1.0 / 355_687_428_096_000.0,
+            ];
+            let v2 = v * v;
+            let v4 = v2 * v2;
+            // Two short chains instead of one long one.
+            let even = ((C[6] * v4 + C[4]) * v4 + C[2]) * v4 + C[0];
+            let odd = ((C[7] * v4 + C[5]) * v4 + C[3]) * v4 + C[1];
+            let sinh_minus_v = v * v2 * (even + odd * v2);
+            let sinh = v + sinh_minus_v;
+            let cosh = (1.0 + sinh * sinh).sqrt();
+            let cosh_minus_1 = sinh * sinh / (1.0 + cosh);
+            Self { sinh, cosh, sinh_minus_v, v_cosh_minus_sinh: v * cosh_minus_1 - sinh_minus_v }
+        } else {
+            let e = v.exp();
+            let (sinh, cosh) = (0.5 * (e - 1.0 / e), 0.5 * (e + 1.0 / e));
+            Self { sinh, cosh, sinh_minus_v: sinh - v, v_cosh_minus_sinh: v * cosh - sinh }
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Root {
+    v: f64,
+    hyperbolic: Hyperbolic,
+}
+
+/// Root of F for `x = span/L0`, `z = rise/L0` and k, by Newton's method inside a bracket.
+#[inline]
+fn root(x: f64, z: f64, k: f64) -> Root {
+    let (x2, z2) = (x * x, z * z);
+    let chord = hypot(x, z);
+    let stretch = chord - 1.0;
+    let chord2_minus_1 = stretch * (chord + 1.0);
+    let mut v = start(x, z, k, chord, stretch);
+    let (mut low, mut high) = (0.0, f64::INFINITY);
+    // Seen: 2 to 4 passes in a robot, at most 9 over sags, slopes and strains of eight decades; the rest is a guard.
+    for _ in 0..80 {
+        let h = Hyperbolic::of(v);
+        let across = v + k;
+        let (a, inverse_cosh) = (h.sinh / across, 1.0 / h.cosh);
+        let tanh = h.sinh * inverse_cosh;
+        let along = tanh + k;
+        let b = tanh / along;
+        // F = (xa)² + (zb)² − 1, written by differences from 1 so that a taut cable keeps its digits.
+        let value = if a < 2.0 {
+            let one_minus_a = (k - h.sinh_minus_v) / across;
+            let one_minus_b = k / along;
+            chord2_minus_1 - x2 * one_minus_a * (1.0 + a) - z2 * one_minus_b * (1.0 + b)
+        } else {
+            (x * a).powi(2) + z2 * b * b - 1.0
+        };
+        let a_by_v = (k * h.cosh + h.v_cosh_minus_sinh) / (across * across);
+        let b_by_v = k * inverse_cosh * inverse_cosh / (along * along);
+        let slope = 2.0 * (x * a) * (x * a_by_v) + 2.0 * z2 * b * b_by_v;
+        if value > 0.0 {
+            high = v;
+        } else {
+            low = v;
+        }
+        let rest = 1.0 - z2 * b * b;
+        // Deep sag: F grows like e^{2v}; its logarithm is nearly straight.
+        let step = if rest > 0.0 && value.abs() > 0.01 * rest && value > -rest {
+            let ratio = value / rest;
+            ratio.ln_1p() * (rest + value) / (slope + 2.0 * z2 * b * b_by_v * ratio)
+        } else {
+            value / slope
+        };
+        let mut next = v - step;
+        if !(next > low && next < high) {
+            next = if high.is_finite() {
+                if low > 0.0 { (low * high).sqrt() } else { 0.1 * high }
+            } else {
+                2.0 * low + 1.0
+            };
+        }
+        let change = (next - v).abs();
+        v = next;
+        // Newton squares the error: below 1e-8 the step just taken was the last that counts.
+        if change <= 1e-8 * v || value == 0.0 {
+            break;
+        }
+    }
+    Root { v, hyperbolic: Hyperbolic::of(v) }
+}
+
+/// Start for [`root`]: the flat cable's cubic where it is flat, the logarithm where it sags deeply.
+#[inline]
+fn start(x: f64, z: f64, k: f64, chord: f64, stretch: f64) -> f64 {
+    // Flat: (x/c)² v³/6 + (c − 1) v − k = 0, which is exact for a taut massless cable of any strain.
+    let scale = 6.0 * chord * chord / (x * x);
+    let (p, q) = (scale * stretch, scale * k);
+    let v = if x == 0.0 || !q.is_finite() || !p.is_finite() {
+        // On a vertical: tanh v = k/(c − 1).
+        let tanh = k / stretch;
+        return if tanh < 1.0 { tanh.atanh() } else { 1.0 };
+    } else if p >= 0.0 {
+        let cube_root = q.cbrt();
+        if p * cube_root > q { q / p } else { cube_root }
+    } else {
+        let inextensible = (-p).sqrt();
+        let elastic = q / (-2.0 * p);
+        let cube_root = if elastic > inextensible { q.cbrt() } else { elastic };
+        inextensible + if elastic < cube_root { elastic } else { cube_root }
+    };
+    if v < 1.5 {
+        // The cubic is convex for v > 0 and the start is not left of its root: two steps leave about one per cent.
+        let mut v = v;
+        for _ in 0..2 {
+            let v2 = v * v;
+            v = (2.0 * v * v2 + q) / (3.0 * v2 + p);
+        }
+        v
+    } else {
+        let b = 1.0 / (1.0 + k);
+        let ratio = (1.0 - z * z * b * b).max(1e-300).sqrt() / x;
+        let first = (2.0 * ratio).ln().max(0.5);
+        let second = (2.0 * ratio * (first + k)).ln().max(0.5);
+        (2.0 * ratio * (second + k)).ln().max(0.5)
+    }
+}
+
+/// √(a² + b²); lengths and forces of cables are far from overflow, so libm's careful `hypot` is not needed.
+#[inline]
+fn hypot(a: f64, b: f64) -> f64 {
+    (a * a + b * b).sqrt()
+}
+
+/// T + V without cancellation, T = √(H² + V²).
+#[inline]
+fn plus_stable(h: f64, t: f64, v: f64) -> f64 {
+    if v >= 0.0 { t + v } else { h * h / (t - v) }
+}
+
+/// atanh(u)/u for 0 ≤ u < 0.1; the first term left out is u¹⁶/17 < 1e-17.
+#[inline]
+fn atanh_over(u: f64) -> f64 {
+    let u2 = u * u;
+    (0..8).rev().fold(0.0, |sum, n| sum * u2 + 1.0 / f64::from(2 * n + 1))
+}

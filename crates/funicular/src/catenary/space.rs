@@ -1,0 +1,85 @@
+//! The catenary placed in space: end forces and stiffness in world axes.
+
+use super::{Catenary, Rope};
+use crate::math::{Mat3, Vec3};
+
+/// A cable in static equilibrium between a platform point (its start) and an anchor (its end). World axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HangingCable {
+    /// The curve in its own plane.
+    pub catenary: Catenary,
+    /// Where it starts: the attachment in the world [m].
+    pub start_w: Vec3,
+    /// Where it ends: the anchor [m].
+    pub end_w: Vec3,
+    /// Unit vector of its load reversed: up.
+    up_w: Vec3,
+    /// Horizontal unit vector from start to end; any horizontal one for a vertical cable.
+    along_w: Vec3,
+}
+
+impl HangingCable {
+    /// The cable from `start_w` to `end_w` [m] whose load points against the unit vector `up_w`.
+    #[inline]
+    pub(crate) fn between(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope) -> Self {
+        let chord = end_w - start_w;
+        let rise = chord.dot(&up_w);
+        let across = chord - up_w * rise;
+        let span = across.norm();
+        let along_w = if span > 0.0 { across / span } else { any_normal(&up_w) };
+        Self { catenary: Catenary::solve(span, rise, rope), start_w, end_w, up_w, along_w }
+    }
+
+    /// Vector from start to end [m].
+    pub fn chord_w(&self) -> Vec3 {
+        self.end_w - self.start_w
+    }
+
+    /// Force of the cable on what holds its start, the platform [N].
+    #[inline]
+    pub fn force_on_start_w(&self) -> Vec3 {
+        self.along_w * self.catenary.horizontal_force() + self.up_w * self.catenary.vertical_force_at_start()
+    }
+
+    /// Derivative of the force on the start by the unstrained length [N/m].
+    pub fn force_by_length_w(&self) -> Vec3 {
+        let [h, v] = self.catenary.start_force_by_length();
+        self.along_w * h + self.up_w * v
+    }
+
+    /// Static stiffness of the start, end held: minus the derivative of [`Self::force_on_start_w`] by the start's
+    /// position; 3×3, world axes, symmetric [N/m].
+    pub fn tangent_w(&self) -> Mat3 {
+        let [[hh, hv], [_, vv]] = self.catenary.tangent();
+        let (h, v) = (&self.along_w, &self.up_w);
+        let out = h.cross(v);
+        let hv_product = h * v.transpose();
+        h * h.transpose() * hh
+            + (hv_product + hv_product.transpose()) * hv
+            + v * v.transpose() * vv
+            + out * out.transpose() * self.catenary.out_of_plane_stiffness()
+    }
+
+    /// Potential energy [J]; its gradient by the start is minus [`Self::force_on_start_w`].
+    pub fn energy(&self) -> f64 {
+        self.catenary.energy() + self.catenary.weight() * self.start_w.dot(&self.up_w)
+    }
+
+    /// Position of the point at unstrained arc length `s` [m] from the start [m].
+    pub fn point_w(&self, s: f64) -> Vec3 {
+        let [x, z] = self.catenary.point_at(s);
+        self.start_w + self.along_w * x + self.up_w * z
+    }
+}
+
+/// A unit vector normal to the unit vector `v`.
+pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
+    let least = if v.x.abs() <= v.y.abs().min(v.z.abs()) {
+        Vec3::x()
+    } else if v.y.abs() <= v.z.abs() {
+        Vec3::y()
+    } else {
+        Vec3::z()
+    };
+    v.cross(&least).normalize()
+}

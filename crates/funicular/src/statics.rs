@@ -1,0 +1,342 @@
+//! Static equilibrium: lengths to pose ([`forward`]), pose to lengths ([`inverse`]).
+
+mod forward;
+mod inverse;
+mod start;
+
+pub use forward::forward;
+pub use inverse::inverse;
+
+use crate::catenary::Rope;
+use crate::catenary::space::HangingCable;
+use crate::math::{Mat3, Mat6, Vec3, Vec6, inertia, skew};
+use crate::robot::{Freedoms, Pose, Robot};
+use thiserror::Error;
+
+/// How a cable carries its static load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StaticModel {
+    /// Straight, massless, rigid in length; pulls or pushes as equilibrium asks.
+    Ideal,
+    /// Straight, massless, elastic; no force when slack.
+    Spring,
+    /// Elastic catenary under its own weight.
+    #[default]
+    Catenary,
+}
+
+/// One cable at equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CableState {
+    /// Attachment in the world [m].
+    pub attachment_w: Vec3,
+    /// Lever arm from the platform origin to the attachment, world axes [m].
+    pub lever_w: Vec3,
+    /// Anchor in the world [m].
+    pub anchor_w: Vec3,
+    /// Unstrained length [m]; of an ideal cable its length.
+    pub unstrained_length: f64,
+    /// Force of the cable on the platform, world axes [N].
+    pub force_on_platform_w: Vec3,
+    /// Tension at the platform end [N]; negative if an ideal cable has to push.
+    pub tension_platform: f64,
+    /// Tension at the anchor [N].
+    pub tension_anchor: f64,
+    /// The curve; none for an ideal cable.
+    pub hanging: Option<HangingCable>,
+}
+
+impl CableState {
+    /// Chord length, attachment to anchor [m].
+    pub fn chord(&self) -> f64 {
+        (self.anchor_w - self.attachment_w).norm()
+    }
+
+    /// Static stiffness of the platform end, 3×3, world axes [N/m]; none for an ideal cable.
+    pub fn tangent_w(&self) -> Option<Mat3> {
+        self.hanging.as_ref().map(HangingCable::tangent_w)
+    }
+
+    /// No force to speak of: a massless cable longer than its chord, or one that hangs straight down as a loop.
+    pub fn is_slack(&self) -> bool {
+        self.hanging.as_ref().is_some_and(|h| h.catenary.horizontal_force() == 0.0 && h.catenary.span() > 0.0)
+            || self.tension_platform == 0.0
+    }
+}
+
+/// A static equilibrium of a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equilibrium {
+    /// Pose of the platform.
+    pub pose: Pose,
+    /// The model it was found with.
+    pub model: StaticModel,
+    /// The cables, in file order.
+    pub cables: Vec<CableState>,
+    /// What is left of the wrench: the larger of force and moment/ℓ over the sum of all tensions and the weight.
+    pub residual: f64,
+    /// Iterations taken.
+    pub iterations: usize,
+    /// Whether it is stable.
+    pub stability: Stability,
+}
+
+/// What the static stiffness says of an equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stability {
+    /// Every small displacement is opposed; the least eigenvalue of the scaled stiffness S K S [N/m].
+    Stable {
+        /// Least eigenvalue [N/m].
+        least_stiffness: f64,
+    },
+    /// Some displacement is not opposed.
+    Unstable {
+        /// Least eigenvalue [N/m]; zero within rounding or negative.
+        least_stiffness: f64,
+        /// Number of directions that are not opposed.
+        directions: usize,
+    },
+    /// An ideal robot is rigid; the question does not arise.
+    Rigid,
+}
+
+/// Why there is no equilibrium to give.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StaticsError {
+    /// A number of lengths that is not the number of cables.
+    #[error("{given} unstrained lengths for {cables} cables: give one a cable, in file order")]
+    LengthCount {
+        /// Lengths given.
+        given: usize,
+        /// Cables of the robot.
+        cables: usize,
+    },
+    /// A length that is not positive and finite.
+    #[error("unstrained length of cable \"{cable}\" is {value} m: it must be positive and finite")]
+    Length {
+        /// Name of the cable.
+        cable: String,
+        /// Value [m].
+        value: f64,
+    },
+    /// Fewer cables than freedoms.
+    #[error(
+        "{cables} cables for {freedoms} freedoms: forward statics needs at least {freedoms} (with `spring` and \
+         `catenary` cables) or exactly {freedoms} (with `ideal` cables)"
+    )]
+    CableCount {
+        /// Cables of the robot.
+        cables: usize,
+        /// Freedoms of the platform.
+        freedoms: usize,
+    },
+    /// Inverse statics has one solution only if there are as many cables as freedoms.
+    #[error(
+        "inverse statics of {cables} cables for {freedoms} freedoms: the tensions are determined only when both numbers \
+         are equal; give unstrained lengths instead of a pose"
+    )]
+    InverseCableCount {
+        /// Cables of the robot.
+        cables: usize,
+        /// Freedoms of the platform.
+        freedoms: usize,
+    },
+    /// A cable has no length between its ends at this pose.
+    #[error("cable \"{cable}\" has coinciding ends at this pose: move the platform away from its anchor")]
+    CoincidingEnds {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// The pose is singular: the cables do not span the freedoms.
+    #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
+    Singular,
+    /// A cable would have to push.
+    #[error(
+        "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose; choose \
+         another pose, mass or centre of mass"
+    )]
+    WouldPush {
+        /// Name of the cable that lacks most.
+        cable: String,
+        /// Its tension [N], not positive.
+        tension: f64,
+    },
+    /// The search did not reach the tolerance.
+    #[error(
+        "no equilibrium found in {iterations} iterations: scaled residual {residual:.3e} (limit {limit:.0e}) at position \
+         ({x:.4}, {y:.4}, {z:.4}) m"
+    )]
+    NotConverged {
+        /// Iterations taken.
+        iterations: usize,
+        /// Scaled residual reached.
+        residual: f64,
+        /// Scaled residual asked.
+        limit: f64,
+        /// Position reached [m].
+        x: f64,
+        /// Position reached [m].
+        y: f64,
+        /// Position reached [m].
+        z: f64,
+    },
+}
+
+/// Scaled residual below which an equilibrium counts as found; rounding leaves 1e-15 to 1e-12.
+pub const RESIDUAL_LIMIT: f64 = 1e-10;
+
+/// The rope of cable `i` at an unstrained length, as a static model sees it.
+fn rope(robot: &Robot, i: usize, unstrained_length: f64, model: StaticModel) -> Rope {
+    let material = &robot.cables[i].material;
+    let weight_per_length = match model {
+        StaticModel::Catenary => material.mass_per_length * robot.gravity_w.norm(),
+        StaticModel::Ideal | StaticModel::Spring => 0.0,
+    };
+    Rope { unstrained_length, weight_per_length, axial_stiffness: material.axial_stiffness }
+}
+
+/// The cable `i` at a pose.
+fn hang(robot: &Robot, i: usize, pose: &Pose, up_w: Vec3, rope: Rope) -> HangingCable {
+    let cable = &robot.cables[i];
+    HangingCable::between(pose.point_w(&cable.attachment_p), cable.anchor_w, up_w, rope)
+}
+
+/// Wrench (force, moment about the platform origin) of a force at a lever arm.
+fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
+    let moment = lever.cross(force);
+    Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}
+
+/// Wrench of gravity on the platform about its origin, at a pose.
+fn weight_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
+    wrench_of(&(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p))
+}
+
+/// Adds `Jᵀ K J` of a 3×3 stiffness at a lever arm, `J = [I, −[r]×]`.
+pub(crate) fn add_congruent(total: &mut Mat6, stiffness: &Mat3, lever: &Vec3) {
+    let cross = skew(lever);
+    let coupling = stiffness * cross;
+    let mut add = |row: usize, column: usize, block: &Mat3| {
+        let mut view = total.fixed_view_mut::<3, 3>(row, column);
+        view += block;
+    };
+    add(0, 0, stiffness);
+    add(0, 3, &-coupling);
+    add(3, 0, &(cross * stiffness));
+    add(3, 3, &-(cross * coupling));
+}
+
+/// Adds the stiffness of a dead force at a lever arm, `−[f]×[r]×` in the rotation block (theory, section 3).
+pub(crate) fn add_lever_term(total: &mut Mat6, force: &Vec3, lever: &Vec3) {
+    let mut view = total.fixed_view_mut::<3, 3>(3, 3);
+    view -= skew(force) * skew(lever);
+}
+
+/// `S M S` with `S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ)`: one unit throughout.
+pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
+    let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / platform_length };
+    Mat6::from_fn(|i, j| matrix[(i, j)] * scale(i) * scale(j))
+}
+
+/// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables and platform weight at an equilibrium, about the platform
+/// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
+///
+/// `None` for ideal cables, which have no finite stiffness.
+///
+/// # References
+/// docs/theory.md, equation (14).
+pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    let mut total = Mat6::zeros();
+    for cable in &equilibrium.cables {
+        add_congruent(&mut total, &cable.tangent_w()?, &cable.lever_w);
+        add_lever_term(&mut total, &cable.force_on_platform_w, &cable.lever_w);
+    }
+    let com_w = equilibrium.pose.rot_wp * robot.platform.center_of_mass_p;
+    add_lever_term(&mut total, &(robot.gravity_w * robot.platform.mass), &com_w);
+    Some(total)
+}
+
+/// Total wrench on the platform at any pose, cables and weight, about the platform origin [N, N·m]; the residual of
+/// equilibrium.
+///
+/// # Errors
+/// A number of lengths that is not that of the cables, or a length that is not positive.
+pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Result<Vec6, StaticsError> {
+    check_lengths(robot, lengths)?;
+    let up_w = robot.up_w();
+    Ok(lengths.iter().enumerate().fold(weight_wrench(robot, pose), |sum, (i, &length)| {
+        let cable = hang(robot, i, pose, up_w, rope(robot, i, length, model));
+        sum + wrench_of(&cable.force_on_start_w(), &(cable.start_w - pose.position_w))
+    }))
+}
+
+fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError> {
+    if lengths.len() != robot.cables.len() {
+        return Err(StaticsError::LengthCount { given: lengths.len(), cables: robot.cables.len() });
+    }
+    match lengths.iter().position(|length| !(*length > 0.0 && length.is_finite())) {
+        Some(i) => Err(StaticsError::Length { cable: robot.cables[i].name.clone(), value: lengths[i] }),
+        None => Ok(()),
+    }
+}
+
+/// The larger of force and moment/ℓ, over all tensions and the weight. A point mass has no moment.
+fn scaled_residual(robot: &Robot, wrench: &Vec6, force_scale: f64) -> f64 {
+    let force = wrench.fixed_rows::<3>(0).norm();
+    let moment = match robot.platform.freedoms {
+        Freedoms::Rigid => wrench.fixed_rows::<3>(3).norm() / robot.platform_length(),
+        Freedoms::PointMass => 0.0,
+    };
+    if force_scale > 0.0 { force.max(moment) / force_scale } else { force.max(moment) }
+}
+
+/// Collects an equilibrium from cables that hang at a pose.
+fn collect(
+    robot: &Robot,
+    pose: Pose,
+    model: StaticModel,
+    hanging: Vec<HangingCable>,
+    unstrained_lengths: &[f64],
+    iterations: usize,
+) -> Equilibrium {
+    let cables: Vec<CableState> = hanging
+        .into_iter()
+        .zip(unstrained_lengths)
+        .map(|(cable, &unstrained_length)| CableState {
+            attachment_w: cable.start_w,
+            lever_w: cable.start_w - pose.position_w,
+            anchor_w: cable.end_w,
+            unstrained_length,
+            force_on_platform_w: cable.force_on_start_w(),
+            tension_platform: cable.catenary.tension_at_start(),
+            tension_anchor: cable.catenary.tension_at_end(),
+            hanging: Some(cable),
+        })
+        .collect();
+    let residual = residual_of(robot, &pose, &cables);
+    let mut equilibrium = Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid };
+    if let Some(stiffness) = tangent_stiffness(robot, &equilibrium) {
+        equilibrium.stability = stability(robot, &stiffness);
+    }
+    equilibrium
+}
+
+/// Scaled residual of a set of cable states at a pose.
+fn residual_of(robot: &Robot, pose: &Pose, cables: &[CableState]) -> f64 {
+    let weight = weight_wrench(robot, pose);
+    let sum = cables.iter().fold(weight, |sum, c| sum + wrench_of(&c.force_on_platform_w, &c.lever_w));
+    scaled_residual(robot, &sum, cables.iter().map(|c| c.tension_platform.abs()).sum::<f64>() + weight.norm())
+}
+
+fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
+    let n = robot.platform.freedoms.count();
+    let scaled = scaled(&((stiffness + stiffness.transpose()) * 0.5), robot.platform_length());
+    let (values, _) = inertia::eigen(&scaled, n);
+    // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
+    let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let directions = values.iter().filter(|v| **v <= zero).count();
+    match directions {
+        0 => Stability::Stable { least_stiffness: values[0] },
+        _ => Stability::Unstable { least_stiffness: values[0], directions },
+    }
+}

@@ -1,0 +1,312 @@
+//! Unstrained lengths to pose.
+
+use super::{
+    CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, add_congruent, add_lever_term,
+    check_lengths, collect, hang, residual_of, rope, scaled, scaled_residual, start, weight_wrench, wrench_of,
+};
+use crate::catenary::Rope;
+use crate::catenary::space::HangingCable;
+use crate::math::{Mat6, Vec3, Vec6, inertia};
+use crate::robot::{Freedoms, Pose, Robot};
+
+/// Limit of iterations; robots of the library take 6 to 15, 10,000 random ones at most 60.
+const MOST_ITERATIONS: usize = 400;
+
+/// The pose in which the platform rests for given unstrained lengths [m], one a cable in file order.
+///
+/// `spring` and `catenary`: minimises the potential energy of cables and platform by Newton's method with shifted
+/// stiffness, so that what it finds is a stable equilibrium wherever there is one near; any number of cables from the
+/// number of freedoms. `ideal`: closes the lengths, as many cables as freedoms. `start`: where to begin; without it
+/// the pose that straight cables of these lengths come closest to.
+///
+/// # Errors
+/// [`StaticsError`]: lengths that do not fit the robot, too few cables, or no equilibrium within the tolerance.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::Robot, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// assert!((rest.pose.position_w.z - 0.455_48).abs() < 1e-5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn forward(
+    robot: &Robot,
+    lengths: &[f64],
+    model: StaticModel,
+    start: Option<&Pose>,
+) -> Result<Equilibrium, StaticsError> {
+    check_lengths(robot, lengths)?;
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    if cables < freedoms || (model == StaticModel::Ideal && cables != freedoms) {
+        return Err(StaticsError::CableCount { cables, freedoms });
+    }
+    let pose = start.copied().unwrap_or_else(|| start::pose_from_lengths(robot, lengths));
+    match model {
+        StaticModel::Ideal => ideal(robot, lengths, pose),
+        StaticModel::Spring | StaticModel::Catenary => elastic(robot, lengths, model, pose),
+    }
+}
+
+/// Everything the search needs to know about one pose.
+struct Trial {
+    pose: Pose,
+    cables: Vec<HangingCable>,
+    /// Wrench on the platform, moments divided by ℓ.
+    wrench: Vec6,
+    residual: f64,
+    energy: f64,
+}
+
+struct Search<'a> {
+    robot: &'a Robot,
+    ropes: Vec<Rope>,
+    up_w: Vec3,
+    ell: f64,
+    freedoms: usize,
+}
+
+impl Search<'_> {
+    fn at(&self, pose: Pose) -> Trial {
+        let weight_w = self.robot.gravity_w * self.robot.platform.mass;
+        let com_w = pose.rot_wp * self.robot.platform.center_of_mass_p;
+        let mut wrench = weight_wrench(self.robot, &pose);
+        let mut energy = -weight_w.dot(&(pose.position_w + com_w));
+        let mut force_scale = weight_w.norm();
+        let cables: Vec<HangingCable> =
+            self.ropes.iter().enumerate().map(|(i, &rope)| hang(self.robot, i, &pose, self.up_w, rope)).collect();
+        for cable in &cables {
+            let force = cable.force_on_start_w();
+            wrench += wrench_of(&force, &(cable.start_w - pose.position_w));
+            energy += cable.energy();
+            force_scale += force.norm();
+        }
+        let residual = scaled_residual(self.robot, &wrench, force_scale);
+        for row in 3..6 {
+            wrench[row] = if self.freedoms > row { wrench[row] / self.ell } else { 0.0 };
+        }
+        Trial { pose, cables, wrench, residual, energy }
+    }
+
+    /// Symmetric part of the tangent stiffness, scaled; freedoms the platform lacks get a unit diagonal.
+    fn stiffness(&self, trial: &Trial) -> Mat6 {
+        let mut total = Mat6::zeros();
+        for cable in &trial.cables {
+            let lever = cable.start_w - trial.pose.position_w;
+            add_congruent(&mut total, &cable.tangent_w(), &lever);
+            add_lever_term(&mut total, &cable.force_on_start_w(), &lever);
+        }
+        let com_w = trial.pose.rot_wp * self.robot.platform.center_of_mass_p;
+        add_lever_term(&mut total, &(self.robot.gravity_w * self.robot.platform.mass), &com_w);
+        let mut total = scaled(&((total + total.transpose()) * 0.5), self.ell);
+        for row in self.freedoms..6 {
+            total.row_mut(row).fill(0.0);
+            total.column_mut(row).fill(0.0);
+            total[(row, row)] = 1.0;
+        }
+        total
+    }
+
+    fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
+        pose.moved(&Vec3::new(step[0], step[1], step[2]), &(Vec3::new(step[3], step[4], step[5]) / self.ell))
+    }
+}
+
+fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> Result<Equilibrium, StaticsError> {
+    let search = Search {
+        robot,
+        ropes: lengths.iter().enumerate().map(|(i, &length)| rope(robot, i, length, model)).collect(),
+        up_w: robot.up_w(),
+        ell: robot.platform_length(),
+        freedoms: robot.platform.freedoms.count(),
+    };
+    // A step may turn the platform by half a radian and move it by a fifth of the mean cable.
+    let reach = 0.2 * lengths.iter().sum::<f64>() / lengths.len() as f64;
+    let mut here = search.at(start);
+    let mut shift = 0.0;
+    let mut escapes = 0;
+    let mut iterations = 0;
+    while iterations < MOST_ITERATIONS {
+        iterations += 1;
+        let stiffness = search.stiffness(&here);
+        if here.residual < 1e-13 || (here.residual < RESIDUAL_LIMIT && shift > 0.0) {
+            // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
+            if escapes < 3
+                && inertia::negative_eigenvalues(&stiffness, search.freedoms) > 0
+                && let Some(lower) = descend_from_saddle(&search, &here, &stiffness)
+            {
+                escapes += 1;
+                (here, shift) = (lower, 0.0);
+                continue;
+            }
+            break;
+        }
+        let diagonal = stiffness.diagonal().amax();
+        let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
+        let length = (step.fixed_rows::<3>(0).norm() / reach).max(step.fixed_rows::<3>(3).norm() / (0.5 * search.ell));
+        let step = if length > 1.0 { step / length } else { step };
+        let next = search.at(search.moved(&here.pose, &step));
+        // Near rest the energy drowns in rounding; there the residual decides.
+        let expected = step.dot(&here.wrench);
+        let lower = next.energy < here.energy - 1e-4 * expected;
+        let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
+        if next.residual.is_finite() && (lower || quieter) {
+            shift *= if length > 1.0 { 1.0 } else { 0.1 };
+            if shift < 1e-12 * diagonal {
+                shift = 0.0;
+            }
+            here = next;
+        } else if here.residual < RESIDUAL_LIMIT {
+            // Rounding: nothing better is to be had. Mark, so that the saddle test above runs.
+            shift = f64::MIN_POSITIVE;
+            if inertia::negative_eigenvalues(&stiffness, search.freedoms) == 0 || escapes >= 3 {
+                break;
+            }
+        } else {
+            shift = (10.0 * shift).max(1e-6 * diagonal);
+            if shift > 1e9 * diagonal {
+                break;
+            }
+        }
+    }
+    if here.residual > RESIDUAL_LIMIT || here.residual.is_nan() {
+        let p = here.pose.position_w;
+        let (residual, limit) = (here.residual, RESIDUAL_LIMIT);
+        return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
+    }
+    Ok(collect(robot, here.pose, model, here.cables, lengths, iterations))
+}
+
+/// Solves `(K + shift) step = wrench` with the least shift that makes the matrix positive definite.
+fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64) -> Option<Vec6> {
+    for _ in 0..60 {
+        if let Some(factor) = (stiffness + Mat6::identity() * *shift).cholesky() {
+            return Some(factor.solve(wrench));
+        }
+        *shift = (4.0 * *shift).max(1e-6 * diagonal).max(1e-12);
+    }
+    None
+}
+
+/// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
+fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
+    let (values, vectors) = inertia::eigen(stiffness, search.freedoms);
+    let noise = 1e-10 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    if values[0] > -noise {
+        return None;
+    }
+    [0.3, -0.3, 0.1, -0.1, 0.01, -0.01]
+        .into_iter()
+        .map(|part| search.at(search.moved(&here.pose, &(vectors[0] * (part * search.ell)))))
+        .filter(|trial| trial.energy < here.energy && trial.residual.is_finite())
+        .min_by(|a, b| a.energy.total_cmp(&b.energy))
+}
+
+/// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
+fn ideal(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, StaticsError> {
+    let ell = robot.platform_length();
+    let mut pose = start;
+    let mut iterations = 0;
+    let gap_of = |pose: &Pose| {
+        robot.cables.iter().zip(lengths).fold(0.0_f64, |worst, (cable, length)| {
+            worst.max(((cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() - length).abs())
+        })
+    };
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let mut gap = gap_of(&pose);
+    while gap > 1e-14 * longest && iterations < 100 {
+        iterations += 1;
+        let columns = unit_wrenches(robot, &pose, ell);
+        let rows = columns.transpose();
+        let gaps = Vec6::from_fn(|i, _| match (robot.cables.get(i), lengths.get(i)) {
+            (Some(cable), Some(length)) => (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() - length,
+            _ => 0.0,
+        });
+        let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
+        // Halve the step until the gap falls.
+        let mut part = 1.0;
+        let next = loop {
+            let translation = Vec3::new(step[0], step[1], step[2]) * part;
+            let turn = Vec3::new(step[3], step[4], step[5]) * (part / ell);
+            let next = pose.moved(&translation, &turn);
+            if gap_of(&next) < gap {
+                break Some(next);
+            }
+            part *= 0.5;
+            if part < 1e-6 {
+                break None;
+            }
+        };
+        let Some(next) = next else { break };
+        pose = next;
+        gap = gap_of(&pose);
+    }
+    if gap > 1e-10 * longest {
+        let p = pose.position_w;
+        let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
+        return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
+    }
+    let tensions = straight_tensions(robot, &pose, &weight_wrench(robot, &pose))?;
+    Ok(collect_ideal(robot, pose, &tensions, iterations))
+}
+
+/// Unit tension wrenches (e, r × e/ℓ) of straight cables as columns; freedoms and cables that are missing get the
+/// identity.
+fn unit_wrenches(robot: &Robot, pose: &Pose, ell: f64) -> Mat6 {
+    let mut columns = Mat6::identity();
+    for (i, cable) in robot.cables.iter().enumerate().take(6) {
+        let lever = pose.rot_wp * cable.attachment_p;
+        let e = (cable.anchor_w - pose.position_w - lever).normalize();
+        let mut column = wrench_of(&e, &(lever / ell));
+        if robot.platform.freedoms == Freedoms::PointMass {
+            column.fixed_rows_mut::<3>(3).fill(0.0);
+        }
+        columns.set_column(i, &column);
+    }
+    columns
+}
+
+/// Tensions of straight cables, as many as freedoms, that balance a wrench about the platform origin.
+pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Result<Vec<f64>, StaticsError> {
+    for cable in &robot.cables {
+        if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
+            return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
+        }
+    }
+    let ell = robot.platform_length();
+    let n = robot.platform.freedoms.count();
+    let right = Vec6::from_fn(|i, _| if i < 3 { -load[i] } else if i < n { -load[i] / ell } else { 0.0 });
+    let columns = unit_wrenches(robot, pose, ell);
+    let singular = columns.svd(false, false).singular_values;
+    if singular.min() < 1e-10 * singular.max() {
+        return Err(StaticsError::Singular);
+    }
+    let tensions = columns.lu().solve(&right).ok_or(StaticsError::Singular)?;
+    Ok(tensions.iter().copied().take(robot.cables.len()).collect())
+}
+
+/// The equilibrium of ideal cables.
+pub(super) fn collect_ideal(robot: &Robot, pose: Pose, tensions: &[f64], iterations: usize) -> Equilibrium {
+    let cables: Vec<CableState> = robot
+        .cables
+        .iter()
+        .zip(tensions)
+        .map(|(cable, &tension)| {
+            let attachment_w = pose.point_w(&cable.attachment_p);
+            let chord = cable.anchor_w - attachment_w;
+            CableState {
+                attachment_w,
+                lever_w: attachment_w - pose.position_w,
+                anchor_w: cable.anchor_w,
+                unstrained_length: chord.norm(),
+                force_on_platform_w: chord.normalize() * tension,
+                tension_platform: tension,
+                tension_anchor: tension,
+                hanging: None,
+            }
+        })
+        .collect();
+    let residual = residual_of(robot, &pose, &cables);
+    Equilibrium { pose, model: StaticModel::Ideal, cables, residual, iterations, stability: Stability::Rigid }
+}

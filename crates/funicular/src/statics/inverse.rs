@@ -1,0 +1,178 @@
+//! Pose to unstrained lengths and tensions, as many cables as freedoms.
+
+use super::forward::{collect_ideal, straight_tensions};
+use super::{
+    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, collect, hang, rope, scaled_residual, weight_wrench,
+    wrench_of,
+};
+use crate::catenary::space::HangingCable;
+use crate::math::{Mat6, Vec6};
+use crate::robot::{Freedoms, Pose, Robot};
+
+/// The unstrained lengths and tensions that hold the platform at a pose.
+///
+/// Straight cables have a linear solution; sagging ones start from it, with half of each cable's weight on the
+/// platform, and a Newton iteration on the lengths follows whose steps are taken in the tension parallel to the chord, in which the
+/// forces are nearly linear.
+///
+/// # Errors
+/// [`StaticsError`]: a number of cables that is not that of the freedoms, a singular pose, a cable that would have to
+/// push, coinciding ends, or no convergence.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let pose = Pose::new([0.5, 0.1, 0.6], [0.0, 2.0, 0.0]);
+/// let held = statics::inverse(&robot, &pose, StaticModel::Catenary)?;
+/// let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
+/// let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// assert!((back.pose.position_w - pose.position_w).norm() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    if cables != freedoms {
+        return Err(StaticsError::InverseCableCount { cables, freedoms });
+    }
+    let mut load = weight_wrench(robot, pose);
+    if model == StaticModel::Catenary {
+        for cable in &robot.cables {
+            let lever = pose.rot_wp * cable.attachment_p;
+            let chord = (cable.anchor_w - pose.position_w - lever).norm();
+            load += wrench_of(&(robot.gravity_w * (0.5 * cable.material.mass_per_length * chord)), &lever);
+        }
+    }
+    let tensions = straight_tensions(robot, pose, &load)?;
+    match model {
+        StaticModel::Ideal => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+        StaticModel::Spring => {
+            if let Some(i) = weakest(&tensions).filter(|&i| tensions[i] <= 0.0) {
+                return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: tensions[i] });
+            }
+            let lengths: Vec<f64> = (0..cables)
+                .map(|i| {
+                    let cable = &robot.cables[i];
+                    let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+                    chord / (1.0 + tensions[i] / cable.material.axial_stiffness)
+                })
+                .collect();
+            let hanging = hang_all(robot, pose, &lengths, model);
+            Ok(collect(robot, *pose, model, hanging, &lengths, 0))
+        }
+        StaticModel::Catenary => sagging(robot, pose, &tensions),
+    }
+}
+
+fn weakest(tensions: &[f64]) -> Option<usize> {
+    (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
+}
+
+fn hang_all(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Vec<HangingCable> {
+    let up_w = robot.up_w();
+    lengths.iter().enumerate().map(|(i, &length)| hang(robot, i, pose, up_w, rope(robot, i, length, model))).collect()
+}
+
+fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, StaticsError> {
+    let ell = robot.platform_length();
+    let count = robot.cables.len();
+    let chords: Vec<f64> =
+        robot.cables.iter().map(|c| (c.anchor_w - pose.point_w(&c.attachment_p)).norm()).collect();
+    let weights: Vec<f64> = (0..count)
+        .map(|i| chords[i] * robot.cables[i].material.mass_per_length * robot.gravity_w.norm())
+        .collect();
+    let mut lengths = chords.clone();
+    for i in 0..count {
+        // A cable that straight statics finds pushing starts as a deeply sagging one.
+        let tension = straight[i].max(0.25 * weights[i]).max(1e-9 * robot.cables[i].material.axial_stiffness);
+        lengths[i] = length_for_tension(robot, pose, i, lengths[i], tension);
+    }
+    let mut hanging = hang_all(robot, pose, &lengths, StaticModel::Catenary);
+    let (mut wrench, mut residual) = balance(robot, pose, &hanging);
+    let mut iterations = 0;
+    let mut damping = 1.0;
+    while iterations < 100 && residual > 1e-14 {
+        iterations += 1;
+        let mut columns = Mat6::identity();
+        for (i, cable) in hanging.iter().enumerate() {
+            let mut column = wrench_of(&cable.force_by_length_w(), &((cable.start_w - pose.position_w) / ell));
+            if robot.platform.freedoms == Freedoms::PointMass {
+                column.fixed_rows_mut::<3>(3).fill(0.0);
+            }
+            columns.set_column(i, &column);
+        }
+        let right = Vec6::from_fn(|i, _| if i < 3 { -wrench[i] } else { -wrench[i] / ell });
+        let Some(change) = columns.lu().solve(&right) else { break };
+        let trial: Vec<f64> = (0..count)
+            .map(|i| {
+                let cable = &hanging[i];
+                let tension = cable.catenary.parallel_tension();
+                let wanted = tension + damping * change[i] * cable.catenary.parallel_tension_by_length();
+                length_for_tension(robot, pose, i, lengths[i], wanted.max(0.2 * tension))
+            })
+            .collect();
+        let next = hang_all(robot, pose, &trial, StaticModel::Catenary);
+        let (next_wrench, next_residual) = balance(robot, pose, &next);
+        if next_residual < residual {
+            (hanging, wrench, residual, lengths) = (next, next_wrench, next_residual, trial);
+            damping = (2.0 * damping).min(1.0);
+        } else if residual < RESIDUAL_LIMIT {
+            break;
+        } else {
+            damping *= 0.25;
+            if damping < 1e-6 {
+                break;
+            }
+        }
+    }
+    if residual <= RESIDUAL_LIMIT {
+        return Ok(collect(robot, *pose, StaticModel::Catenary, hanging, &lengths, iterations));
+    }
+    if let Some(i) = weakest(straight).filter(|&i| straight[i] <= 0.0) {
+        return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: straight[i] });
+    }
+    let p = pose.position_w;
+    Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z })
+}
+
+fn balance(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f64) {
+    let weight = weight_wrench(robot, pose);
+    let mut scale = weight.fixed_rows::<3>(0).norm();
+    let wrench = hanging.iter().fold(weight, |sum, cable| {
+        let force = cable.force_on_start_w();
+        scale += force.norm();
+        sum + wrench_of(&force, &(cable.start_w - pose.position_w))
+    });
+    (wrench, scaled_residual(robot, &wrench, scale))
+}
+
+/// The unstrained length [m] at which cable `i` has the parallel tension `wanted` > 0 [N], which falls as it grows.
+fn length_for_tension(robot: &Robot, pose: &Pose, i: usize, from: f64, wanted: f64) -> f64 {
+    let up_w = robot.up_w();
+    let (mut low, mut high) = (0.0, f64::INFINITY);
+    let mut length = from;
+    for _ in 0..80 {
+        let cable = hang(robot, i, pose, up_w, rope(robot, i, length, StaticModel::Catenary)).catenary;
+        let tension = cable.parallel_tension();
+        if tension > wanted {
+            low = length;
+        } else {
+            high = length;
+        }
+        // Taut, τ grows like c − L; sagging, like 1/√(L − c): its logarithm is between both.
+        let next = length - (tension / wanted).ln() * tension / cable.parallel_tension_by_length();
+        let next = if next > low && next < high {
+            next
+        } else if high.is_finite() {
+            0.5 * (low + high)
+        } else {
+            2.0 * low
+        };
+        let change = (next - length).abs();
+        length = next;
+        if change <= 1e-15 * length {
+            break;
+        }
+    }
+    length
+}

@@ -1,0 +1,69 @@
+//! A start pose from the lengths alone.
+
+use crate::math::{Mat6, Vec3, Vec6};
+use crate::robot::{Freedoms, Pose, Robot};
+use crate::statics::scaled;
+
+/// The pose at which straight cables of the given lengths [m] come closest to closing, in least squares.
+///
+/// Starts with the platform upright, below the middle of the anchors as far as the lengths allow.
+pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
+    let n = robot.cables.len() as f64;
+    let up_w = robot.up_w();
+    let anchors = robot.cables.iter().map(|c| c.anchor_w).sum::<Vec3>() / n;
+    let attachments = robot.cables.iter().map(|c| c.attachment_p).sum::<Vec3>() / n;
+    // Point-like platform: Σ|p − B|²/n = |p − B̄|² + Σ|B − B̄|²/n = Σ L²/n.
+    let spread = robot.cables.iter().map(|c| (c.anchor_w - anchors).norm_squared()).sum::<f64>() / n;
+    let reach = lengths.iter().map(|l| l * l).sum::<f64>() / n - spread;
+    let mut pose =
+        Pose { position_w: anchors - up_w * reach.max(0.0).sqrt() - attachments, rot_wp: crate::math::Rotation::identity() };
+    let ell = robot.platform_length();
+    let freedoms = robot.platform.freedoms;
+    let mut damping = 1e-3;
+    let mut gaps = closure(robot, lengths, &pose, freedoms, ell);
+    // Seen: 4 to 7 steps. Only a start is wanted: the gaps need not vanish, sagging cables are longer than the chord.
+    for _ in 0..20 {
+        let (normal, gradient, cost) = gaps;
+        let Some(factor) = (normal + Mat6::identity() * damping).cholesky() else { break };
+        let step = factor.solve(&gradient);
+        let turn = Vec3::new(step[3], step[4], step[5]) / ell;
+        let next = pose.moved(&Vec3::new(step[0], step[1], step[2]), &turn);
+        let next_gaps = closure(robot, lengths, &next, freedoms, ell);
+        if next_gaps.2 < cost {
+            let gained = cost - next_gaps.2;
+            (pose, gaps) = (next, next_gaps);
+            damping = (damping * 0.1).max(1e-9);
+            if gained < 1e-3 * gaps.2 || gaps.2 < 1e-8 {
+                break;
+            }
+        } else {
+            damping *= 10.0;
+            if damping > 1e3 {
+                break;
+            }
+        }
+    }
+    pose
+}
+
+/// Normal matrix, gradient and cost of the closure gaps `|B − A| − L`, rotations scaled by ℓ.
+fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, freedoms: Freedoms, ell: f64) -> (Mat6, Vec6, f64) {
+    let (mut normal, mut gradient, mut cost) = (Mat6::zeros(), Vec6::zeros(), 0.0);
+    for (cable, length) in robot.cables.iter().zip(lengths) {
+        let lever = pose.rot_wp * cable.attachment_p;
+        let chord = cable.anchor_w - pose.position_w - lever;
+        let distance = chord.norm().max(1e-12);
+        let e = chord / distance;
+        let moment = match freedoms {
+            Freedoms::Rigid => lever.cross(&e) / ell,
+            Freedoms::PointMass => Vec3::zeros(),
+        };
+        let row = Vec6::new(e.x, e.y, e.z, moment.x, moment.y, moment.z);
+        let gap = distance - length;
+        normal += row * row.transpose();
+        gradient += row * gap;
+        cost += gap * gap;
+    }
+    debug_assert!(scaled(&normal, 1.0) == normal);
+    (normal, gradient, cost)
+}
