@@ -3,6 +3,7 @@
 //! This is the only file that names nalgebra's types, so that a change of library is a change here.
 
 pub mod inertia;
+pub mod roots;
 pub mod rotation;
 
 /// Complex number, `f64` real and imaginary part.

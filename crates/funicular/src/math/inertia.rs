@@ -4,59 +4,72 @@ use super::{Mat6, Vec6};
 
 /// Number of negative eigenvalues of the leading `n`×`n` block of the symmetric `matrix`, which must be scaled.
 ///
-/// Symmetric indefinite factorisation with diagonal pivots of 1×1 and 2×2 (Bunch and Parlett 1971, complete
-/// pivoting): by Sylvester's law the pivots have the signs of the eigenvalues. Complete pivoting keeps small
-/// eigenvalues beside the very large ones that appear near a cable's resonance. A zero matrix counts as positive.
+/// See [`negative_eigenvalues_in`].
+pub fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
+    let mut a = [0.0; 36];
+    for j in 0..n {
+        for i in 0..n {
+            a[j * n + i] = matrix[(i, j)];
+        }
+    }
+    negative_eigenvalues_in(&mut a[..n * n], n)
+}
+
+/// Number of negative eigenvalues of a symmetric `n`×`n` matrix, given by columns and overwritten.
+///
+/// Symmetric indefinite factorisation with pivots of 1×1 and 2×2 (Bunch and Parlett 1971, complete pivoting): by
+/// Sylvester's law the pivots have the signs of the eigenvalues. Complete pivoting keeps small eigenvalues beside very
+/// large ones. A zero matrix counts as positive.
 ///
 /// # References
 /// J. R. Bunch, B. N. Parlett, SIAM J. Numer. Anal. 8(4), 1971.
-pub fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
+pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
     // (1 + √17)/8 bounds the growth of the elements for both pivot sizes.
     const ALPHA: f64 = 0.640_388_203_202_208;
-    let mut a = *matrix;
+    assert_eq!(a.len(), n * n, "a square matrix");
     let mut negative = 0;
     let mut k = 0;
     while k < n {
         let (mut diagonal, mut at) = (-1.0, k);
         let (mut off, mut row, mut column) = (-1.0, k, k);
         for j in k..n {
-            if a[(j, j)].abs() > diagonal {
-                (diagonal, at) = (a[(j, j)].abs(), j);
+            let entry = a[j * n + j].abs();
+            if entry > diagonal {
+                (diagonal, at) = (entry, j);
             }
             for i in j + 1..n {
-                if a[(i, j)].abs() > off {
-                    (off, row, column) = (a[(i, j)].abs(), i, j);
+                let entry = a[j * n + i].abs();
+                if entry > off {
+                    (off, row, column) = (entry, i, j);
                 }
             }
         }
         if diagonal >= ALPHA * off {
-            if diagonal == 0.0 {
+            if diagonal <= 0.0 {
                 break;
             }
-            swap_both(&mut a, k, at);
-            let pivot = a[(k, k)];
+            swap_both(a, n, k, at);
+            let pivot = a[k * n + k];
             negative += usize::from(pivot < 0.0);
             for j in k + 1..n {
-                let factor = a[(j, k)] / pivot;
+                let factor = a[k * n + j] / pivot;
                 for i in j..n {
-                    a[(i, j)] -= a[(i, k)] * factor;
-                    a[(j, i)] = a[(i, j)];
+                    a[j * n + i] -= a[k * n + i] * factor;
                 }
             }
             k += 1;
         } else {
-            swap_both(&mut a, k, column);
-            swap_both(&mut a, k + 1, row);
-            // |off-diagonal| dominates: one eigenvalue of either sign.
+            swap_both(a, n, k, column);
+            swap_both(a, n, k + 1, row);
+            // The off-diagonal dominates: one eigenvalue of either sign.
             negative += 1;
-            let (p, q, r) = (a[(k, k)], a[(k + 1, k)], a[(k + 1, k + 1)]);
+            let (p, q, r) = (a[k * n + k], a[k * n + k + 1], a[(k + 1) * n + k + 1]);
             let determinant = p * r - q * q;
             for j in k + 2..n {
-                let (u, v) = (a[(j, k)], a[(j, k + 1)]);
+                let (u, v) = (a[k * n + j], a[(k + 1) * n + j]);
                 let (s, t) = ((r * u - q * v) / determinant, (p * v - q * u) / determinant);
                 for i in j..n {
-                    a[(i, j)] -= a[(i, k)] * s + a[(i, k + 1)] * t;
-                    a[(j, i)] = a[(i, j)];
+                    a[j * n + i] -= a[k * n + i] * s + a[(k + 1) * n + i] * t;
                 }
             }
             k += 2;
@@ -65,25 +78,38 @@ pub fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
     negative
 }
 
-fn swap_both(a: &mut Mat6, i: usize, j: usize) {
-    if i != j {
-        a.swap_rows(i, j);
-        a.swap_columns(i, j);
+/// Exchanges rows and columns `i` ≤ `j` of a symmetric matrix of which only the lower triangle is kept up to date.
+fn swap_both(a: &mut [f64], n: usize, i: usize, j: usize) {
+    if i == j {
+        return;
     }
+    for k in 0..i {
+        a.swap(k * n + i, k * n + j);
+    }
+    for k in i + 1..j {
+        a.swap(i * n + k, k * n + j);
+    }
+    for k in j + 1..n {
+        a.swap(i * n + k, j * n + k);
+    }
+    a.swap(i * n + i, j * n + j);
 }
 
 /// Eigenvalues (ascending) and eigenvectors (columns) of the leading `n`×`n` block of a symmetric matrix; the other
 /// entries of the vectors are zero.
 pub fn eigen(matrix: &Mat6, n: usize) -> (Vec<f64>, Vec<Vec6>) {
-    let decomposition = matrix.view((0, 0), (n, n)).clone_owned().symmetric_eigen();
+    let (values, vectors) = if n == 6 {
+        let all = matrix.symmetric_eigen();
+        (all.eigenvalues.iter().copied().collect::<Vec<f64>>(), all.eigenvectors)
+    } else {
+        let some = matrix.view((0, 0), (n, n)).clone_owned().symmetric_eigen();
+        let mut vectors = Mat6::zeros();
+        vectors.view_mut((0, 0), (n, n)).copy_from(&some.eigenvectors);
+        (some.eigenvalues.iter().copied().collect(), vectors)
+    };
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| decomposition.eigenvalues[i].total_cmp(&decomposition.eigenvalues[j]));
-    let values = order.iter().map(|&i| decomposition.eigenvalues[i]).collect();
-    let vectors = order
-        .iter()
-        .map(|&i| Vec6::from_fn(|row, _| if row < n { decomposition.eigenvectors[(row, i)] } else { 0.0 }))
-        .collect();
-    (values, vectors)
+    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
+    (order.iter().map(|&i| values[i]).collect(), order.iter().map(|&i| vectors.column(i).clone_owned()).collect())
 }
 
 #[cfg(test)]

@@ -1,0 +1,224 @@
+//! Dynamic stiffness of one cable at its platform end, anchor held.
+//!
+//! Every model speaks in the local axes of theory, section 4: e along the chord from the platform to the anchor, n
+//! normal to it in the plane of the cable, upwards, b = e × n. In these axes
+//! `K = k_a eeᵀ + k_b (enᵀ + neᵀ) + k_c nnᵀ + k_o bbᵀ`, and one formula serves a cable that goes up from the platform
+//! and one that goes down. One file a model.
+
+pub mod closed_form;
+pub mod spring;
+pub mod static_sag;
+
+use crate::catenary::space::any_normal;
+use crate::math::{Mat3, Vec3};
+use crate::robot::{Damping, Robot};
+use crate::statics::CableState;
+use closed_form::ClosedForm;
+use std::fmt;
+
+/// How a cable answers motion of its platform end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CableModel {
+    /// A massless spring along the chord, EA/l, and nothing else.
+    Spring,
+    /// Irvine's static stiffness of a shallow sagging cable; constant.
+    StaticSag,
+    /// The exact static stiffness of the elastic catenary; constant.
+    CatenaryTangent,
+    /// Starossek's dynamic stiffness of a shallow sagging cable.
+    #[default]
+    ClosedForm,
+}
+
+impl CableModel {
+    /// All of them, simplest first.
+    pub const ALL: [Self; 4] = [Self::Spring, Self::StaticSag, Self::CatenaryTangent, Self::ClosedForm];
+
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Spring => "spring",
+            Self::StaticSag => "static-sag",
+            Self::CatenaryTangent => "catenary-tangent",
+            Self::ClosedForm => "closed-form",
+        }
+    }
+
+    /// The stiffness depends on frequency: the cable has resonances of its own.
+    pub fn is_dynamic(self) -> bool {
+        self == Self::ClosedForm
+    }
+}
+
+impl fmt::Display for CableModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Local axes of a cable at its platform end; unit vectors in world axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalAxes {
+    /// Along the chord, platform to anchor.
+    pub e: Vec3,
+    /// Normal to the chord in the plane of chord and gravity, upwards; any normal for a vertical cable.
+    pub n: Vec3,
+    /// e × n, out of plane.
+    pub b: Vec3,
+}
+
+impl LocalAxes {
+    /// Axes of the chord from `from_w` to `to_w`; `up_w` is the unit vector against gravity.
+    pub fn of_chord(from_w: &Vec3, to_w: &Vec3, up_w: &Vec3) -> Self {
+        let e = (to_w - from_w).normalize();
+        let normal = up_w - e * e.dot(up_w);
+        // A chord within 1e-9 rad of the vertical has no plane of its own, and its stiffness needs none.
+        let n = if normal.norm() > 1e-9 { normal.normalize() } else { any_normal(&e) };
+        Self { e, n, b: e.cross(&n) }
+    }
+}
+
+/// The four numbers of an end stiffness in local axes [N/m]; `T` is real or complex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalStiffness<T> {
+    /// Along the chord.
+    pub axial: T,
+    /// Between chord and normal.
+    pub coupling: T,
+    /// Along the normal, in plane.
+    pub normal: T,
+    /// Out of plane.
+    pub out_of_plane: T,
+}
+
+impl LocalStiffness<f64> {
+    /// 3×3 in world axes [N/m].
+    pub fn in_world(&self, axes: &LocalAxes) -> Mat3 {
+        let LocalAxes { e, n, b } = axes;
+        let mixed = e * n.transpose();
+        e * e.transpose() * self.axial
+            + (mixed + mixed.transpose()) * self.coupling
+            + n * n.transpose() * self.normal
+            + b * b.transpose() * self.out_of_plane
+    }
+}
+
+/// The numbers of a shallow sagging cable that the closed form and the static sag share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sag {
+    /// Chord l [m].
+    pub chord: f64,
+    /// Tension parallel to the chord τ = H/cos α [N].
+    pub tension: f64,
+    /// Axial stiffness EA [N].
+    pub axial_stiffness: f64,
+    /// Mass per length m [kg/m].
+    pub mass_per_length: f64,
+    /// ε = m g l cos α/τ, weight across the chord over tension.
+    pub epsilon: f64,
+    /// L_e = l (1 + 8 (d/l)²) [m].
+    pub effective_length: f64,
+    /// Irvine's λ² = ε² EA l/(τ L_e).
+    pub lambda2: f64,
+}
+
+/// Sag over chord above which the shallow-sag models leave their range (theory, section 4).
+pub const SHALLOW_SAG_LIMIT: f64 = 1.0 / 20.0;
+
+impl Sag {
+    /// Of the cable `i` of a robot in a static state. Straight cables (spring and ideal statics) get the sag that
+    /// their tension would leave.
+    pub fn of(robot: &Robot, i: usize, state: &CableState) -> Self {
+        let material = &robot.cables[i].material;
+        let chord_w = state.anchor_w - state.attachment_w;
+        let chord = chord_w.norm();
+        let rise = chord_w.dot(&robot.up_w());
+        let cos_alpha = (chord_w - robot.up_w() * rise).norm() / chord;
+        let tension = match &state.hanging {
+            Some(hanging) => hanging.catenary.parallel_tension(),
+            None => state.tension_platform,
+        };
+        let gravity = robot.gravity_w.norm();
+        Self::new(chord, cos_alpha, tension, material.axial_stiffness, material.mass_per_length, gravity)
+    }
+
+    /// From chord [m], cosine of its inclination, parallel tension [N], EA [N], mass per length [kg/m], gravity [m/s²].
+    pub fn new(chord: f64, cos_alpha: f64, tension: f64, axial_stiffness: f64, mass_per_length: f64, g: f64) -> Self {
+        let epsilon = mass_per_length * g * chord * cos_alpha / tension;
+        let ratio = epsilon / 8.0;
+        let effective_length = chord * (1.0 + 8.0 * ratio * ratio);
+        let lambda2 = epsilon * epsilon * axial_stiffness * chord / (tension * effective_length);
+        Self { chord, tension, axial_stiffness, mass_per_length, epsilon, effective_length, lambda2 }
+    }
+
+    /// Sag over chord d/l = ε/8.
+    pub fn ratio(&self) -> f64 {
+        self.epsilon / 8.0
+    }
+
+    /// First frequency of the taut string, √(τ/m)/(2l) [Hz]; infinite for a massless cable.
+    pub fn string_frequency_hz(&self) -> f64 {
+        (self.tension / self.mass_per_length).sqrt() / (2.0 * self.chord)
+    }
+
+    /// First axial frequency √(EA/m)/(2l) of the cable [Hz], which no model here contains: they are valid well below.
+    pub fn axial_frequency_hz(&self) -> f64 {
+        (self.axial_stiffness / self.mass_per_length).sqrt() / (2.0 * self.chord)
+    }
+}
+
+/// End stiffness of one cable in one model.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EndStiffness {
+    /// Independent of frequency; 3×3 in world axes [N/m].
+    Constant(Mat3),
+    /// Depends on frequency.
+    ClosedForm(ClosedForm),
+}
+
+impl EndStiffness {
+    /// The cable `i` of a robot at a static state. `in_plane_only` leaves out all stiffness out of the cable's plane,
+    /// as the paper does.
+    ///
+    /// `None` if the state has no such stiffness: an ideal cable has no catenary tangent, a cable without tension has
+    /// no sag stiffness.
+    pub fn new(robot: &Robot, i: usize, state: &CableState, model: CableModel, in_plane_only: bool) -> Option<Self> {
+        let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
+        let sag = Sag::of(robot, i, state);
+        let tense = sag.tension > 0.0;
+        let without_b = |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
+        match model {
+            CableModel::Spring if state.is_slack() => Some(Self::Constant(Mat3::zeros())),
+            CableModel::Spring => Some(Self::Constant(spring::stiffness(&sag).in_world(&axes))),
+            CableModel::StaticSag if tense => {
+                Some(Self::Constant(without_b(static_sag::stiffness(&sag).in_world(&axes))))
+            }
+            CableModel::CatenaryTangent => state.tangent_w().map(|k| Self::Constant(without_b(k))),
+            CableModel::ClosedForm if tense => {
+                let damping = robot.cables[i].material.damping;
+                Some(Self::ClosedForm(ClosedForm::new(sag, axes, damping, in_plane_only)))
+            }
+            CableModel::StaticSag | CableModel::ClosedForm => None,
+        }
+    }
+}
+
+/// The square of the cable's complex frequency `ω_c²` [rad²/s²] at ω [rad/s], e^{+iωt}: real and imaginary part.
+#[inline]
+pub fn damped_square(omega: f64, damping: Damping, mass_per_length: f64) -> (f64, f64) {
+    let square = omega * omega;
+    match damping {
+        Damping::Ratio(xi) => (square, -2.0 * xi * square),
+        Damping::Viscous(c) if mass_per_length > 0.0 => (square, -omega * c / mass_per_length),
+        Damping::Viscous(_) => (square, 0.0),
+    }
+}
+
+/// Damping ratio that a cable's damping gives to a vibration that is the cable's alone, at ω [rad/s].
+pub fn damping_ratio(omega: f64, damping: Damping, mass_per_length: f64) -> f64 {
+    match damping {
+        Damping::Ratio(xi) => xi,
+        Damping::Viscous(c) if mass_per_length > 0.0 => c / (2.0 * mass_per_length * omega),
+        Damping::Viscous(_) => 0.0,
+    }
+}

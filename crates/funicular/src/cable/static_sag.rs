@@ -1,0 +1,19 @@
+//! Static stiffness of a shallow sagging cable (Irvine's equivalent modulus; the paper's reference [22]).
+
+use super::{LocalStiffness, Sag};
+
+/// Local stiffness [N/m]: `k_a = (EA/L_e)/(1 + λ²/12)`, τ/l across, no coupling.
+///
+/// The limit of the closed form at rest. The exact tangent of the catenary is [`super::CableModel::CatenaryTangent`].
+///
+/// # References
+/// H. M. Irvine, Cable Structures, MIT Press 1981, section 2.5; docs/theory.md, equation (19).
+pub fn stiffness(sag: &Sag) -> LocalStiffness<f64> {
+    let across = sag.tension / sag.chord;
+    LocalStiffness {
+        axial: sag.axial_stiffness / sag.effective_length / (1.0 + sag.lambda2 / 12.0),
+        coupling: 0.0,
+        normal: across,
+        out_of_plane: across,
+    }
+}

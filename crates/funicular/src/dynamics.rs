@@ -1,0 +1,355 @@
+//! The robot linearised about a static equilibrium: stiffness at a frequency, mass, and the number of natural
+//! frequencies below a frequency.
+
+use crate::cable::closed_form::{ClosedForm, Entire};
+use crate::cable::{CableModel, EndStiffness, LocalStiffness, damping_ratio};
+use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, inertia, skew};
+use crate::robot::{Damping, Freedoms, Robot};
+use crate::statics::{Equilibrium, add_congruent, add_lever_term, scaled};
+use thiserror::Error;
+
+/// Which terms of the tangent stiffness are summed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Assembly {
+    /// All: the cables' end stiffness and the turning of static forces on their lever arms. Symmetric at equilibrium.
+    #[default]
+    Consistent,
+    /// The cables' end stiffness only, as the paper's equation (11) prints it.
+    Paper,
+}
+
+/// How a robot is linearised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Linearisation {
+    /// Model of the cables.
+    pub cable_model: CableModel,
+    /// Terms of the stiffness.
+    pub assembly: Assembly,
+    /// Leave out the stiffness of each cable out of its plane, as the paper does.
+    pub in_plane_only: bool,
+}
+
+/// Why a robot cannot be linearised.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum DynamicsError {
+    /// A cable carries no tension.
+    #[error(
+        "cable \"{cable}\" has no tension: the {model} model does not exist for it; choose a state in which all cables \
+         are taut, or the model `spring` or `catenary-tangent`"
+    )]
+    NoTension {
+        /// Name of the cable.
+        cable: String,
+        /// The model asked.
+        model: CableModel,
+    },
+    /// An ideal equilibrium has no tangent.
+    #[error("ideal cables are rigid: they have no catenary tangent; use the static model `catenary` or `spring`")]
+    Rigid,
+}
+
+/// A robot linearised about an equilibrium.
+///
+/// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all are in N/m and kg.
+#[derive(Debug, Clone)]
+pub struct Dynamics {
+    pub(crate) ell: f64,
+    pub(crate) freedoms: usize,
+    /// Scaled stiffness that does not depend on frequency [N/m].
+    pub(crate) constant: Mat6,
+    /// Scaled mass [kg].
+    pub(crate) mass: Mat6,
+    pub(crate) terms: Vec<Term>,
+    /// How it was made.
+    pub linearisation: Linearisation,
+    pub(crate) cable_count: usize,
+    damping: Vec<(Damping, f64)>,
+}
+
+/// A cable whose stiffness depends on frequency: its local axes as scaled 6-vectors (u; r × u/ℓ).
+#[derive(Debug, Clone)]
+pub(crate) struct Term {
+    pub(crate) cable: usize,
+    pub(crate) form: ClosedForm,
+    pub(crate) along: Vec6,
+    pub(crate) normal: Vec6,
+    pub(crate) out: Vec6,
+}
+
+impl Dynamics {
+    /// Linearises a robot about an equilibrium.
+    ///
+    /// # Errors
+    /// [`DynamicsError`] if a cable has no stiffness in the model asked.
+    ///
+    /// # References
+    /// docs/theory.md, equations (13) to (16).
+    pub fn about(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        linearisation: Linearisation,
+    ) -> Result<Self, DynamicsError> {
+        let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
+        let ell = robot.platform_length();
+        let mut constant = Mat6::zeros();
+        let mut terms = Vec::new();
+        for (i, state) in equilibrium.cables.iter().enumerate() {
+            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only).ok_or_else(|| {
+                if cable_model == CableModel::CatenaryTangent {
+                    DynamicsError::Rigid
+                } else {
+                    DynamicsError::NoTension { cable: robot.cables[i].name.clone(), model: cable_model }
+                }
+            })?;
+            match stiffness {
+                EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
+                EndStiffness::ClosedForm(form) => {
+                    let vector = |u: &Vec3| {
+                        let moment = state.lever_w.cross(u) / ell;
+                        Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
+                    };
+                    let (along, normal, out) = (vector(&form.axes.e), vector(&form.axes.n), vector(&form.axes.b));
+                    terms.push(Term { cable: i, form, along, normal, out });
+                }
+            }
+            if assembly == Assembly::Consistent {
+                add_lever_term(&mut constant, &state.force_on_platform_w, &state.lever_w);
+            }
+        }
+        let com_w = equilibrium.pose.rot_wp * robot.platform.center_of_mass_p;
+        if assembly == Assembly::Consistent {
+            add_lever_term(&mut constant, &(robot.gravity_w * robot.platform.mass), &com_w);
+        }
+        // Symmetric to rounding at an equilibrium; exactly so for what follows.
+        let constant = scaled(&((constant + constant.transpose()) * 0.5), ell);
+        Ok(Self {
+            ell,
+            freedoms: robot.platform.freedoms.count(),
+            constant,
+            mass: scaled(&mass_matrix(robot, equilibrium), ell),
+            terms,
+            linearisation,
+            cable_count: robot.cables.len(),
+            damping: robot.cables.iter().map(|c| (c.material.damping, c.material.mass_per_length)).collect(),
+        })
+    }
+
+    /// Number of freedoms of the platform.
+    pub fn freedoms(&self) -> usize {
+        self.freedoms
+    }
+
+    /// Stiffness with damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m].
+    pub fn stiffness(&self, omega: f64) -> CMat6 {
+        self.unscaled(&self.scaled_stiffness(omega))
+    }
+
+    /// Mass matrix about the platform origin, world axes, 6×6 [kg, kg m, kg m²].
+    pub fn mass(&self) -> Mat6 {
+        let scale = self.scale();
+        Mat6::from_fn(|i, j| self.mass[(i, j)] * scale[i] * scale[j])
+    }
+
+    /// ℓ or 1: factors from scaled forces to wrench components.
+    pub(crate) fn scale(&self) -> [f64; 6] {
+        [1.0, 1.0, 1.0, self.ell, self.ell, self.ell]
+    }
+
+    fn unscaled(&self, matrix: &CMat6) -> CMat6 {
+        let scale = self.scale();
+        CMat6::from_fn(|i, j| matrix[(i, j)] * (scale[i] * scale[j]))
+    }
+
+    pub(crate) fn scaled_stiffness(&self, omega: f64) -> CMat6 {
+        let mut total = self.constant.map(|k| Complex::new(k, 0.0));
+        for term in &self.terms {
+            let k = term.form.damped(omega);
+            add_local(&mut total, term, &k, |z, product| z * product);
+        }
+        total
+    }
+
+    /// Scaled undamped dynamic stiffness `D = K(ω) − ω²M` [N/m].
+    pub(crate) fn dynamic_stiffness(&self, omega: f64) -> Mat6 {
+        let mut total = self.constant - self.mass * (omega * omega);
+        for term in &self.terms {
+            add_local(&mut total, term, &term.form.undamped(omega), |k, product| k * product);
+        }
+        total
+    }
+
+    /// Scaled mass that moves with a unit motion of the platform, `M − dK/dω²` [kg], and each cable's share for the
+    /// scaled motion `x`.
+    pub(crate) fn moving_masses(&self, omega: f64, x: &Vec6) -> (f64, Vec<f64>) {
+        let platform = x.dot(&(self.mass * x));
+        let mut cables = vec![0.0; self.cable_count];
+        for term in &self.terms {
+            let m = term.form.moving_mass(omega);
+            let (a, n, b) = (term.along.dot(x), term.normal.dot(x), term.out.dot(x));
+            cables[term.cable] =
+                m.axial * a * a + 2.0 * m.coupling * a * n + m.normal * n * n + m.out_of_plane * b * b;
+        }
+        (platform, cables)
+    }
+
+    /// Damping ratio of cable `i` for a vibration that is its own, at ω [rad/s].
+    pub(crate) fn cable_damping_ratio(&self, i: usize, omega: f64) -> f64 {
+        let (damping, mass_per_length) = self.damping[i];
+        damping_ratio(omega, damping, mass_per_length)
+    }
+
+    /// Number of natural frequencies below ω [rad/s], undamped, with multiplicity:
+    /// `J(ω) = Σ J0_i(ω) + s{D(ω)}` (Wittrick and Williams 1971). Directions in which an unstable equilibrium falls
+    /// away count as frequencies below every ω > 0.
+    ///
+    /// # References
+    /// W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl. Math. 24(3), 1971; docs/theory.md, equation (28).
+    pub fn modes_below(&self, omega: f64) -> usize {
+        let clamped: usize = self.terms.iter().map(|t| t.form.clamped_modes_below(omega)).sum();
+        clamped + self.negative_eigenvalues(omega)
+    }
+
+    /// s{D(ω)}. A cable near one of its poles would put a very large rank-one term into D; such a term κ w wᵀ becomes
+    /// a bordering row, `[[D, w], [wᵀ, −1/κ]]`, whose last entry passes through zero where κ has its pole, so that
+    /// nothing overflows and nothing is lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
+    fn negative_eigenvalues(&self, omega: f64) -> usize {
+        let mut matrix = self.constant - self.mass * (omega * omega);
+        let mut borders: Vec<(Vec6, f64)> = Vec::new();
+        for term in &self.terms {
+            let form = &term.form;
+            let of = Entire::real(omega * omega * form.gamma_by_square);
+            if is_regular(&of, form) {
+                add_local(&mut matrix, term, &form.undamped(omega), |k, product| k * product);
+            } else {
+                add_bordered(&mut matrix, &mut borders, term, &of);
+            }
+        }
+        if borders.is_empty() {
+            return inertia::negative_eigenvalues(&matrix, self.freedoms);
+        }
+        let (m, n) = (self.freedoms, self.freedoms + borders.len());
+        let size = matrix.amax().max(f64::MIN_POSITIVE);
+        let mut a = vec![0.0; n * n];
+        for j in 0..m {
+            for i in 0..m {
+                a[j * n + i] = matrix[(i, j)] / size;
+            }
+            for (k, (w, _)) in borders.iter().enumerate() {
+                a[j * n + m + k] = w[j];
+                a[(m + k) * n + j] = w[j];
+            }
+        }
+        for (k, (_, inverse)) in borders.iter().enumerate() {
+            a[(m + k) * n + m + k] = -inverse * size;
+        }
+        let positive = borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();
+        inertia::negative_eigenvalues_in(&mut a, n) - positive
+    }
+
+    /// Clamped-clamped frequencies of all cables below ω [rad/s]: (frequency, cable), ascending, with multiplicity.
+    pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<(f64, usize)> {
+        let mut all: Vec<(f64, usize)> = self
+            .terms
+            .iter()
+            .flat_map(|t| t.form.clamped_frequencies_below(omega).into_iter().map(|f| (f, t.cable)))
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all
+    }
+}
+
+/// Quotients above this count as near a pole. Between 1e1 (every second evaluation bordered) and 1e6 (six digits of
+/// the soft directions lost in the sum) the counts are the same.
+const NEAR_POLE: f64 = 1e3;
+
+fn is_regular(of: &Entire<f64>, form: &ClosedForm) -> bool {
+    let determinant = of.c + 0.25 * form.sag.lambda2 * of.q;
+    let (antisymmetric, symmetric) = (of.c / of.sigma, of.gamma * of.sigma / of.c);
+    let across = 1.0 + of.gamma.abs();
+    (of.c / determinant).abs() < NEAR_POLE
+        && (of.gamma * (of.sigma + 0.25 * form.sag.lambda2 * of.q) / determinant).abs() < NEAR_POLE * across
+        && antisymmetric.abs() < NEAR_POLE * across
+        && (form.in_plane_only || symmetric.abs() < NEAR_POLE * across)
+}
+
+/// Adds a cable near a pole: regular parts into `matrix`, the others as borders (w, 1/κ).
+///
+/// With t = c/σ − γσ/c, the string's stiffness across, the cable in its plane is `k_a w wᵀ + (τ/l) t n nᵀ` with
+/// `w = a + (ε/2)(γq/c) n`: a spring with λ²-softening beside a taut string (docs/theory.md, equation (25)).
+fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, of: &Entire<f64>) {
+    let sag = &term.form.sag;
+    let (along, across) = (sag.axial_stiffness / sag.effective_length, sag.tension / sag.chord);
+    let Entire { gamma, c, sigma, q } = *of;
+    let sagging = 0.25 * sag.lambda2 * q;
+    let determinant = c + sagging;
+    // c t and σ t are regular where t is not.
+    let string = |w: &Vec6, matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>| {
+        let numerator = c * c - gamma * sigma * sigma;
+        let inverse = sigma * c / numerator;
+        if inverse.abs() * NEAR_POLE < 1.0 {
+            borders.push((*w, inverse / across));
+        } else {
+            *matrix += w * w.transpose() * (across / inverse);
+        }
+    };
+    if !term.form.in_plane_only {
+        string(&term.out, matrix, borders);
+    }
+    let turn = 0.5 * sag.epsilon * gamma * q;
+    if sigma.abs() * NEAR_POLE < c.abs() {
+        // Antisymmetric: only c/σ of k_c is large.
+        borders.push((term.normal, sigma / c / across));
+        let normal = -gamma * (sigma + sagging) / determinant * across;
+        let (axial, coupling) = (c / determinant * along, turn / determinant * along);
+        let k = LocalStiffness { axial, coupling, normal, out_of_plane: 0.0 };
+        add_local(matrix, term, &k, |k, product| k * product);
+    } else if turn.abs() <= c.abs() {
+        // Symmetric, the chord carries the pole.
+        let w = term.along + term.normal * (turn / c);
+        borders.push((w, determinant / (c * along)));
+        string(&term.normal, matrix, borders);
+    } else {
+        // Symmetric, a cable with little sag near (2j − 1)π: the normal carries it.
+        let numerator = determinant * c / sigma - gamma * (sigma + sagging);
+        let w = term.normal + term.along * (turn * along / (numerator * across));
+        borders.push((w, determinant / (numerator * across)));
+        let axial = along * (c * c / sigma - gamma * sigma) / numerator;
+        *matrix += term.along * term.along.transpose() * axial;
+    }
+}
+
+/// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.
+fn add_local<T: Copy + std::ops::AddAssign + nalgebra::Scalar>(
+    total: &mut nalgebra::Matrix6<T>,
+    term: &Term,
+    k: &LocalStiffness<T>,
+    times: impl Fn(T, f64) -> T,
+) {
+    let (a, n, b) = (&term.along, &term.normal, &term.out);
+    for j in 0..6 {
+        for i in 0..6 {
+            let entry = &mut total[(i, j)];
+            *entry += times(k.axial, a[i] * a[j]);
+            *entry += times(k.coupling, a[i] * n[j] + n[i] * a[j]);
+            *entry += times(k.normal, n[i] * n[j]);
+            *entry += times(k.out_of_plane, b[i] * b[j]);
+        }
+    }
+}
+
+/// Mass matrix about the platform origin, world axes; a point mass has only its translation block.
+fn mass_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
+    let platform = &robot.platform;
+    let rot = equilibrium.pose.rot_wp.to_rotation_matrix();
+    let com = skew(&(rot * platform.center_of_mass_p));
+    let mut mass = Mat6::zeros();
+    let mut put = |row, column, block: Mat3| mass.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
+    put(0, 0, Mat3::identity() * platform.mass);
+    if platform.freedoms == Freedoms::Rigid {
+        let inertia_w = rot.matrix() * platform.inertia_p * rot.matrix().transpose();
+        put(0, 3, -com * platform.mass);
+        put(3, 0, com * platform.mass);
+        put(3, 3, inertia_w - com * com * platform.mass);
+    }
+    mass
+}

@@ -1,0 +1,276 @@
+//! All natural frequencies below a frequency, none missed, each with its kind.
+//!
+//! Between two neighbouring clamped frequencies of the cables (the poles of D) the eigenvalues of D(ω) fall with ω,
+//! so the count J tells how many natural frequencies lie there, and bisection on J separates them. What J jumps by
+//! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
+
+use crate::dynamics::Dynamics;
+use crate::math::{Mat6, Vec6, inertia, roots};
+use std::f64::consts::TAU;
+
+/// Whose vibration a mode is, by kinetic energy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The platform has at least three quarters of the energy.
+    Platform,
+    /// The cables have at least three quarters of the energy.
+    Cable,
+    /// Neither.
+    Mixed,
+}
+
+impl Kind {
+    /// Share of the kinetic energy from which on a mode belongs to one side.
+    pub const SHARE: f64 = 0.75;
+
+    fn of(platform_fraction: f64) -> Self {
+        if platform_fraction >= Self::SHARE {
+            Self::Platform
+        } else if platform_fraction <= 1.0 - Self::SHARE {
+            Self::Cable
+        } else {
+            Self::Mixed
+        }
+    }
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Platform => "platform",
+            Self::Cable => "cable",
+            Self::Mixed => "mixed",
+        }
+    }
+}
+
+/// One natural mode. A frequency of multiplicity m appears m times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// Natural frequency, undamped [Hz].
+    pub frequency_hz: f64,
+    /// How many modes share this frequency.
+    pub multiplicity: usize,
+    /// Damping ratio to first order in the cables' damping.
+    pub damping_ratio: f64,
+    /// Whose vibration it is.
+    pub kind: Kind,
+    /// Kinetic energy of the platform over that of the robot.
+    pub platform_energy_fraction: f64,
+    /// Kinetic energy of each cable over that of the robot, file order.
+    pub cable_energy_fractions: Vec<f64>,
+    /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1 (or
+    /// −1). Zero if the platform is at rest.
+    pub shape: [f64; 6],
+    /// ‖D x‖/(‖D‖‖x‖), scaled; zero for a platform at rest.
+    pub residual: f64,
+}
+
+/// All modes below a frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes {
+    /// Ascending in frequency.
+    pub modes: Vec<Mode>,
+    /// The limit [Hz].
+    pub below_hz: f64,
+    /// J at the limit: number of natural frequencies below it by the Wittrick–Williams count.
+    pub count_below: usize,
+    /// Directions in which the equilibrium is unstable; they are in the count and have no frequency.
+    pub unstable_directions: usize,
+    /// The list and the count agree and every mode's residual is below 1e-8.
+    pub certified: bool,
+}
+
+/// Relative half width of the neighbourhood of a pole that counts as the pole. Modes in it are listed at the pole: the
+/// bound of their error. Rounding moves a pole by up to 1e-15.
+const POLE_WIDTH: f64 = 1e-12;
+/// Relative width at which modes that the count still finds together are one multiple mode.
+const MULTIPLE_WIDTH: f64 = 2e-13;
+/// Largest residual of a certified mode.
+const RESIDUAL_LIMIT: f64 = 1e-8;
+
+/// All natural frequencies below `below_hz` [Hz], undamped, with multiplicity.
+///
+/// # Example
+/// ```
+/// # use funicular::{cable::CableModel, dynamics::{Dynamics, Linearisation}, modes, robot::Robot, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
+/// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default())?;
+/// let found = modes::below(&dynamics, 20.0);
+/// assert!(found.certified && found.modes.len() == found.count_below);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, section 7.
+pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
+    let limit = below_hz * TAU;
+    let count_below = dynamics.modes_below(limit);
+    let poles = dynamics.clamped_frequencies_below(limit);
+    let first = poles.first().map_or(limit, |p| p.0);
+    // Low enough that no frequency lies below: a millionth of the least pole, or of the limit.
+    let lowest = 1e-9 * first.min(limit);
+    let unstable_directions = dynamics.modes_below(lowest);
+
+    let mut list = List { dynamics, modes: Vec::with_capacity(count_below), consistent: true };
+    let (mut from, mut count) = (lowest, unstable_directions);
+    let mut next = 0;
+    while next < poles.len() {
+        let mut last = next;
+        while last + 1 < poles.len() && poles[last + 1].0 <= poles[last].0 * (1.0 + 4.0 * POLE_WIDTH) {
+            last += 1;
+        }
+        let cluster = &poles[next..=last];
+        let (left, right) = (cluster[0].0 * (1.0 - POLE_WIDTH), cluster[cluster.len() - 1].0 * (1.0 + POLE_WIDTH));
+        let right = right.min(limit);
+        let (at_left, at_right) = (dynamics.modes_below(left), dynamics.modes_below(right));
+        list.between(from, count, left, at_left);
+        list.at_pole(cluster, at_left, at_right);
+        (from, count) = (right, at_right);
+        next = last + 1;
+    }
+    list.between(from, count, limit, count_below);
+
+    let List { mut modes, consistent, .. } = list;
+    modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    let certified = consistent
+        && modes.len() + unstable_directions == count_below
+        && modes.iter().all(|m| m.residual <= RESIDUAL_LIMIT);
+    Modes { modes, below_hz, count_below, unstable_directions, certified }
+}
+
+struct List<'a> {
+    dynamics: &'a Dynamics,
+    modes: Vec<Mode>,
+    /// The count never fell.
+    consistent: bool,
+}
+
+impl List<'_> {
+    /// Modes in an interval without poles, whose counts at both ends are known.
+    fn between(&mut self, low: f64, count_low: usize, high: f64, count_high: usize) {
+        if count_high < count_low {
+            self.consistent = false;
+            return;
+        }
+        match count_high - count_low {
+            0 => {}
+            1 => self.single(low, high),
+            several if high - low <= MULTIPLE_WIDTH * high => self.multiple(0.5 * (low + high), several),
+            _ => {
+                // Geometric at first, since low frequencies are as dear as high ones.
+                let middle = if low > 0.0 && high > 4.0 * low { (low * high).sqrt() } else { 0.5 * (low + high) };
+                let count = self.dynamics.modes_below(middle);
+                self.between(low, count_low, middle, count.clamp(count_low, count_high));
+                self.between(middle, count.clamp(count_low, count_high), high, count_high);
+            }
+        }
+    }
+
+    /// One mode: the zero of det D, which changes sign once between neighbouring poles.
+    fn single(&mut self, low: f64, high: f64) {
+        let determinant = |omega: f64| self.determinant(omega);
+        let (at_low, at_high) = (determinant(low), determinant(high));
+        let omega = if at_low * at_high.signum() < 0.0 {
+            roots::brent(low, at_low, high, at_high, determinant)
+        } else {
+            // Rounding beside a pole hides the sign; the count does not.
+            let (mut low, mut high) = (low, high);
+            let count_low = self.dynamics.modes_below(low);
+            while high - low > 4.0 * f64::EPSILON * high {
+                let middle = 0.5 * (low + high);
+                if self.dynamics.modes_below(middle) > count_low { high = middle } else { low = middle }
+                if middle <= low && middle >= high {
+                    break;
+                }
+            }
+            0.5 * (low + high)
+        };
+        self.multiple(omega, 1);
+    }
+
+    fn determinant(&self, omega: f64) -> f64 {
+        let d = self.dynamics.dynamic_stiffness(omega);
+        if self.dynamics.freedoms == 6 { d.determinant() } else { d.fixed_view::<3, 3>(0, 0).determinant() }
+    }
+
+    /// `several` modes at ω, with the null vectors of D as platform shapes.
+    fn multiple(&mut self, omega: f64, several: usize) {
+        let d = self.dynamics.dynamic_stiffness(omega);
+        let (values, vectors) = null_vectors(&d, self.dynamics.freedoms, several);
+        let size = d.amax();
+        for (value, x) in values.into_iter().zip(vectors) {
+            let (platform, cables) = self.dynamics.moving_masses(omega, &x);
+            let total = platform + cables.iter().sum::<f64>();
+            let cable_energy_fractions: Vec<f64> = cables.iter().map(|m| m / total).collect();
+            let damping_ratio = cable_energy_fractions
+                .iter()
+                .enumerate()
+                .map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega))
+                .sum();
+            let platform_energy_fraction = platform / total;
+            self.modes.push(Mode {
+                frequency_hz: omega / TAU,
+                multiplicity: several,
+                damping_ratio,
+                kind: Kind::of(platform_energy_fraction),
+                platform_energy_fraction,
+                cable_energy_fractions,
+                shape: self.shape(&x),
+                residual: value.abs() / size,
+            });
+        }
+    }
+
+    /// Modes with the platform at rest: what the count gains across a cluster of coinciding poles.
+    fn at_pole(&mut self, cluster: &[(f64, usize)], count_left: usize, count_right: usize) {
+        if count_right < count_left {
+            self.consistent = false;
+            return;
+        }
+        let several = count_right - count_left;
+        if several == 0 {
+            return;
+        }
+        let omega = cluster.iter().map(|p| p.0).sum::<f64>() / cluster.len() as f64;
+        // The cables of the cluster share the motion; which combinations keep the platform at rest is not asked here.
+        let mut cable_energy_fractions = vec![0.0; self.dynamics.cable_count];
+        for (_, cable) in cluster {
+            cable_energy_fractions[*cable] += 1.0 / cluster.len() as f64;
+        }
+        let damping_ratio = cable_energy_fractions
+            .iter()
+            .enumerate()
+            .map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega))
+            .sum();
+        for _ in 0..several {
+            self.modes.push(Mode {
+                frequency_hz: omega / TAU,
+                multiplicity: several,
+                damping_ratio,
+                kind: Kind::Cable,
+                platform_energy_fraction: 0.0,
+                cable_energy_fractions: cable_energy_fractions.clone(),
+                shape: [0.0; 6],
+                residual: 0.0,
+            });
+        }
+    }
+
+    /// Unscaled, with the largest scaled component ±1 → the first of the largest positive.
+    fn shape(&self, x: &Vec6) -> [f64; 6] {
+        let largest = x[x.iamax()];
+        let ell = self.dynamics.ell;
+        std::array::from_fn(|i| x[i] / largest / if i < 3 { 1.0 } else { ell })
+    }
+}
+
+/// The `several` eigenpairs of D of least magnitude.
+fn null_vectors(d: &Mat6, freedoms: usize, several: usize) -> (Vec<f64>, Vec<Vec6>) {
+    let (values, vectors) = inertia::eigen(d, freedoms);
+    let mut order: Vec<usize> = (0..freedoms).collect();
+    order.sort_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs()));
+    order.truncate(several);
+    (order.iter().map(|&i| values[i]).collect(), order.iter().map(|&i| vectors[i]).collect())
+}
