@@ -89,8 +89,7 @@ impl Robot {
     /// ```
     /// use funicular::robot::{Robot, State};
     ///
-    /// let robot = Robot::from_toml(
-    ///     r#"
+    /// let text = r#"
     ///     name = "pendulum"
     ///     [platform]
     ///     mass_kg = 2.0
@@ -104,15 +103,13 @@ impl Robot {
     ///     material = "steel"
     ///     anchor_m = [0.0, 0.0, 3.0]
     ///     unstrained_length_m = 2.0
-    ///     "#,
-    /// )?;
+    /// "#;
+    /// let robot = Robot::from_toml(text)?;
     /// assert!((robot.cables[0].material.axial_stiffness - 1e6).abs() < 1e-6); // N
     /// assert_eq!(robot.state, State::Lengths(vec![2.0])); // m
     ///
-    /// let error = Robot::from_toml("name = 'pendulum'\nplatfrom = {}\n").unwrap_err();
-    /// let issue = &error.issues()[0];
-    /// assert_eq!((issue.line, issue.column), (2, 1));
-    /// assert_eq!(issue.message, "unknown key `platfrom` at the top of the file");
+    /// let error = Robot::from_toml(&text.replace("mass_kg = 2.0", "mass_kg = -2.0")).unwrap_err();
+    /// assert_eq!(error.to_string(), "line 4, column 15: `mass_kg` is -2.0, it must be positive");
     /// # Ok::<(), funicular::robot::spec::SpecError>(())
     /// ```
     pub fn from_toml(text: &str) -> Result<Self, SpecError> {
