@@ -1,1 +1,389 @@
-//! The robot file.
+//! The robot file: TOML text in, a validated [`Robot`] out, or errors that point into the text.
+//!
+//! The file is read as a tree of values that know their place ([`toml::de::DeTable`]), not through derived types: so one
+//! reading reports every error, each at the value it is about, and an unknown key is compared with the known ones.
+//!
+//! # Keys
+//!
+//! | Key | Meaning | Default |
+//! |---|---|---|
+//! | `name` | what the robot is called | required |
+//! | `source` | where its numbers come from | `""` |
+//! | `gravity_m_s2` | acceleration of gravity, world axes | `[0, 0, -9.81]` |
+//! | **`[platform]`** | | required |
+//! | `mass_kg` | mass, positive | required |
+//! | `freedoms` | `"rigid"` or `"point-mass"` (translations only) | `"rigid"` |
+//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3 | required if rigid, refused if not |
+//! | `center_of_mass_m` | in the platform frame | `[0, 0, 0]` |
+//! | **`[materials.NAME]`** | | one or more |
+//! | `youngs_modulus_pa` with `diameter_m` or `area_m2` | axial stiffness as `E A` | one of the two ways |
+//! | `axial_stiffness_n` | axial stiffness EA itself | one of the two ways |
+//! | `mass_kg_per_m` | mass per unstrained length; 0 is massless | required |
+//! | `damping_ratio` or `viscous_damping_n_s_m2` | ξ in \[0, 0.5), or c ≥ 0 | `damping_ratio = 0` |
+//! | **`[[cables]]`** | | one or more |
+//! | `name` | unique | required |
+//! | `material` | a NAME of `[materials.NAME]` | required |
+//! | `anchor_m` | exit point in the world frame | required |
+//! | `attachment_m` | point in the platform frame | required if rigid, zero if not |
+//! | `unstrained_length_m` | positive; all cables have one, or none | none |
+//! | **`[state]`** | a pose; not together with lengths | none |
+//! | `position_m` | platform origin in the world frame | required |
+//! | `roll_pitch_yaw_deg` | R = Rz(yaw) Ry(pitch) Rx(roll) | `[0, 0, 0]` |
+//!
+//! Every number is finite and at most 1e12 in magnitude; a quantity that has to be positive is at least 1e-12. No robot
+//! comes near these limits, and within them no product of the analyses overflows.
+
+mod cables;
+mod issue;
+mod materials;
+mod platform;
+mod read;
+
+use super::{Cable, Pose, Robot, State};
+use crate::math::Vec3;
+use cables::CableEntry;
+pub use issue::{Issue, SpecError};
+use read::{Key, Reader, Section, TOP, is_zero};
+use toml::de::DeTable;
+
+/// Gravity where the file gives none [m/s²]: the rounded standard value that the publications compared with use.
+const DEFAULT_GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+/// Keys at the top of the file.
+const ROOT: &[Key] = &[
+    Key { name: "name", example: r#"name = "my robot""# },
+    Key { name: "source", example: r#"source = "author, year, table""# },
+    Key { name: "gravity_m_s2", example: "gravity_m_s2 = [0.0, 0.0, -9.81]" },
+    Key { name: "platform", example: "[platform]" },
+    Key { name: "materials", example: "[materials.rope]" },
+    Key { name: "cables", example: "[[cables]]" },
+    Key { name: "state", example: "[state]" },
+];
+
+/// Keys of `[state]`.
+const STATE: &[Key] = &[
+    Key { name: "position_m", example: "position_m = [0.0, 0.0, 1.0]" },
+    Key { name: "roll_pitch_yaw_deg", example: "roll_pitch_yaw_deg = [0.0, 0.0, 0.0]" },
+];
+
+/// Every table of the file, to tell a key that sits in the wrong one.
+const TABLES: &[(&str, &[Key])] = &[
+    (TOP, ROOT),
+    ("[platform]", platform::KEYS),
+    ("[materials.NAME]", materials::KEYS),
+    ("[[cables]]", cables::KEYS),
+    ("[state]", STATE),
+];
+
+impl Robot {
+    /// Reads a robot file (TOML; the keys are listed in [`spec`](self)).
+    ///
+    /// `text` may begin with a byte-order mark and may have either kind of line end.
+    ///
+    /// # Errors
+    ///
+    /// [`SpecError`] with every issue that one reading finds, each with its place in `text`.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use funicular::robot::{Robot, State};
+    ///
+    /// let text = r#"
+    ///     name = "pendulum"
+    ///     [platform]
+    ///     mass_kg = 2.0
+    ///     freedoms = "point-mass"
+    ///     [materials.steel]
+    ///     youngs_modulus_pa = 100e9
+    ///     area_m2 = 1e-5
+    ///     mass_kg_per_m = 0.08
+    ///     [[cables]]
+    ///     name = "only"
+    ///     material = "steel"
+    ///     anchor_m = [0.0, 0.0, 3.0]
+    ///     unstrained_length_m = 2.0
+    /// "#;
+    /// let robot = Robot::from_toml(text)?;
+    /// assert!((robot.cables[0].material.axial_stiffness - 1e6).abs() < 1e-6); // N
+    /// assert_eq!(robot.state, State::Lengths(vec![2.0])); // m
+    ///
+    /// let error = Robot::from_toml(&text.replace("mass_kg = 2.0", "mass_kg = -2.0")).unwrap_err();
+    /// assert_eq!(error.to_string(), "line 4, column 15: `mass_kg` is -2.0, it must be positive");
+    /// # Ok::<(), funicular::robot::spec::SpecError>(())
+    /// ```
+    pub fn from_toml(text: &str) -> Result<Self, SpecError> {
+        let mut reader = Reader::new(text);
+        let robot = match DeTable::parse(text) {
+            Ok(root) if root.get_ref().is_empty() => {
+                reader
+                    .issue(0..0, "the file describes no robot: it has no keys")
+                    .help("a robot file has a `name` and the tables [platform], [materials.NAME] and [[cables]]");
+                None
+            }
+            Ok(root) => read_robot(&mut reader, root.get_ref()),
+            Err(error) => {
+                // Only the first: after a syntax error the parser guesses, and what it reports next misleads.
+                let message = format!("the file is not valid TOML: {}", error.message());
+                let issue = reader.issue(error.span().unwrap_or(0..0), message);
+                // The parser says this of everything that is no value, `10 kg` and `4 * 1e-3` among them.
+                if error.message().contains("must be quoted") {
+                    issue.help("a value is one number without its unit, text in quotes, or an array in brackets");
+                }
+                None
+            }
+        };
+        match robot {
+            Some(robot) if reader.issues.is_empty() => Ok(robot),
+            _ => Err(SpecError::new(text, reader.issues)),
+        }
+    }
+}
+
+/// The whole file. `None`, and at every early end, means that an issue has been reported.
+fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
+    let root = reader.open(TOP, 0..0, table, ROOT);
+    let name = reader.required(&root, "name").and_then(|value| reader.name("name", value));
+    let source = match root.get("source") {
+        Some(value) => reader.prose("source", value),
+        None => Some(String::new()),
+    };
+    let gravity = match root.get("gravity_m_s2") {
+        Some(value) => reader.vector("gravity_m_s2", "m/s²", value),
+        None => Some(DEFAULT_GRAVITY),
+    };
+    let freedoms = platform::freedoms(reader, &root);
+    let platform = platform::read(reader, &root, freedoms);
+    let materials = materials::read(reader, &root);
+    let cables = cables::read(reader, &root, materials.as_ref(), freedoms);
+    let state = read_state(reader, &root, cables.as_deref(), freedoms == Some(super::Freedoms::PointMass));
+    let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
+    Some(Robot {
+        name: name?,
+        source: source?,
+        gravity_w: Vec3::from(gravity?),
+        platform: platform?,
+        cables,
+        state: state?,
+    })
+}
+
+/// `[state]` or the cables' lengths, and what can be checked of them against the geometry.
+fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>, point_mass: bool) -> Option<State> {
+    let lengths = cables.map(|cables| cables::lengths(reader, cables));
+    let Some(value) = root.get("state") else {
+        let lengths = lengths??;
+        if !lengths.is_empty() {
+            cables::refuse_one_anchor(reader, cables?);
+        }
+        return Some(if lengths.is_empty() { State::Unknown } else { State::Lengths(lengths) });
+    };
+    let table = reader.table("state", "[state]", value)?;
+    let section = reader.open("[state]", value.span(), table, STATE);
+    let position = reader.required(&section, "position_m").and_then(|v| reader.vector("position_m", "m", v));
+    let angles = match section.get("roll_pitch_yaw_deg") {
+        Some(value) => {
+            let angles = reader.vector("roll_pitch_yaw_deg", "degrees", value);
+            if point_mass && angles.is_some_and(|angles| !is_zero(&angles)) {
+                reader
+                    .issue(value.span(), "a point mass has no orientation, `roll_pitch_yaw_deg` must be zero or absent")
+                    .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+            }
+            angles
+        }
+        None => Some([0.0; 3]),
+    };
+    if let Some(with_length) = cables.into_iter().flatten().find_map(|c| c.length_span.clone()) {
+        reader
+            .issue(value.span(), "the file gives both a pose and unstrained lengths, each fixes the other")
+            .context(with_length, "a length is here")
+            .help("remove [state], or remove every `unstrained_length_m`");
+        return None;
+    }
+    let pose = Pose::new(position?, angles?);
+    cables::refuse_coincident_ends(reader, cables?, &pose);
+    Some(State::Pose(pose))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Damping, Freedoms};
+    use proptest::prelude::*;
+
+    /// A file that uses every kind of value.
+    const VALID: &str = r#"name = "two ropes"
+source = "made up"
+gravity_m_s2 = [0, 0, -9.81]
+[platform]
+mass_kg = 10.5
+inertia_kg_m2 = [[0.2, 0.01, 0.0], [0.01, 0.2, 0.0], [0.0, 0.0, 0.3]]
+center_of_mass_m = [0.0, 0.0, 0.1]
+[materials.thin]
+youngs_modulus_pa = 20e9
+diameter_m = 0.004
+mass_kg_per_m = 0.067
+damping_ratio = 0.003
+[materials."thick rope"]
+axial_stiffness_n = 1_000_000
+mass_kg_per_m = 0
+viscous_damping_n_s_m2 = 0.5
+[[cables]]
+name = "1"
+material = "thin"
+anchor_m = [1.0, 0.0, 3.0]
+attachment_m = [0.1, 0.0, 0.0]
+[[cables]]
+name = "2"
+material = "thick rope"
+anchor_m = [-1.0, 0.0, 3.0]
+attachment_m = [-0.1, 0.0, 0.0]
+[state]
+position_m = [0.0, 0.0, 1.0]
+roll_pitch_yaw_deg = [0.0, 0.0, 90.0]
+"#;
+
+    #[test]
+    fn a_valid_file_becomes_the_robot_it_describes() {
+        let robot = Robot::from_toml(VALID).unwrap();
+        assert_eq!((robot.name.as_str(), robot.source.as_str()), ("two ropes", "made up"));
+        assert_eq!(robot.gravity_w, Vec3::new(0.0, 0.0, -9.81));
+        assert_eq!(robot.platform.freedoms, Freedoms::Rigid);
+        assert!((robot.platform.inertia_p[(0, 1)] - 0.01).abs() < 1e-15);
+        assert_eq!(robot.cables.len(), 2);
+        let [thin, thick] = [&robot.cables[0].material, &robot.cables[1].material];
+        // E π d²/4, the paper's 251 kN.
+        assert!((thin.axial_stiffness - 251_327.412).abs() < 1e-3, "{}", thin.axial_stiffness);
+        assert_eq!(thin.damping, Damping::Ratio(0.003));
+        assert_eq!((thick.axial_stiffness, thick.mass_per_length), (1e6, 0.0));
+        assert_eq!(thick.damping, Damping::Viscous(0.5));
+        let State::Pose(pose) = &robot.state else { panic!("{:?}", robot.state) };
+        let attachment_w = pose.point_w(&robot.cables[0].attachment_p);
+        assert!((attachment_w - Vec3::new(0.0, 0.1, 1.0)).norm() < 1e-15, "{attachment_w}");
+    }
+
+    #[test]
+    fn line_ends_and_a_byte_order_mark_change_nothing() {
+        let plain = Robot::from_toml(VALID).unwrap();
+        let windows = format!("\u{feff}{}", VALID.replace('\n', "\r\n"));
+        assert_eq!(Robot::from_toml(&windows).unwrap(), plain);
+        let error = Robot::from_toml(&windows.replace("10.5", "-10.5")).unwrap_err();
+        assert_eq!((error.issues()[0].line, error.issues()[0].column), (5, 11));
+        let error = Robot::from_toml(&windows.replace("name = \"two ropes\"", "name = 2")).unwrap_err();
+        assert_eq!((error.issues()[0].line, error.issues()[0].column), (1, 8));
+    }
+
+    #[test]
+    fn defaults_are_earth_gravity_no_damping_and_an_unknown_state() {
+        let text = VALID
+            .replace("gravity_m_s2 = [0, 0, -9.81]\n", "")
+            .replace("source = \"made up\"\n", "")
+            .replace("damping_ratio = 0.003\n", "")
+            .replace("center_of_mass_m = [0.0, 0.0, 0.1]\n", "");
+        let text = text.split("[state]").next().unwrap();
+        let robot = Robot::from_toml(text).unwrap();
+        assert_eq!(robot.gravity_w, Vec3::new(0.0, 0.0, -9.81));
+        assert_eq!(robot.cables[0].material.damping, Damping::Ratio(0.0));
+        assert_eq!(robot.platform.center_of_mass_p, Vec3::zeros());
+        assert_eq!((robot.source.as_str(), &robot.state), ("", &State::Unknown));
+    }
+
+    #[test]
+    fn an_empty_file_says_what_a_robot_file_has() {
+        for text in ["", "\n\n", "# only a comment\n", "\u{feff}"] {
+            let error = Robot::from_toml(text).unwrap_err();
+            assert_eq!(error.to_string(), "line 1, column 1: the file describes no robot: it has no keys");
+            assert!(error.issues()[0].help.as_deref().unwrap().contains("[[cables]]"));
+        }
+    }
+
+    #[test]
+    fn all_errors_of_a_file_are_reported_at_once_in_file_order() {
+        let text = VALID
+            .replace("diameter_m = 0.004", "diameter_m = 0")
+            .replace("mass_kg = 10.5", "mas_kg = 10.5")
+            .replace("anchor_m = [-1.0, 0.0, 3.0]", "anchor_m = [-1.0, nan]");
+        let error = Robot::from_toml(&text).unwrap_err();
+        let places: Vec<_> = error.issues().iter().map(|i| (i.line, i.column)).collect();
+        assert_eq!(places, [(5, 1), (10, 14), (25, 12)], "{error}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(512))]
+
+        #[test]
+        fn no_text_makes_the_reader_panic(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {
+            read_and_render(&String::from_utf8_lossy(&bytes));
+        }
+
+        #[test]
+        fn no_mutation_of_a_valid_file_makes_the_reader_panic(
+            edits in proptest::collection::vec((any::<prop::sample::Index>(), 0_usize..12, mutation()), 1..5),
+        ) {
+            let mut text: Vec<char> = VALID.chars().collect();
+            for (at, removed, inserted) in edits {
+                let at = at.index(text.len() + 1);
+                let end = (at + removed).min(text.len());
+                text.splice(at..end, inserted.chars());
+            }
+            read_and_render(&text.into_iter().collect::<String>());
+        }
+
+        #[test]
+        fn no_shuffle_of_lines_makes_the_reader_panic(
+            lines in proptest::sample::subsequence(VALID.lines().collect::<Vec<_>>(), 0..=29).prop_shuffle(),
+        ) {
+            read_and_render(&lines.join("\n"));
+        }
+    }
+
+    /// What users and bad luck put into files.
+    fn mutation() -> impl Strategy<Value = String> {
+        prop_oneof![
+            Just(String::new()),
+            prop::sample::select(vec![
+                "nan",
+                "-inf",
+                "1e999",
+                "1e-320",
+                "0",
+                "-1",
+                "99999999999999999999",
+                "[]",
+                "[[",
+                "]]",
+                "{}",
+                "\"",
+                "'''",
+                "\r\n",
+                "\u{feff}",
+                "\u{202e}",
+                "é漢",
+                "1979-05-27",
+                "0x_",
+                "[state]\n",
+                "[[cables]]\n",
+                "true",
+                "=",
+                ",",
+                "#",
+                "[[1,2,3],[4,5,6],[7,8,9]]",
+                "\t",
+            ])
+            .prop_map(str::to_owned),
+            any::<char>().prop_map(String::from),
+        ]
+    }
+
+    fn read_and_render(text: &str) {
+        match Robot::from_toml(text) {
+            Ok(robot) => assert!(!robot.cables.is_empty() && robot.platform.mass > 0.0),
+            Err(error) => {
+                assert!(!error.issues().is_empty());
+                assert!(error.render("robot.toml", text, false).contains("error"));
+                // With a text it does not belong to, the place is wrong, but there is one.
+                assert!(error.render("robot.toml", "é", true).contains("robot.toml"));
+            }
+        }
+    }
+}

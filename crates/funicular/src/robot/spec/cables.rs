@@ -1,0 +1,203 @@
+//! `[[cables]]`: each cable, and what has to hold between them.
+
+use super::materials::Materials;
+use super::read::{Key, Reader, Section, Sign, Value, is_zero, nearest, shortened};
+use crate::math::Vec3;
+use crate::robot::{Cable, Freedoms, Pose};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::de::DeValue;
+
+/// Two points are one when they are nearer than this part of their distance from the origins: no cable of a robot is a
+/// billionth of the robot long, and rounding is a millionth of that.
+const COINCIDENT: f64 = 1e-9;
+
+/// Keys of `[[cables]]`.
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "name", example: r#"name = "1""# },
+    Key { name: "material", example: r#"material = "rope""# },
+    Key { name: "anchor_m", example: "anchor_m = [5.0, 2.0, 4.0]" },
+    Key { name: "attachment_m", example: "attachment_m = [0.1, 0.1, 0.0]" },
+    Key { name: "unstrained_length_m", example: "unstrained_length_m = 6.5" },
+];
+
+/// A cable and the places of its values.
+pub(super) struct CableEntry {
+    /// `None` when a value was refused; the issue is reported.
+    pub cable: Option<Cable>,
+    /// Where its length is, right or wrong.
+    pub length_span: Option<Range<usize>>,
+    label: String,
+    header: Range<usize>,
+    anchor_span: Range<usize>,
+    length: Option<f64>,
+    length_mistyped: bool,
+}
+
+/// All cables.
+pub(super) fn read(
+    reader: &mut Reader,
+    root: &Section,
+    materials: Option<&Materials>,
+    freedoms: Option<Freedoms>,
+) -> Option<Vec<CableEntry>> {
+    let value = reader.required(root, "cables")?;
+    let DeValue::Array(array) = value.get_ref() else {
+        reader
+            .wrong_type("`cables`", "an array of tables", value)
+            .help("begin every cable with [[cables]], in double brackets");
+        return None;
+    };
+    if array.is_empty() {
+        reader.issue(value.span(), "there is no cable").help("begin every cable with [[cables]]");
+        return None;
+    }
+    let mut names: BTreeMap<String, Range<usize>> = BTreeMap::new();
+    let mut entries = Vec::with_capacity(array.len());
+    for (i, value) in array.iter().enumerate() {
+        let DeValue::Table(table) = value.get_ref() else {
+            let label = format!("number {} of `cables`", i + 1);
+            reader.wrong_type(&label, "a table", value).help("begin every cable with [[cables]]");
+            continue;
+        };
+        let label = match table.get("name").map(toml::Spanned::get_ref) {
+            Some(DeValue::String(name)) if !name.trim().is_empty() => {
+                format!("cable \"{}\"", shortened(name))
+            }
+            _ => format!("[[cables]] number {}", i + 1),
+        };
+        let section = reader.open(label, value.span(), table, KEYS);
+        entries.push(read_one(reader, &section, materials, freedoms, &mut names));
+    }
+    (entries.len() == array.len()).then_some(entries)
+}
+
+fn read_one(
+    reader: &mut Reader,
+    section: &Section,
+    materials: Option<&Materials>,
+    freedoms: Option<Freedoms>,
+    names: &mut BTreeMap<String, Range<usize>>,
+) -> CableEntry {
+    let name = reader.required(section, "name").and_then(|value| {
+        let name = reader.name("name", value)?;
+        if let Some(first) = names.get(&name) {
+            reader
+                .issue(value.span(), format!("two cables are called \"{}\"", shortened(&name)))
+                .context(first.clone(), "the first is here")
+                .help("results are listed by name: give every cable its own");
+            return None;
+        }
+        names.insert(name.clone(), value.span());
+        Some(name)
+    });
+    let material = reader.required(section, "material").and_then(|value| {
+        let material = reader.text("material", value)?;
+        // Without [materials] every cable would repeat what has been said once.
+        let materials = materials?;
+        let Some(known) = materials.get(&material) else {
+            unknown_material(reader, &material, materials, value);
+            return None;
+        };
+        known.clone()
+    });
+    let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector("anchor_m", "m", value));
+    let attachment = attachment(reader, section, freedoms);
+    let length_value = section.get("unstrained_length_m");
+    let length = length_value.and_then(|value| reader.number("`unstrained_length_m`", Sign::Positive, value));
+    let cable = name.zip(material).zip(anchor.zip(attachment)).map(|((name, material), (anchor, attachment))| Cable {
+        name,
+        material,
+        anchor_w: Vec3::from(anchor),
+        attachment_p: Vec3::from(attachment),
+    });
+    CableEntry {
+        cable,
+        label: section.label().to_owned(),
+        header: section.span.clone(),
+        anchor_span: section.get("anchor_m").map_or(section.span.clone(), toml::Spanned::span),
+        length_span: length_value.map(toml::Spanned::span),
+        length,
+        length_mistyped: section.mistyped(&["unstrained_length_m"]),
+    }
+}
+
+fn unknown_material(reader: &mut Reader, material: &str, materials: &Materials, value: &Value) {
+    let known = materials.keys().map(|name| format!("\"{}\"", shortened(name))).collect::<Vec<_>>().join(", ");
+    let suggestion = nearest(material, materials.keys().map(String::as_str))
+        .map(|near| format!("did you mean \"{}\"? ", shortened(near)))
+        .unwrap_or_default();
+    reader
+        .issue(value.span(), format!("there is no material \"{}\"", shortened(material)))
+        .help(format!("{suggestion}the file has {known}"));
+}
+
+/// The attachment; a point mass has all of them at its own point.
+fn attachment(reader: &mut Reader, section: &Section, freedoms: Option<Freedoms>) -> Option<[f64; 3]> {
+    let value = match freedoms {
+        Some(Freedoms::Rigid) => reader.required(section, "attachment_m")?,
+        _ => match section.get("attachment_m") {
+            Some(value) => value,
+            None => return Some([0.0; 3]),
+        },
+    };
+    let attachment = reader.vector("attachment_m", "m", value)?;
+    if freedoms == Some(Freedoms::PointMass) && !is_zero(&attachment) {
+        reader
+            .issue(value.span(), "all cables of a point mass end in one point, `attachment_m` must be zero or absent")
+            .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+        return None;
+    }
+    Some(attachment)
+}
+
+/// The unstrained lengths [m]: all, or an empty list where no cable has one.
+pub(super) fn lengths(reader: &mut Reader, cables: &[CableEntry]) -> Option<Vec<f64>> {
+    let Some(first) = cables.iter().find_map(|cable| cable.length_span.clone()) else {
+        return (!cables.iter().any(|cable| cable.length_mistyped)).then(Vec::new);
+    };
+    let without: Vec<_> = cables.iter().filter(|c| c.length_span.is_none() && !c.length_mistyped).collect();
+    if let Some(cable) = without.first() {
+        let others = match without.len() {
+            1 => String::new(),
+            n => format!(", like {} other{}", n - 1, if n == 2 { "" } else { "s" }),
+        };
+        reader
+            .issue(cable.header.clone(), format!("{} has no `unstrained_length_m`{others}", cable.label))
+            .context(first, "but a length is given here")
+            .help("give every cable a length, or none");
+        return None;
+    }
+    cables.iter().map(|cable| cable.length).collect()
+}
+
+/// Refuses a cable that begins where it ends: it has no direction.
+pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry], pose: &Pose) {
+    for entry in cables {
+        let Some(cable) = &entry.cable else { continue };
+        let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+        let size = cable.anchor_w.norm() + pose.position_w.norm() + cable.attachment_p.norm();
+        if chord <= COINCIDENT * size {
+            reader
+                .issue(
+                    entry.anchor_span.clone(),
+                    format!("{} has no length: both ends are here at this pose", entry.label),
+                )
+                .help("move the anchor, the attachment or `position_m` in [state]");
+        }
+    }
+}
+
+/// Refuses a robot that hangs from one point. With lengths the pose is not known yet, this much is.
+pub(super) fn refuse_one_anchor(reader: &mut Reader, cables: &[CableEntry]) {
+    let anchors: Option<Vec<Vec3>> = cables.iter().map(|entry| entry.cable.as_ref().map(|c| c.anchor_w)).collect();
+    // One cable is a pendulum and has one anchor.
+    let Some([first, others @ ..]) = anchors.as_deref() else {
+        return;
+    };
+    if !others.is_empty() && others.iter().all(|other| (other - first).norm() <= COINCIDENT * first.norm()) {
+        reader
+            .issue(cables[0].anchor_span.clone(), "all cables have the same anchor")
+            .help("give the exit point of every cable in `anchor_m`, in the world frame");
+    }
+}

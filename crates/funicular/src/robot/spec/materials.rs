@@ -1,0 +1,158 @@
+//! `[materials.NAME]`: what a rope is made of. Unused ones are welcome: a file may offer several ropes to choose from.
+
+use super::read::{Key, LARGEST, Reader, SMALLEST, Section, Sign};
+use crate::robot::{Damping, Material};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Damping ratios from here on are not material damping, and `ω² (1 − 2iξ)` turns from the real axis by 45°.
+const RATIO_LIMIT: f64 = 0.5;
+
+/// Keys of `[materials.NAME]`.
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "youngs_modulus_pa", example: "youngs_modulus_pa = 100e9" },
+    Key { name: "diameter_m", example: "diameter_m = 0.004" },
+    Key { name: "area_m2", example: "area_m2 = 8e-6" },
+    Key { name: "axial_stiffness_n", example: "axial_stiffness_n = 250e3" },
+    Key { name: "mass_kg_per_m", example: "mass_kg_per_m = 0.06" },
+    Key { name: "damping_ratio", example: "damping_ratio = 0.003" },
+    Key { name: "viscous_damping_n_s_m2", example: "viscous_damping_n_s_m2 = 0.01" },
+];
+
+const TWO_WAYS: &str = "give `youngs_modulus_pa` with one of `diameter_m` and `area_m2`, or `axial_stiffness_n` alone";
+
+/// The materials by name, `None` for one that was refused: its name is still known.
+pub(super) type Materials = BTreeMap<String, Option<Material>>;
+
+/// All materials.
+pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
+    let value = reader.required(root, "materials")?;
+    let table = reader.table("materials", "[materials.NAME]", value)?;
+    if table.is_empty() {
+        reader
+            .issue(value.span(), "there is no material")
+            .help("add a table [materials.NAME] for every rope, NAME of your choice");
+        return None;
+    }
+    let mut materials = Materials::new();
+    for (key, value) in table {
+        let name: &str = key.get_ref();
+        let named = reader.check_name("material name", name, key.span());
+        let material = reader.table(name, &format!("[materials.{name}]"), value).and_then(|table| {
+            let section = reader.open(format!("[materials.{name}]"), value.span(), table, KEYS);
+            read_one(reader, name, &section)
+        });
+        materials.insert(name.to_owned(), named.and(material));
+    }
+    Some(materials)
+}
+
+fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Material> {
+    let axial_stiffness = axial_stiffness(reader, section);
+    let mass_per_length = reader
+        .required(section, "mass_kg_per_m")
+        .and_then(|value| reader.number("`mass_kg_per_m`", Sign::NotNegative, value));
+    let damping = damping(reader, section);
+    Some(Material {
+        name: name.to_owned(),
+        axial_stiffness: axial_stiffness?,
+        mass_per_length: mass_per_length?,
+        damping: damping?,
+    })
+}
+
+/// EA [N], from one of the two ways to give it.
+fn axial_stiffness(reader: &mut Reader, section: &Section) -> Option<f64> {
+    let keys = ["axial_stiffness_n", "youngs_modulus_pa", "diameter_m", "area_m2"];
+    let values = keys.map(|key| section.get(key));
+    // Numbers first: a wrong number is worth a message of its own.
+    let mut wrong = section.mistyped(&keys);
+    let mut numbers = [None; 4];
+    for i in 0..4 {
+        if let Some(value) = values[i] {
+            numbers[i] = reader.number(&format!("`{}`", keys[i]), Sign::Positive, value);
+            wrong |= numbers[i].is_none();
+        }
+    }
+    if let Some(stiffness) = values[0] {
+        let mut others = keys.into_iter().zip(values).skip(1);
+        if let Some((other, value)) = others.find_map(|(key, value)| Some((key, value?))) {
+            reader
+                .issue(value.span(), format!("`{other}` does not go with `axial_stiffness_n`"))
+                .context(stiffness.span(), "already given here")
+                .help(TWO_WAYS);
+            return None;
+        }
+        return numbers[0];
+    }
+    if let (Some(diameter), Some(area)) = (values[2], values[3]) {
+        let mut both = [("diameter_m", diameter.span()), ("area_m2", area.span())];
+        both.sort_by_key(|(_, span)| span.start);
+        let [(first, first_span), (second, second_span)] = both;
+        reader
+            .issue(second_span, format!("`{second}` does not go with `{first}`"))
+            .context(first_span, "already given here")
+            .help(TWO_WAYS);
+        return None;
+    }
+    if wrong {
+        return None;
+    }
+    let label = section.label();
+    let missing = match (numbers[1], numbers[2], numbers[3]) {
+        (None, None, None) => format!("{label} has no axial stiffness"),
+        (None, _, _) => format!("{label} has no `youngs_modulus_pa`"),
+        (Some(_), None, None) => {
+            format!("{label} has `youngs_modulus_pa`, but neither `diameter_m` nor `area_m2`")
+        }
+        (Some(modulus), diameter, area) => {
+            let area = area.or(diameter.map(|d| PI * d * d / 4.0))?;
+            return product_in_limits(reader, section, modulus * area);
+        }
+    };
+    reader.issue(section.span.clone(), missing).help(TWO_WAYS);
+    None
+}
+
+/// Both factors may be in the limits and the product not.
+fn product_in_limits(reader: &mut Reader, section: &Section, stiffness: f64) -> Option<f64> {
+    if (SMALLEST..=LARGEST).contains(&stiffness) {
+        return Some(stiffness);
+    }
+    let span = section.get("youngs_modulus_pa").map_or(section.span.clone(), toml::Spanned::span);
+    reader
+        .issue(
+            span,
+            format!("the axial stiffness is {stiffness:e} N, it must be between {SMALLEST:e} and {LARGEST:e} N"),
+        )
+        .help("check the units: Pa, and m or m²");
+    None
+}
+
+fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
+    let [ratio, viscous] = ["damping_ratio", "viscous_damping_n_s_m2"].map(|key| section.get(key));
+    match (ratio, viscous) {
+        (Some(ratio), Some(viscous)) => {
+            reader
+                .issue(viscous.span(), "`viscous_damping_n_s_m2` does not go with `damping_ratio`")
+                .context(ratio.span(), "already given here")
+                .help("give one of the two");
+            None
+        }
+        (Some(value), None) => {
+            let ratio = reader.number("`damping_ratio`", Sign::NotNegative, value)?;
+            if ratio >= RATIO_LIMIT {
+                let written = reader.written(value.span());
+                reader
+                    .issue(value.span(), format!("`damping_ratio` is {written}, it must be below {RATIO_LIMIT}"))
+                    .help("it is a fraction, not per cent: wire ropes have about 0.003");
+                return None;
+            }
+            Some(Damping::Ratio(ratio))
+        }
+        (None, Some(value)) => {
+            reader.number("`viscous_damping_n_s_m2`", Sign::NotNegative, value).map(Damping::Viscous)
+        }
+        (None, None) => Some(Damping::Ratio(0.0)),
+    }
+}

@@ -1,0 +1,214 @@
+//! `[platform]`: mass, freedoms, and an inertia tensor that a body can have.
+
+use super::read::{Key, Reader, SMALLEST, Section, Sign, Value, is_zero, nearest, shortened};
+use crate::math::{Mat3, Vec3};
+use crate::robot::{Freedoms, Platform};
+use toml::de::DeValue;
+
+/// Largest difference of mirrored products of inertia, and largest excess of a principal moment over the sum of the
+/// others, both relative to the largest entry: far above rounding, far below the digits of any published tensor.
+const SLACK: f64 = 1e-9;
+
+/// Keys of `[platform]`.
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "mass_kg", example: "mass_kg = 10.0" },
+    Key { name: "freedoms", example: r#"freedoms = "rigid""# },
+    Key { name: "inertia_kg_m2", example: "inertia_kg_m2 = [0.1, 0.1, 0.2]" },
+    Key { name: "center_of_mass_m", example: "center_of_mass_m = [0.0, 0.0, 0.0]" },
+];
+
+const WORDS: [(&str, Freedoms); 2] = [("rigid", Freedoms::Rigid), ("point-mass", Freedoms::PointMass)];
+
+/// The freedoms, `None` where the file's word is unknown. Silent where there is no `[platform]`: [`read`] speaks of it.
+pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> {
+    let Some(value) = root.get("platform").and_then(|platform| match platform.get_ref() {
+        DeValue::Table(table) => table.get("freedoms"),
+        _ => None,
+    }) else {
+        return Some(Freedoms::default());
+    };
+    let word = reader.text("freedoms", value)?;
+    let known = WORDS.iter().find(|(known, _)| *known == word).map(|(_, freedoms)| *freedoms);
+    if known.is_none() {
+        let suggestion = nearest(&word, WORDS.iter().map(|(known, _)| *known))
+            .map(|near| format!("; did you mean \"{near}\"?"))
+            .unwrap_or_default();
+        reader
+            .issue(value.span(), format!("`freedoms` is \"{}\", which is unknown", shortened(&word)))
+            .help(format!("write \"rigid\" or \"point-mass\"{suggestion}"));
+    }
+    known
+}
+
+/// The platform.
+pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) -> Option<Platform> {
+    let value = reader.required(root, "platform")?;
+    let table = reader.table("platform", "[platform]", value)?;
+    let section = reader.open("[platform]", value.span(), table, KEYS);
+    let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number("`mass_kg`", Sign::Positive, v));
+    let inertia = match freedoms {
+        Some(Freedoms::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
+        Some(Freedoms::PointMass) => {
+            if let Some(value) = section.get("inertia_kg_m2") {
+                reader
+                    .issue(value.span(), "a point mass has no inertia tensor, `inertia_kg_m2` must be absent")
+                    .help("remove the line, or set `freedoms = \"rigid\"`");
+            }
+            Some(Mat3::zeros())
+        }
+        None => None,
+    };
+    let center_of_mass = match section.get("center_of_mass_m") {
+        Some(value) => {
+            let center = reader.vector("center_of_mass_m", "m", value);
+            if freedoms == Some(Freedoms::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
+                reader
+                    .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
+                    .help("remove the line, or set `freedoms = \"rigid\"`");
+            }
+            center
+        }
+        None => Some([0.0; 3]),
+    };
+    Some(Platform {
+        mass: mass?,
+        inertia_p: inertia?,
+        center_of_mass_p: Vec3::from(center_of_mass?),
+        freedoms: freedoms?,
+    })
+}
+
+/// Three principal moments or a full tensor; symmetric, positive definite, and possible for a body.
+fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
+    let label = "`inertia_kg_m2`";
+    let rows = reader.three(label, "three numbers or three rows of three, in kg m²", value)?;
+    let full = rows.iter().any(|row| matches!(row.get_ref(), DeValue::Array(_)));
+    let tensor = if full {
+        let mut tensor = Mat3::zeros();
+        let mut elements = [[value; 3]; 3];
+        let mut complete = true;
+        for (i, row) in rows.into_iter().enumerate() {
+            let row_label = format!("row {} of {label}", i + 1);
+            let Some(three) = reader.three(&row_label, "three numbers in kg m²", row) else {
+                complete = false;
+                continue;
+            };
+            elements[i] = three;
+            match reader.three_numbers(&row_label, Sign::Any, three) {
+                Some(numbers) => (0..3).for_each(|j| tensor[(i, j)] = numbers[j]),
+                None => complete = false,
+            }
+        }
+        if !complete {
+            return None;
+        }
+        symmetric(reader, &tensor, &elements)?
+    } else {
+        Mat3::from_diagonal(&Vec3::from(reader.three_numbers(label, Sign::Positive, rows)?))
+    };
+    possible(reader, &tensor, value)?;
+    Some(tensor)
+}
+
+/// The tensor without the rounding of its two halves.
+fn symmetric(reader: &mut Reader, tensor: &Mat3, elements: &[[&Value; 3]; 3]) -> Option<Mat3> {
+    for (i, j) in [(1, 0), (2, 0), (2, 1)] {
+        let [lower, upper] = [tensor[(i, j)], tensor[(j, i)]];
+        if (lower - upper).abs() > SLACK * tensor.amax() {
+            reader
+                .issue(
+                    elements[i][j].span(),
+                    format!(
+                        "`inertia_kg_m2` is not symmetric: row {}, column {} is {lower:e}, its mirror is {upper:e}",
+                        i + 1,
+                        j + 1
+                    ),
+                )
+                .context(elements[j][i].span(), "the mirror");
+            return None;
+        }
+    }
+    Some((tensor + tensor.transpose()) * 0.5)
+}
+
+/// Whether a body can have this tensor: principal moments positive, none larger than the sum of the others.
+fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
+    let mut moments: [f64; 3] = tensor.symmetric_eigenvalues().into();
+    moments.sort_by(f64::total_cmp);
+    let [least, middle, largest] = moments;
+    let shown = format!("its principal moments are {}, {} and {} kg m²", short(least), short(middle), short(largest));
+    // Below 1e-12 of the largest, the sign of the least moment is rounding.
+    if least < SMALLEST * largest.max(1.0) {
+        reader
+            .issue(value.span(), format!("`inertia_kg_m2` is not positive definite: {shown}"))
+            .help("give the tensor about the centre of mass in platform axes; its off-diagonal entries are −∫xy dm");
+        return None;
+    }
+    if largest > (least + middle) * (1.0 + SLACK) {
+        reader
+            .issue(
+                value.span(),
+                format!("`inertia_kg_m2` fits no body: {shown}, and the largest exceeds the sum of the others"),
+            )
+            .help("check the unit (kg m²) and the order of the numbers");
+        return None;
+    }
+    Some(())
+}
+
+/// Four significant digits, for a message.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use toml::de::DeTable;
+
+    fn tensor_of(text: &str) -> Result<Mat3, String> {
+        let file = format!("i = {text}");
+        let root = DeTable::parse(&file).unwrap();
+        let mut reader = Reader::new(&file);
+        let tensor = inertia(&mut reader, &root.get_ref()["i"]);
+        tensor.ok_or_else(|| reader.issues[0].message.clone())
+    }
+
+    #[test]
+    fn a_flat_plate_and_a_cube_are_bodies_and_a_rod_without_thickness_is_not() {
+        assert!(tensor_of("[1.0, 2.0, 3.0]").is_ok());
+        assert!(tensor_of("[1e-6, 1e-6, 1e-6]").is_ok());
+        assert!(tensor_of("[[1, 0, 0], [0, 1, 0], [0, 0, 0]]").unwrap_err().contains("not positive definite"));
+        assert!(tensor_of("[1.0, 1.0, 2.1]").unwrap_err().contains("moments are 1, 1 and 2.1 kg m²"));
+    }
+
+    #[test]
+    fn the_slack_is_a_billionth() {
+        assert!(tensor_of("[1.0, 1.0, 2.000000001]").is_ok());
+        assert!(tensor_of("[1.0, 1.0, 2.00000001]").is_err());
+        assert!(tensor_of("[[1, 1e-10, 0], [0, 1, 0], [0, 0, 1]]").is_ok());
+        assert!(tensor_of("[[1, 1e-8, 0], [0, 1, 0], [0, 0, 1]]").unwrap_err().contains("not symmetric"));
+    }
+
+    proptest! {
+        /// Points with mass are a body, so their tensor has to be accepted whatever the axes.
+        #[test]
+        fn the_tensor_of_any_four_masses_is_accepted(
+            points in proptest::array::uniform4((proptest::array::uniform3(-1.0_f64..1.0), 0.1_f64..1.0)),
+        ) {
+            let total: f64 = points.iter().map(|(_, m)| m).sum();
+            let center = points.iter().map(|(p, m)| Vec3::from(*p) * *m).sum::<Vec3>() / total;
+            let mut tensor = Mat3::identity() * 1e-3;
+            for (p, m) in points {
+                let r = Vec3::from(p) - center;
+                tensor += (Mat3::identity() * r.norm_squared() - r * r.transpose()) * m;
+            }
+            let rows: Vec<String> =
+                (0..3).map(|i| format!("[{:?}, {:?}, {:?}]", tensor[(i, 0)], tensor[(i, 1)], tensor[(i, 2)])).collect();
+            let read = tensor_of(&format!("[{}]", rows.join(", ")));
+            prop_assert!(read.is_ok_and(|t| (t - tensor).amax() < 1e-12));
+        }
+    }
+}

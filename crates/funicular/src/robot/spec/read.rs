@@ -1,0 +1,357 @@
+//! Reading single values: types, signs and sizes, names, known keys. Every refusal points at the value.
+
+use super::{Issue, TABLES};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Largest magnitude of any number: products of four of them stay far inside `f64`.
+pub(super) const LARGEST: f64 = 1e12;
+/// Smallest quantity that has to be positive: the same, for quotients.
+pub(super) const SMALLEST: f64 = 1e-12;
+
+/// Likeness (Jaro-Winkler, 0 to 1) from which a known word is suggested: `mas` for `mass_kg` has 0.87 and is meant,
+/// `mass_kg_per_m` for `name` has 0.66 and is not.
+const ALIKE: f64 = 0.8;
+
+/// Characters of a user's text that a message repeats.
+const QUOTED: usize = 40;
+
+/// What messages call the keys outside any table.
+pub(super) const TOP: &str = "the top of the file";
+
+/// A value and its place.
+pub(super) type Value<'t> = Spanned<DeValue<'t>>;
+
+/// A known key.
+pub(super) struct Key {
+    /// As the file writes it.
+    pub name: &'static str,
+    /// A line for the help of "missing".
+    pub example: &'static str,
+}
+
+/// What a number may be.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sign {
+    /// At least [`SMALLEST`].
+    Positive,
+    /// Zero, or at least [`SMALLEST`].
+    NotNegative,
+    /// Anything finite.
+    Any,
+}
+
+/// A table whose keys have been checked.
+pub(super) struct Section<'t> {
+    label: String,
+    /// Its header, for what is missing.
+    pub span: Range<usize>,
+    table: &'t DeTable<'t>,
+    keys: &'static [Key],
+    /// Known keys that an unknown one was taken for: reported once, as unknown, and not again as missing.
+    mistyped: Vec<&'static str>,
+}
+
+impl<'t> Section<'t> {
+    /// The value of a key.
+    pub(super) fn get(&self, key: &str) -> Option<&'t Value<'t>> {
+        self.table.get(key)
+    }
+
+    /// Whether one of these keys was probably meant by an unknown one.
+    pub(super) fn mistyped(&self, keys: &[&str]) -> bool {
+        self.mistyped.iter().any(|key| keys.contains(key))
+    }
+
+    /// What messages call it.
+    pub(super) fn label(&self) -> &str {
+        &self.label
+    }
+}
+
+/// Collects the issues of one reading.
+///
+/// Its methods return `None` when, and only when, they have reported an issue.
+pub(super) struct Reader<'t> {
+    text: &'t str,
+    /// What was found so far.
+    pub issues: Vec<Issue>,
+}
+
+impl<'t> Reader<'t> {
+    pub(super) fn new(text: &'t str) -> Self {
+        Self { text, issues: Vec::new() }
+    }
+
+    /// Reports an issue; help and context can be added to what it returns.
+    pub(super) fn issue(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Issue {
+        let at = self.issues.len();
+        self.issues.push(Issue::new(span, message));
+        &mut self.issues[at]
+    }
+
+    /// What the user wrote there, short enough for a message.
+    pub(super) fn written(&self, span: Range<usize>) -> String {
+        shortened(self.text.get(span).unwrap_or("?").trim())
+    }
+
+    /// Checks the keys of a table.
+    pub(super) fn open<'v>(
+        &mut self,
+        label: impl Into<String>,
+        span: Range<usize>,
+        table: &'v DeTable<'v>,
+        keys: &'static [Key],
+    ) -> Section<'v> {
+        let label = label.into();
+        let mut mistyped = Vec::new();
+        for key in table.keys() {
+            let name: &str = key.get_ref();
+            if keys.iter().any(|known| known.name == name) {
+                continue;
+            }
+            let message = format!("unknown key `{}` {}", shortened(name), inside(&label));
+            let all = keys.iter().map(|k| format!("`{}`", k.name)).collect::<Vec<_>>().join(", ");
+            let home = TABLES.iter().find(|(_, keys)| keys.iter().any(|k| k.name == name)).map(|(home, _)| home);
+            let help = if let Some(home) = home {
+                format!("`{name}` belongs {}; keys here are {all}", inside(home))
+            } else if let Some(near) = nearest(name, keys.iter().map(|k| k.name)) {
+                mistyped.push(near);
+                format!("did you mean `{near}`? keys here are {all}")
+            } else {
+                format!("keys here are {all}")
+            };
+            self.issue(key.span(), message).help(help);
+        }
+        Section { label, span, table, keys, mistyped }
+    }
+
+    /// The value of a key that has to be there.
+    pub(super) fn required<'v>(&mut self, section: &Section<'v>, key: &str) -> Option<&'v Value<'v>> {
+        let value = section.get(key);
+        if value.is_none() && !section.mistyped(&[key]) {
+            let owner = if section.label == TOP { "the file" } else { section.label() };
+            let issue = self.issue(section.span.clone(), format!("{owner} has no `{key}`"));
+            if let Some(known) = section.keys.iter().find(|known| known.name == key) {
+                issue.help(format!("add it, for example `{}`", known.example));
+            }
+        }
+        value
+    }
+
+    /// Reports that a value has another type than is needed.
+    pub(super) fn wrong_type(&mut self, label: &str, needed: &str, value: &Value) -> &mut Issue {
+        let given = a_type(value.get_ref());
+        self.issue(value.span(), format!("{label} is {given}, it must be {needed}"))
+    }
+
+    /// A number within the limits. `label` is the key in backticks, or says which element.
+    pub(super) fn number(&mut self, label: &str, sign: Sign, value: &Value) -> Option<f64> {
+        let number = match value.get_ref() {
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            // Through text, so that any length is read; a hexadecimal mass is odd but legal.
+            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+            DeValue::Integer(integer) => {
+                i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64)
+            }
+            other => {
+                let quoted_number = matches!(other, DeValue::String(s) if s.trim().parse::<f64>().is_ok());
+                let issue = self.wrong_type(label, "a number", value);
+                if quoted_number {
+                    issue.help("remove the quotes");
+                }
+                return None;
+            }
+        };
+        // Only digits beyond i128 fail to parse here.
+        let number: f64 = number.unwrap_or(f64::INFINITY);
+        let limit = if number.is_nan() || (number.is_infinite() && self.written(value.span()).contains("inf")) {
+            Some("it must be finite".to_owned())
+        } else if number.abs() > LARGEST {
+            Some(format!("the limit is {LARGEST:e} in magnitude"))
+        } else if sign == Sign::Positive && number <= 0.0 {
+            Some("it must be positive".to_owned())
+        } else if sign == Sign::NotNegative && number < 0.0 {
+            Some("it must not be negative".to_owned())
+        } else if sign != Sign::Any && number != 0.0 && number < SMALLEST {
+            let or_zero = if sign == Sign::NotNegative { "zero or " } else { "" };
+            Some(format!("it must be {or_zero}at least {SMALLEST:e}"))
+        } else {
+            None
+        };
+        if let Some(limit) = limit {
+            let written = self.written(value.span());
+            self.issue(value.span(), format!("{label} is {written}, {limit}"));
+            return None;
+        }
+        Some(number)
+    }
+
+    /// The three elements of an array; `needed` says what they are.
+    pub(super) fn three<'v>(&mut self, label: &str, needed: &str, value: &'v Value<'v>) -> Option<[&'v Value<'v>; 3]> {
+        let DeValue::Array(array) = value.get_ref() else {
+            self.wrong_type(label, needed, value);
+            return None;
+        };
+        let elements: Vec<&Value> = array.iter().collect();
+        let Ok(three) = <[&Value; 3]>::try_from(elements) else {
+            let count = array.len();
+            let elements = if count == 1 { "element" } else { "elements" };
+            self.issue(value.span(), format!("{label} has {count} {elements} where {needed} are needed"));
+            return None;
+        };
+        Some(three)
+    }
+
+    /// Three numbers. Every wrong element is reported.
+    pub(super) fn three_numbers(&mut self, label: &str, sign: Sign, values: [&Value; 3]) -> Option<[f64; 3]> {
+        let mut number = |i: usize| self.number(&format!("number {} of {label}", i + 1), sign, values[i]);
+        let [x, y, z] = [number(0), number(1), number(2)];
+        Some([x?, y?, z?])
+    }
+
+    /// A vector in space.
+    pub(super) fn vector(&mut self, key: &str, unit: &str, value: &Value) -> Option<[f64; 3]> {
+        let label = format!("`{key}`");
+        let three = self.three(&label, &format!("three numbers [x, y, z] in {unit}"), value)?;
+        self.three_numbers(&label, Sign::Any, three)
+    }
+
+    /// Text.
+    pub(super) fn text(&mut self, key: &str, value: &Value) -> Option<String> {
+        let DeValue::String(text) = value.get_ref() else {
+            self.wrong_type(&format!("`{key}`"), "text in quotes", value);
+            return None;
+        };
+        Some(text.clone().into_owned())
+    }
+
+    /// Text that may have several lines.
+    pub(super) fn prose(&mut self, key: &str, value: &Value) -> Option<String> {
+        let text = self.text(key, value)?;
+        let bad = text.chars().find(|&c| breaks_tables(c) && !matches!(c, '\n' | '\r' | '\t'));
+        self.without(bad, key, value.span())?;
+        Some(text)
+    }
+
+    /// Text that names something in tables and on the command line: not blank, no control characters.
+    pub(super) fn name(&mut self, key: &str, value: &Value) -> Option<String> {
+        let text = self.text(key, value)?;
+        self.check_name(key, &text, value.span())?;
+        Some(text)
+    }
+
+    /// The check of [`name`](Self::name), also for names that are keys.
+    pub(super) fn check_name(&mut self, key: &str, name: &str, span: Range<usize>) -> Option<()> {
+        if name.trim().is_empty() {
+            self.issue(span, format!("`{key}` is empty"));
+            return None;
+        }
+        self.without(name.chars().find(|&c| breaks_tables(c)), key, span)
+    }
+
+    /// Reports a character that must not be there.
+    fn without(&mut self, bad: Option<char>, key: &str, span: Range<usize>) -> Option<()> {
+        let Some(bad) = bad else { return Some(()) };
+        let code = u32::from(bad);
+        self.issue(span, format!("`{key}` holds the control character U+{code:04X}, which would break tables"))
+            .help("remove it");
+        None
+    }
+
+    /// A table; `header` is how the file writes it.
+    pub(super) fn table<'v>(&mut self, key: &str, header: &str, value: &'v Value<'v>) -> Option<&'v DeTable<'v>> {
+        let DeValue::Table(table) = value.get_ref() else {
+            self.wrong_type(&format!("`{key}`"), &format!("a table, {header}"), value);
+            return None;
+        };
+        Some(table)
+    }
+}
+
+/// A table's label, as the place of a key.
+fn inside(label: &str) -> String {
+    format!("{} {label}", if label == TOP { "at" } else { "in" })
+}
+
+/// Whether all three are zero, of either sign.
+pub(super) fn is_zero(vector: &[f64; 3]) -> bool {
+    vector.iter().all(|number| *number == 0.0)
+}
+
+/// Control characters, and those that turn or hide text in a terminal.
+fn breaks_tables(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+}
+
+/// The known word nearest to `word`, if one is near; none for text that is too long for a name.
+pub(super) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&'k str> {
+    let likeness = |k: &str| strsim::jaro_winkler(&word.to_lowercase(), &k.to_lowercase());
+    known
+        .filter(|k| word.len().max(k.len()) <= 100)
+        .map(|k| (likeness(k), k))
+        .filter(|(alike, _)| *alike >= ALIKE)
+        // The first of equals, so that the answer does not depend on the order of comparison.
+        .fold(None, |best: Option<(f64, &str)>, (alike, k)| match best {
+            Some((most, _)) if most >= alike => best,
+            _ => Some((alike, k)),
+        })
+        .map(|(_, k)| k)
+}
+
+/// The user's text for a message: escaped, and cut where it is long.
+pub(super) fn shortened(text: &str) -> String {
+    let mut shown: String = text.chars().take(QUOTED).flat_map(char::escape_debug).collect();
+    if text.chars().nth(QUOTED).is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
+/// The type of a value, with its article.
+fn a_type(value: &DeValue) -> &'static str {
+    match value {
+        DeValue::String(_) => "text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "an array",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_near_key_is_suggested_and_a_far_one_is_not() {
+        let keys = || super::super::platform::KEYS.iter().map(|k| k.name);
+        assert_eq!(nearest("mas", keys()), Some("mass_kg"));
+        assert_eq!(nearest("mass", keys()), Some("mass_kg"));
+        assert_eq!(nearest("Mass_kg", keys()), Some("mass_kg"));
+        assert_eq!(nearest("inertia", keys()), Some("inertia_kg_m2"));
+        assert_eq!(nearest("centre_of_mass_m", keys()), Some("center_of_mass_m"));
+        assert_eq!(nearest("", keys()), None);
+        assert_eq!(nearest("colour", keys()), None);
+        assert!(strsim::jaro_winkler("mass_kg_per_m", "name") < ALIKE);
+    }
+
+    #[test]
+    fn numbers_are_read_in_every_notation_of_toml() {
+        let text = "a = [1_000, +2.5, 0x1F, 1e-3, -0.0]";
+        let root = DeTable::parse(text).unwrap();
+        let DeValue::Array(array) = root.get_ref()["a"].get_ref() else { panic!() };
+        let mut reader = Reader::new(text);
+        let numbers: Vec<_> = array.iter().map(|v| reader.number("`a`", Sign::Any, v).unwrap()).collect();
+        assert_eq!(numbers, [1000.0, 2.5, 31.0, 1e-3, 0.0]);
+    }
+
+    #[test]
+    fn long_and_strange_text_is_cut_and_escaped() {
+        assert_eq!(shortened("a\u{1b}[31m"), "a\\u{1b}[31m");
+        assert_eq!(shortened(&"x".repeat(100)).chars().count(), QUOTED + 1);
+    }
+}
