@@ -186,7 +186,8 @@ impl EndStiffness {
         let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
         let sag = Sag::of(robot, i, state);
         let tense = sag.tension > 0.0;
-        let without_b = |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
+        let without_b =
+            |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
         match model {
             CableModel::Spring if state.is_slack() => Some(Self::Constant(Mat3::zeros())),
             CableModel::Spring => Some(Self::Constant(spring::stiffness(&sag).in_world(&axes))),

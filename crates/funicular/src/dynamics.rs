@@ -186,8 +186,7 @@ impl Dynamics {
         for term in &self.terms {
             let m = term.form.moving_mass(omega);
             let (a, n, b) = (term.along.dot(x), term.normal.dot(x), term.out.dot(x));
-            cables[term.cable] =
-                m.axial * a * a + 2.0 * m.coupling * a * n + m.normal * n * n + m.out_of_plane * b * b;
+            cables[term.cable] = m.axial * a * a + 2.0 * m.coupling * a * n + m.normal * n * n + m.out_of_plane * b * b;
         }
         (platform, cables)
     }

@@ -5,5 +5,6 @@ pub mod catenary;
 pub mod dynamics;
 pub mod math;
 pub mod modes;
+pub mod response;
 pub mod robot;
 pub mod statics;

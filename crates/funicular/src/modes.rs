@@ -180,7 +180,11 @@ impl List<'_> {
             let count_low = self.dynamics.modes_below(low);
             while high - low > 4.0 * f64::EPSILON * high {
                 let middle = 0.5 * (low + high);
-                if self.dynamics.modes_below(middle) > count_low { high = middle } else { low = middle }
+                if self.dynamics.modes_below(middle) > count_low {
+                    high = middle
+                } else {
+                    low = middle
+                }
                 if middle <= low && middle >= high {
                     break;
                 }

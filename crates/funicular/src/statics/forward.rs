@@ -276,7 +276,15 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
     }
     let ell = robot.platform_length();
     let n = robot.platform.freedoms.count();
-    let right = Vec6::from_fn(|i, _| if i < 3 { -load[i] } else if i < n { -load[i] / ell } else { 0.0 });
+    let right = Vec6::from_fn(|i, _| {
+        if i < 3 {
+            -load[i]
+        } else if i < n {
+            -load[i] / ell
+        } else {
+            0.0
+        }
+    });
     let columns = unit_wrenches(robot, pose, ell);
     let singular = columns.svd(false, false).singular_values;
     if singular.min() < 1e-10 * singular.max() {

@@ -76,11 +76,9 @@ fn hang_all(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> 
 fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, StaticsError> {
     let ell = robot.platform_length();
     let count = robot.cables.len();
-    let chords: Vec<f64> =
-        robot.cables.iter().map(|c| (c.anchor_w - pose.point_w(&c.attachment_p)).norm()).collect();
-    let weights: Vec<f64> = (0..count)
-        .map(|i| chords[i] * robot.cables[i].material.mass_per_length * robot.gravity_w.norm())
-        .collect();
+    let chords: Vec<f64> = robot.cables.iter().map(|c| (c.anchor_w - pose.point_w(&c.attachment_p)).norm()).collect();
+    let weights: Vec<f64> =
+        (0..count).map(|i| chords[i] * robot.cables[i].material.mass_per_length * robot.gravity_w.norm()).collect();
     let mut lengths = chords.clone();
     for i in 0..count {
         // A cable that straight statics finds pushing starts as a deeply sagging one.

@@ -15,8 +15,10 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
     // Point-like platform: Σ|p − B|²/n = |p − B̄|² + Σ|B − B̄|²/n = Σ L²/n.
     let spread = robot.cables.iter().map(|c| (c.anchor_w - anchors).norm_squared()).sum::<f64>() / n;
     let reach = lengths.iter().map(|l| l * l).sum::<f64>() / n - spread;
-    let mut pose =
-        Pose { position_w: anchors - up_w * reach.max(0.0).sqrt() - attachments, rot_wp: crate::math::Rotation::identity() };
+    let mut pose = Pose {
+        position_w: anchors - up_w * reach.max(0.0).sqrt() - attachments,
+        rot_wp: crate::math::Rotation::identity(),
+    };
     let ell = robot.platform_length();
     let freedoms = robot.platform.freedoms;
     let mut damping = 1e-3;

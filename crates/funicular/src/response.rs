@@ -1,0 +1,138 @@
+//! Frequency responses of the platform: receptance, mobility, accelerance; and their peaks.
+//!
+//! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are worked on side by side in vector registers
+//! ([`kernel`]); the plain version, [`receptance`], is its oracle and takes over where it is not accurate.
+
+mod kernel;
+mod lanes;
+mod peaks;
+
+pub use peaks::{Peak, peaks};
+
+use crate::dynamics::Dynamics;
+use crate::math::{CMat6, Complex, Vec3, Vec6};
+use crate::robot::Pose;
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// What is measured of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Displacement [m] or rotation [rad].
+    Displacement,
+    /// Velocity [m/s] or angular velocity [rad/s].
+    Velocity,
+    /// Acceleration [m/s²] or angular acceleration [rad/s²].
+    Acceleration,
+}
+
+/// Where and along what a force acts or a motion is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Direction {
+    /// A force on, or a translation of, a platform point along a direction in world axes (normalised on use).
+    Along {
+        /// Direction, world axes.
+        direction_w: Vec3,
+        /// The point, platform frame [m].
+        point_p: Vec3,
+    },
+    /// A moment on, or a rotation of, the platform about a direction in world axes.
+    About {
+        /// Axis, world axes.
+        axis_w: Vec3,
+    },
+}
+
+impl Direction {
+    /// The 6-vector u with force `F = u f` and motion `uᵀ x`, about the platform origin, at a pose.
+    pub fn vector(&self, pose: &Pose) -> Vec6 {
+        match self {
+            Self::Along { direction_w, point_p } => {
+                let u = direction_w.normalize();
+                let moment = (pose.rot_wp * point_p).cross(&u);
+                Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
+            }
+            Self::About { axis_w } => {
+                let u = axis_w.normalize();
+                Vec6::new(0.0, 0.0, 0.0, u.x, u.y, u.z)
+            }
+        }
+    }
+}
+
+/// Why there is no response.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ResponseError {
+    /// An undamped robot at its natural frequency.
+    #[error(
+        "the response at {frequency_hz} Hz is not finite: an undamped natural frequency lies there; give the ropes \
+         damping or choose other frequencies"
+    )]
+    Resonance {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+    },
+}
+
+/// Response of one output to one input at each frequency [Hz]: motion per force [m/N] or moment, and so on by the
+/// kinds of both.
+///
+/// `input` and `output` come from [`Direction::vector`].
+///
+/// # Errors
+/// [`ResponseError::Resonance`] where an undamped robot has no finite response.
+///
+/// # References
+/// The paper's equation (15); docs/theory.md, equation (31).
+pub fn frf(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    input: &Vec6,
+    output: &Vec6,
+    quantity: Quantity,
+) -> Result<Vec<Complex>, ResponseError> {
+    let mut values = kernel::one_entry(dynamics, frequencies_hz, input, output);
+    for (value, &frequency_hz) in values.iter_mut().zip(frequencies_hz) {
+        let omega = frequency_hz * TAU;
+        *value = match quantity {
+            Quantity::Displacement => *value,
+            Quantity::Velocity => *value * Complex::new(0.0, omega),
+            Quantity::Acceleration => *value * -(omega * omega),
+        };
+        if !(value.re.is_finite() && value.im.is_finite()) {
+            return Err(ResponseError::Resonance { frequency_hz });
+        }
+    }
+    Ok(values)
+}
+
+/// Receptance of all six motions to all six wrench components at each frequency [Hz], about the platform origin, world
+/// axes [m/N, rad/N, m/(N·m), rad/(N·m)]; symmetric.
+///
+/// # Errors
+/// [`ResponseError::Resonance`] where an undamped robot has no finite response.
+pub fn receptances(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<CMat6>, ResponseError> {
+    let all = kernel::all_entries(dynamics, frequencies_hz);
+    match all.iter().position(|x| !x.iter().all(|v| v.re.is_finite() && v.im.is_finite())) {
+        Some(i) => Err(ResponseError::Resonance { frequency_hz: frequencies_hz[i] }),
+        None => Ok(all),
+    }
+}
+
+/// Receptance at one angular frequency ω [rad/s], by elimination with pivots; not finite at an undamped resonance.
+///
+/// Freedoms that the platform lacks have zero rows and columns.
+pub fn receptance(dynamics: &Dynamics, omega: f64) -> CMat6 {
+    let mut d = dynamics.scaled_stiffness(omega) - dynamics.mass.map(|m| Complex::new(m * omega * omega, 0.0));
+    for i in dynamics.freedoms..6 {
+        d.row_mut(i).fill(Complex::new(0.0, 0.0));
+        d.column_mut(i).fill(Complex::new(0.0, 0.0));
+        d[(i, i)] = Complex::new(1.0, 0.0);
+    }
+    let mut inverse = d.try_inverse().unwrap_or_else(|| CMat6::repeat(Complex::new(f64::INFINITY, 0.0)));
+    for i in dynamics.freedoms..6 {
+        inverse[(i, i)] = Complex::new(0.0, 0.0);
+    }
+    let scale = dynamics.scale();
+    CMat6::from_fn(|i, j| inverse[(i, j)] / (scale[i] * scale[j]))
+}

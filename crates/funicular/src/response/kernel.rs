@@ -1,0 +1,281 @@
+//! Receptance at many frequencies, [`LANES`] of them side by side.
+
+use super::lanes::{Complexes, LANES, Reals, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
+use super::receptance;
+use crate::cable::closed_form::{self, ClosedForm, Entire, SERIES_BELOW};
+use crate::cable::damped_square;
+use crate::dynamics::Dynamics;
+use crate::math::{CMat6, Complex, Vec6};
+use std::array::from_fn;
+use std::f64::consts::TAU;
+
+/// Lower triangle by columns: entry (i, j), i ≥ j.
+const fn at(i: usize, j: usize) -> usize {
+    j * 6 - j * (j + 1) / 2 + i
+}
+
+/// A pivot below this part of the largest diagonal entry sends its lane to the plain version. Elimination without
+/// exchange then keeps at least ten digits; seen with damping 0.003: no lane in 10⁶.
+const LEAST_PIVOT: f64 = 1e-6;
+
+/// A cable's projections, ready to be multiplied: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ.
+struct Products {
+    axial: [f64; 21],
+    coupling: [f64; 21],
+    normal: [f64; 21],
+    out: [f64; 21],
+}
+
+struct Prepared<'a> {
+    dynamics: &'a Dynamics,
+    constant: [f64; 21],
+    mass: [f64; 21],
+    products: Vec<Products>,
+}
+
+impl<'a> Prepared<'a> {
+    fn new(dynamics: &'a Dynamics) -> Self {
+        let lower = |f: &dyn Fn(usize, usize) -> f64| {
+            let mut entries = [0.0; 21];
+            for j in 0..6 {
+                for i in j..6 {
+                    entries[at(i, j)] = f(i, j);
+                }
+            }
+            entries
+        };
+        let lacking = |i: usize| i >= dynamics.freedoms;
+        // Freedoms that the platform lacks get a unit diagonal and nothing else.
+        let constant = lower(&|i, j| match (lacking(i) || lacking(j), i == j) {
+            (true, true) => 1.0,
+            (true, false) => 0.0,
+            _ => dynamics.constant[(i, j)],
+        });
+        let products = dynamics
+            .terms
+            .iter()
+            .map(|term| {
+                let cut = |v: &Vec6| Vec6::from_fn(|i, _| if lacking(i) { 0.0 } else { v[i] });
+                let (a, n, b) = (cut(&term.along), cut(&term.normal), cut(&term.out));
+                Products {
+                    axial: lower(&|i, j| a[i] * a[j]),
+                    coupling: lower(&|i, j| a[i] * n[j] + n[i] * a[j]),
+                    normal: lower(&|i, j| n[i] * n[j]),
+                    out: lower(&|i, j| b[i] * b[j]),
+                }
+            })
+            .collect();
+        Self { dynamics, constant, mass: lower(&|i, j| dynamics.mass[(i, j)]), products }
+    }
+
+    /// D(ω) of each lane, lower triangle.
+    #[inline(always)]
+    fn dynamic_stiffness(&self, omega: &Reals) -> [Complexes; 21] {
+        let mut d: [Complexes; 21] = from_fn(|k| Complexes {
+            re: from_fn(|i| self.constant[k] - self.mass[k] * (omega[i] * omega[i])),
+            im: [0.0; LANES],
+        });
+        for (term, products) in self.dynamics.terms.iter().zip(&self.products) {
+            let of = entire(&term.form, omega);
+            let k = closed_form::stiffness(of, &term.form.sag);
+            if term.form.in_plane_only {
+                for (entry, d) in d.iter_mut().enumerate() {
+                    d.add_scaled(&k.axial, products.axial[entry]);
+                    d.add_scaled(&k.coupling, products.coupling[entry]);
+                    d.add_scaled(&k.normal, products.normal[entry]);
+                }
+            } else {
+                for (entry, d) in d.iter_mut().enumerate() {
+                    d.add_scaled(&k.axial, products.axial[entry]);
+                    d.add_scaled(&k.coupling, products.coupling[entry]);
+                    d.add_scaled(&k.normal, products.normal[entry]);
+                    d.add_scaled(&k.out_of_plane, products.out[entry]);
+                }
+            }
+        }
+        d
+    }
+}
+
+/// The closed form's functions of γ at each lane, divided by cosh Im √γ.
+#[inline(always)]
+fn entire(form: &ClosedForm, omega: &Reals) -> Entire<Complexes> {
+    let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        let (a, b) = damped_square(omega[i], form.damping, form.sag.mass_per_length);
+        re[i] = a * form.gamma_by_square;
+        im[i] = b * form.gamma_by_square;
+    }
+    let gamma = Complexes { re, im };
+    let h_re: Reals = from_fn(|i| (0.5 * ((re[i] * re[i] + im[i] * im[i]).sqrt() + re[i])).sqrt());
+    let h_im: Reals = from_fn(|i| 0.5 * im[i] / h_re[i]);
+    let ordinary = (0..LANES).all(|i| re[i] > SERIES_BELOW && h_re[i] < SIN_COS_LIMIT && h_im[i].abs() < TANH_LIMIT);
+    if !ordinary {
+        return entire_by_lane(gamma);
+    }
+    let (sine, cosine) = sin_cos(h_re);
+    let t = tanh(h_im);
+    let s = Complexes { re: sine, im: from_fn(|i| cosine[i] * t[i]) };
+    let c = Complexes { re: cosine, im: from_fn(|i| -sine[i] * t[i]) };
+    let sigma = s / Complexes { re: h_re, im: h_im };
+    Entire { gamma, c, sigma, q: (sigma - c) / gamma }
+}
+
+#[inline(never)]
+fn entire_by_lane(gamma: Complexes) -> Entire<Complexes> {
+    let mut of = Entire { gamma, c: Complexes::ZERO, sigma: Complexes::ZERO, q: Complexes::ZERO };
+    for i in 0..LANES {
+        let lane = Entire::complex(gamma.lane(i));
+        of.c.set_lane(i, lane.c);
+        of.sigma.set_lane(i, lane.sigma);
+        of.q.set_lane(i, lane.q);
+    }
+    of
+}
+
+/// `L D Lᵀ` in place: L below the diagonal, the pivots' inverses on it. Returns per lane whether every pivot was large
+/// enough.
+#[inline(always)]
+fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
+    let mut largest = [0.0_f64; LANES];
+    for k in 0..6 {
+        let n = d[at(k, k)].norm_sqr();
+        for i in 0..LANES {
+            largest[i] = largest[i].max(n[i]);
+        }
+    }
+    let mut least = [f64::INFINITY; LANES];
+    for k in 0..6 {
+        let n = d[at(k, k)].norm_sqr();
+        for i in 0..LANES {
+            least[i] = least[i].min(n[i]);
+        }
+        let inverse = d[at(k, k)].inverse();
+        d[at(k, k)] = inverse;
+        for j in k + 1..6 {
+            let factor = d[at(j, k)] * inverse;
+            for i in j..6 {
+                let product = d[at(i, k)] * factor;
+                d[at(i, j)] -= product;
+            }
+        }
+        for j in k + 1..6 {
+            d[at(j, k)] = d[at(j, k)] * inverse;
+        }
+    }
+    from_fn(|i| least[i] > LEAST_PIVOT * LEAST_PIVOT * largest[i])
+}
+
+/// `L⁻¹ v` for a real vector.
+#[inline(always)]
+fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
+    let mut z: [Complexes; 6] = from_fn(|i| Complexes::real(v[i]));
+    for j in 0..6 {
+        for i in j + 1..6 {
+            let product = l[at(i, j)] * z[j];
+            z[i] -= product;
+        }
+    }
+    z
+}
+
+/// `outputᵀ D⁻¹ input` at each frequency [Hz].
+pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
+    let prepared = Prepared::new(dynamics);
+    let scale = dynamics.scale();
+    // Motions and wrenches of lacking freedoms are not there; unit diagonals in D must not pass them through.
+    let vector = |v: &Vec6| from_fn(|i| if i < dynamics.freedoms { v[i] / scale[i] } else { 0.0 });
+    let (force, motion): ([f64; 6], [f64; 6]) = (vector(input), vector(output));
+    let mut values = vec![Complex::new(0.0, 0.0); frequencies_hz.len()];
+    pulp::Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
+                let omega = angular(block);
+                let mut d = prepared.dynamic_stiffness(&omega);
+                let accurate = factorise(&mut d);
+                let (z, y) = (forward(&d, &force), forward(&d, &motion));
+                let mut sum = Complexes::ZERO;
+                for i in 0..6 {
+                    sum += z[i] * y[i] * d[at(i, i)];
+                }
+                for (i, value) in values.iter_mut().enumerate() {
+                    *value = if accurate[i] { sum.lane(i) } else { plain(dynamics, omega[i], input, output) };
+                }
+            }
+        },
+    );
+    values
+}
+
+/// The whole receptance at each frequency [Hz].
+pub(super) fn all_entries(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Vec<CMat6> {
+    let prepared = Prepared::new(dynamics);
+    let scale = dynamics.scale();
+    let mut values = vec![CMat6::zeros(); frequencies_hz.len()];
+    pulp::Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
+                let omega = angular(block);
+                let mut d = prepared.dynamic_stiffness(&omega);
+                let accurate = factorise(&mut d);
+                let inverse = invert(&d);
+                for (i, value) in values.iter_mut().enumerate() {
+                    if !accurate[i] {
+                        *value = receptance(dynamics, omega[i]);
+                        continue;
+                    }
+                    for column in 0..dynamics.freedoms {
+                        for row in column..dynamics.freedoms {
+                            let entry = inverse[at(row, column)].lane(i) / (scale[row] * scale[column]);
+                            value[(row, column)] = entry;
+                            value[(column, row)] = entry;
+                        }
+                    }
+                }
+            }
+        },
+    );
+    values
+}
+
+/// `L⁻ᵀ D⁻¹ L⁻¹`, lower triangle, from [`factorise`].
+#[inline(always)]
+fn invert(l: &[Complexes; 21]) -> [Complexes; 21] {
+    // Columns of L⁻¹, below the unit diagonal.
+    let mut inverse = [Complexes::ZERO; 21];
+    for j in 0..6 {
+        inverse[at(j, j)] = Complexes::real(1.0);
+        for i in j + 1..6 {
+            let mut sum = l[at(i, j)];
+            for k in j + 1..i {
+                sum += l[at(i, k)] * inverse[at(k, j)];
+            }
+            inverse[at(i, j)] = sum * -1.0;
+        }
+    }
+    let mut result = [Complexes::ZERO; 21];
+    for j in 0..6 {
+        for i in j..6 {
+            let mut sum = Complexes::ZERO;
+            for k in i..6 {
+                sum += inverse[at(k, i)] * inverse[at(k, j)] * l[at(k, k)];
+            }
+            result[at(i, j)] = sum;
+        }
+    }
+    result
+}
+
+/// ω of a block; a short last block repeats its last frequency.
+#[inline(always)]
+fn angular(block: &[f64]) -> Reals {
+    from_fn(|i| block[i.min(block.len() - 1)] * TAU)
+}
+
+#[inline(never)]
+fn plain(dynamics: &Dynamics, omega: f64, input: &Vec6, output: &Vec6) -> Complex {
+    let x = receptance(dynamics, omega) * input.map(|v| Complex::new(v, 0.0));
+    (0..6).map(|i| x[i] * output[i]).sum()
+}
