@@ -2,6 +2,8 @@
 #![allow(missing_docs)]
 #![allow(clippy::excessive_precision)] // published values keep their digits
 
+mod cable;
 mod catenary;
 mod independent;
 mod robot_files;
+mod statics;
