@@ -64,9 +64,10 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     }
 }
 
-/// A solution that needs this many times the tension of straight cables, one of which would push, is none. Seen: below
-/// 3 where the pose can be held, above 5 beside the edge of what can.
-const OUT_OF_PROPORTION: f64 = 4.0;
+/// A solution that needs this many times the tension of straight cables, one of which would push, counts as none. In
+/// 15,000 such poses of the paper's robot the ratio runs from 1 through 2.5 (half of them) and 10 (all but 2 %) to 550
+/// beside singular poses.
+const OUT_OF_PROPORTION: f64 = 100.0;
 
 fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
