@@ -35,10 +35,13 @@ const IRVINE_CAUGHEY: [(f64, [f64; 4]); 23] = [
     (f64::INFINITY, [8.986818915818128, 15.450503673875414, 21.808243318857798, 28.132387825662946]),
 ];
 
+/// Real and imaginary part.
+type Pair = (f64, f64);
+
 /// The paper's Fig. 2 cable with 0.067 kg/m, closed form, mpmath: (frequency [Hz], ξ, k_a, coupling, k_c, k_o [N/m]) in
 /// axes whose chord runs from the fixed to the moving end, so that the coupling has the opposite sign of ours.
 #[rustfmt::skip]
-const FIG2_CLOSED_FORM: [(f64, f64, [(f64, f64); 4]); 24] = [
+const FIG2_CLOSED_FORM: [(f64, f64, [Pair; 4]); 24] = [
     (0.5, 0.0, [(22663.910702215, 0.0), (-18.445369190057, 0.0), (9.7955364669935, 0.0), (9.7805244221162, 0.0)]),
     (1.5, 0.0, [(19008.880981916, 0.0), (-209.26911431155, 0.0), (-4.9528576373572, 0.0), (-7.2567050993096, 0.0)]),
     (2.9, 0.0, [(-60419.879933241, 0.0), (-4296.1452717473, 0.0), (-233.72614153056, 0.0), (71.750536283932, 0.0)]),

@@ -194,11 +194,12 @@ fn any_robot() -> impl Strategy<Value = (Robot, Vec<f64>)> {
                 let inner = 2.7 * around;
                 let attachment = [radius * inner.cos(), radius * inner.sin(), z];
                 let chord = (Vec3::from(anchor) - Vec3::from(attachment)).norm();
-                text += &format!(
+                let cable = format!(
                     "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = \
                      {attachment:?}\nunstrained_length_m = {}\n",
                     chord * slack
                 );
+                text.push_str(&cable);
             }
             let robot = Robot::from_toml(&text).unwrap();
             let State::Lengths(lengths) = robot.state.clone() else { unreachable!() };
