@@ -47,8 +47,8 @@ pub enum Warning {
     },
 }
 
-/// Part of the first axial frequency up to which axial inertia counts as negligible: the axial stiffness is then
-/// (π/3)²/3, a third, too stiff at the limit for a taut cable, and 4 % at a third of that.
+/// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
+/// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
 pub const AXIAL_PART: f64 = 1.0 / 3.0;
 
 impl fmt::Display for Warning {
