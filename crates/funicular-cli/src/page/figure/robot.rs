@@ -1,0 +1,235 @@
+//! The robot in space: cables as they hang, to scale.
+
+use super::{Figure, colour, plain, rounded};
+use funicular::math::Vec3;
+use funicular::robot::Robot;
+use funicular::statics::{CableState, Equilibrium};
+use serde_json::{Value, json};
+
+/// Points drawn along a cable; its curve is smooth, and a straight cable needs two.
+const SAMPLES: u32 = 48;
+/// Cables of one colour each; further ones begin again.
+const CABLE_COLOURS: [&str; 7] = [
+    colour::BLUE,
+    colour::VERMILION,
+    colour::GREEN,
+    colour::PURPLE,
+    colour::ORANGE,
+    colour::SKY,
+    colour::BLACK,
+];
+
+/// The whole robot.
+pub fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+    let mut data: Vec<Value> = equilibrium
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, state)| {
+            let hover = format!(
+                "cable {}<br>{:.4} m unstrained<br>{:.2} N at the platform<extra></extra>",
+                plain(&robot.cables[i].name),
+                state.unstrained_length,
+                state.tension_platform
+            );
+            cable_line(i, &curve(state, state.unstrained_length), &hover)
+        })
+        .collect();
+    let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
+    let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
+    let reach = extent(&anchors);
+    data.push(labelled(&anchors, &names, &sides(&anchors, reach), colour::BLACK, "square", "anchor"));
+    data.extend(platform(robot, equilibrium, false));
+    let lowest = anchors.iter().map(|a| a.z).fold(equilibrium.pose.position_w.z, f64::min);
+    let highest = anchors.iter().map(|a| a.z).fold(equilibrium.pose.position_w.z, f64::max);
+    let mut scene = scene();
+    // The floor: z = 0 when the robot stands above it, else a little below the robot.
+    let floor = if lowest >= 0.0 { 0.0 } else { lowest - 0.05 * reach };
+    scene["zaxis"]["range"] = json!([floor, highest + 0.06 * reach]);
+    Figure::new(
+        "figure-robot",
+        470,
+        "The robot at its equilibrium, all three axes to one scale. Lines are the cables as they hang, squares the anchors \
+         with the cables' names, the dark body the attachments. Drag to turn, scroll to come nearer, point at a cable for \
+         its length and tension.",
+        &data,
+        json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+    )
+}
+
+/// The platform and the beginnings of its cables.
+pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+    let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
+    let reach = extent(&attachments).max(0.2);
+    let mut data: Vec<Value> = equilibrium
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, state)| {
+            let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
+            let part = (0.6 * reach / state.chord()).min(1.0);
+            cable_line(i, &curve(state, part * state.unstrained_length), &hover)
+        })
+        .collect();
+    data.extend(platform(robot, equilibrium, true));
+    let origin = equilibrium.pose.position_w;
+    for (k, (name, colour)) in
+        [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
+    {
+        let mut unit = Vec3::zeros();
+        unit[k] = 0.3 * reach;
+        let tip = origin + equilibrium.pose.rot_wp * unit;
+        data.push(json!({
+            "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]), "y": rounded(&[origin.y, tip.y]),
+            "z": rounded(&[origin.z, tip.z]), "line": {"color": colour, "width": 5}, "text": ["", name],
+            "textfont": {"color": colour, "size": 13}, "hoverinfo": "skip",
+        }));
+    }
+    Figure::new(
+        "figure-platform",
+        470,
+        "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
+         first stretch of each cable.",
+        &data,
+        json!({"scene": scene(), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+    )
+}
+
+fn scene() -> Value {
+    let axis = |title: &str, plane: bool| {
+        json!({
+            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 7, "showbackground": plane,
+            "backgroundcolor": "#f3f4f5", "gridcolor": "#d9d9d9", "zeroline": false, "showspikes": false,
+        })
+    };
+    json!({
+        "aspectmode": "data",
+        // From a side, a little above: the sag shows in the vertical, and parallel lines stay parallel.
+        "camera": {"eye": {"x": 0.75, "y": -1.65, "z": 0.55}, "center": {"x": 0, "y": 0, "z": -0.08}, "projection": {"type": "orthographic"}},
+        "xaxis": axis("x [m]", false), "yaxis": axis("y [m]", false), "zaxis": axis("z [m]", true),
+    })
+}
+
+/// Points of a cable from the attachment up to an unstrained arc length.
+fn curve(state: &CableState, up_to: f64) -> Vec<Vec3> {
+    match &state.hanging {
+        Some(hanging) => (0..=SAMPLES).map(|k| hanging.point_w(up_to * f64::from(k) / f64::from(SAMPLES))).collect(),
+        None => {
+            let part = up_to / state.unstrained_length;
+            vec![state.attachment_w, state.attachment_w + (state.anchor_w - state.attachment_w) * part]
+        }
+    }
+}
+
+fn coordinates(points: &[Vec3]) -> [Vec<Option<f64>>; 3] {
+    [0, 1, 2].map(|k| rounded(&points.iter().map(|p| p[k]).collect::<Vec<_>>()))
+}
+
+fn cable_line(i: usize, points: &[Vec3], hover: &str) -> Value {
+    let [x, y, z] = coordinates(points);
+    json!({
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "hovertemplate": hover,
+        "line": {"color": CABLE_COLOURS[i % CABLE_COLOURS.len()], "width": 4},
+    })
+}
+
+fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, symbol: &str, what: &str) -> Value {
+    let [x, y, z] = coordinates(points);
+    let hover: Vec<String> = names.iter().map(|name| format!("{what} of cable {name}")).collect();
+    json!({
+        "type": "scatter3d", "mode": "markers+text", "x": x, "y": y, "z": z, "text": names, "textposition": sides,
+        "textfont": {"size": 12}, "marker": {"color": colour, "symbol": symbol, "size": 4}, "hovertext": hover,
+        "hovertemplate": "%{hovertext}<br>(%{x:.4f}, %{y:.4f}, %{z:.4f}) m<extra></extra>",
+    })
+}
+
+/// Where each point's name goes: below the point when another one is close above it, else above. Points that coincide
+/// take turns, so that their names stand side by side.
+fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
+    const COINCIDING: [&str; 4] = ["middle left", "middle right", "top center", "bottom center"];
+    points
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let same = points[..i].iter().filter(|q| (*q - p).norm() < 0.01 * reach).count();
+            let crowded = points.iter().any(|q| q.z - p.z > 0.01 * reach && (q - p).norm() < 0.12 * reach);
+            match (same, crowded) {
+                (0, false) => "top center",
+                (0, true) => "bottom center",
+                _ => COINCIDING[same % COINCIDING.len()],
+            }
+        })
+        .collect()
+}
+
+/// The body between the attachments and its centre of mass; `names` adds those of the attachments.
+fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value> {
+    let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
+    let com = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
+    let reach = extent(&attachments);
+    let mut data = Vec::new();
+    if reach > 0.0 {
+        data.push(body(&attachments, reach));
+        if names {
+            let labels: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
+            let places = sides(&attachments, reach);
+            data.push(labelled(&attachments, &labels, &places, "#333333", "circle", "attachment"));
+        }
+    }
+    let hover = format!(
+        "centre of mass, {:.2} kg<br>(%{{x:.4f}}, %{{y:.4f}}, %{{z:.4f}}) m<extra></extra>",
+        robot.platform.mass
+    );
+    data.push(json!({
+        "type": "scatter3d", "mode": "markers", "x": [com.x], "y": [com.y], "z": [com.z],
+        "marker": {"color": colour::BLACK, "symbol": "diamond", "size": if names { 5 } else { 3 }}, "hovertemplate": hover,
+    }));
+    data
+}
+
+/// The attachments as a body: a polygon if they lie in a plane, else their convex hull.
+fn body(points: &[Vec3], reach: f64) -> Value {
+    let [x, y, z] = coordinates(points);
+    let mut mesh = json!({
+        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true, "hoverinfo": "skip",
+    });
+    match polygon(points, reach) {
+        Some(order) => {
+            let (first, rest) = (order[0], &order[1..]);
+            mesh["i"] = json!(vec![first; rest.len().saturating_sub(1)]);
+            mesh["j"] = json!(&rest[..rest.len().saturating_sub(1)]);
+            mesh["k"] = json!(&rest[1.min(rest.len())..]);
+        }
+        None => mesh["alphahull"] = json!(0),
+    }
+    mesh
+}
+
+/// The order of points in a plane around their centre; none if they lie in no plane.
+fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
+    let centre = points.iter().sum::<Vec3>() / points.len() as f64;
+    let spokes: Vec<Vec3> = points.iter().map(|p| p - centre).collect();
+    let along = spokes.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?.normalize();
+    let normal = spokes.iter().map(|s| along.cross(s)).max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+    if normal.norm() < 1e-6 * reach {
+        return Some((0..points.len()).collect());
+    }
+    let normal = normal.normalize();
+    if spokes.iter().any(|s| s.dot(&normal).abs() > 1e-3 * reach) {
+        return None;
+    }
+    let across = normal.cross(&along);
+    let angle = |i: usize| spokes[i].dot(&across).atan2(spokes[i].dot(&along));
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+    Some(order)
+}
+
+/// Diagonal of the box around points [m].
+fn extent(points: &[Vec3]) -> f64 {
+    let span = |k: usize| {
+        let values = || points.iter().map(|p| p[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    Vec3::new(span(0), span(1), span(2)).norm()
+}
