@@ -81,7 +81,7 @@ pub fn with(mut base: Value, over: Value) -> Value {
 /// A Cartesian axis with a title.
 pub fn axis(title: &str, more: Value) -> Value {
     let base = json!({
-        "title": {"text": title, "standoff": 8}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
+        "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
         "gridcolor": "#ebebeb", "zeroline": false, "mirror": true,
     });
     with(base, more)

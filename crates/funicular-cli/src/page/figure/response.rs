@@ -132,7 +132,7 @@ pub fn figure(id: &'static str, caption: String, unit: &str, below_hz: f64, curv
         .map(|peak| {
             json!({
                 "x": peak.frequency_hz, "y": peak.magnitude.log10(), "text": format!("{:.2}", peak.frequency_hz), "textangle": -90,
-                "showarrow": false, "yanchor": "bottom", "yshift": 3, "font": {"size": 11, "color": curves[0].style.0},
+                "showarrow": false, "yanchor": "bottom", "yshift": 3, "bgcolor": "rgba(255,255,255,0.75)", "borderpad": 0, "font": {"size": 11, "color": curves[0].style.0},
             })
         })
         .collect();
@@ -150,7 +150,7 @@ pub fn figure(id: &'static str, caption: String, unit: &str, below_hz: f64, curv
     let (magnitude, phase, strip) =
         if marks.phase { ([0.45, 1.0], [0.13, 0.4], [0.0, 0.07]) } else { ([0.16, 1.0], [0.0, 0.1], [0.0, 0.09]) };
     let mut layout = json!({
-        "xaxis": axis("frequency [Hz]", json!({"range": [0, below_hz], "anchor": "y3"})),
+        "xaxis": axis("frequency [Hz]", json!({"range": [0, below_hz], "anchor": "y3", "mirror": "all"})),
         "yaxis": axis(&format!("magnitude [{unit}]"), json!({
             "type": "log", "domain": magnitude, "exponentformat": "power", "dtick": 1, "range": [low - 0.3 * room, high + room],
         })),
@@ -164,6 +164,7 @@ pub fn figure(id: &'static str, caption: String, unit: &str, below_hz: f64, curv
         layout["yaxis2"] =
             axis("phase [°]", json!({"domain": phase, "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]}));
     }
+    layout["margin"] = json!({"l": 78});
     Figure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
 }
 

@@ -48,7 +48,7 @@ pub fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     scene["zaxis"]["range"] = json!([floor, highest + 0.06 * reach]);
     Figure::new(
         "figure-robot",
-        470,
+        400,
         "The robot at its equilibrium, all three axes to one scale. Lines are the cables as they hang, squares the anchors \
          with the cables' names, the dark body the attachments. Drag to turn, scroll to come nearer, point at a cable for \
          its length and tension.",
@@ -87,7 +87,7 @@ pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     }
     Figure::new(
         "figure-platform",
-        470,
+        400,
         "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
          first stretch of each cable.",
         &data,
@@ -105,7 +105,7 @@ fn scene() -> Value {
     json!({
         "aspectmode": "data",
         // From a side, a little above: the sag shows in the vertical, and parallel lines stay parallel.
-        "camera": {"eye": {"x": 0.75, "y": -1.65, "z": 0.55}, "center": {"x": 0, "y": 0, "z": -0.08}, "projection": {"type": "orthographic"}},
+        "camera": {"eye": {"x": 0.7, "y": -1.65, "z": 0.5}, "center": {"x": 0.03, "y": 0, "z": -0.05}, "projection": {"type": "orthographic"}},
         "xaxis": axis("x [m]", false), "yaxis": axis("y [m]", false), "zaxis": axis("z [m]", true),
     })
 }
