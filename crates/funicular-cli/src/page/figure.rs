@@ -39,6 +39,8 @@ pub struct Figure {
     height: usize,
     caption: String,
     json: String,
+    /// A view in space.
+    scene: bool,
 }
 
 impl Figure {
@@ -53,10 +55,11 @@ impl Figure {
             "hovermode": "closest",
             "autosize": true,
         });
+        let scene = layout.get("scene").is_some();
         merge(&mut full, layout);
         // Inside a script element only `<` can end it or open a comment; it occurs in strings alone.
         let json = json!({"data": data, "layout": full}).to_string().replace('<', "\\u003c");
-        Self { id, height, caption: caption.into(), json }
+        Self { id, height, caption: caption.into(), json, scene }
     }
 }
 

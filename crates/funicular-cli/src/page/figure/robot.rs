@@ -38,11 +38,14 @@ pub fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
     let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
     let reach = extent(&anchors);
-    data.push(labelled(&anchors, &names, &sides(&anchors, reach), colour::BLACK, "square", "anchor"));
+    let places = sides(&anchors, reach);
+    let mut trace = labelled(&anchors, &names, &places, colour::BLACK, "square", "anchor");
+    trace["text"] = json!(joined(&anchors, &names, &places, reach));
+    data.push(trace);
     data.extend(platform(robot, equilibrium, false));
     let lowest = anchors.iter().map(|a| a.z).fold(equilibrium.pose.position_w.z, f64::min);
     let highest = anchors.iter().map(|a| a.z).fold(equilibrium.pose.position_w.z, f64::max);
-    let mut scene = scene();
+    let mut scene = scene(0.85);
     // The floor: z = 0 when the robot stands above it, else a little below the robot.
     let floor = if lowest >= 0.0 { 0.0 } else { lowest - 0.05 * reach };
     scene["zaxis"]["range"] = json!([floor, highest + 0.06 * reach]);
@@ -77,7 +80,7 @@ pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
     {
         let mut unit = Vec3::zeros();
-        unit[k] = 0.3 * reach;
+        unit[k] = 0.22 * reach;
         let tip = origin + equilibrium.pose.rot_wp * unit;
         data.push(json!({
             "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]), "y": rounded(&[origin.y, tip.y]),
@@ -91,11 +94,12 @@ pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
          first stretch of each cable.",
         &data,
-        json!({"scene": scene(), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+        json!({"scene": scene(1.25), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
 }
 
-fn scene() -> Value {
+/// A larger `distance` of the eye shows the scene smaller.
+fn scene(distance: f64) -> Value {
     let axis = |title: &str, plane: bool| {
         json!({
             "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 7, "showbackground": plane,
@@ -105,7 +109,7 @@ fn scene() -> Value {
     json!({
         "aspectmode": "data",
         // From a side, a little above: the sag shows in the vertical, and parallel lines stay parallel.
-        "camera": {"eye": {"x": 0.7, "y": -1.65, "z": 0.5}, "center": {"x": 0.03, "y": 0, "z": -0.05}, "projection": {"type": "orthographic"}},
+        "camera": {"eye": {"x": 0.7 * distance, "y": -1.65 * distance, "z": 0.5 * distance}, "center": {"x": 0.03, "y": 0, "z": -0.05}, "projection": {"type": "orthographic"}},
         "xaxis": axis("x [m]", false), "yaxis": axis("y [m]", false), "zaxis": axis("z [m]", true),
     })
 }
@@ -143,6 +147,17 @@ fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, sym
     })
 }
 
+/// One name for neighbours whose names would lie on each other, at the first of them.
+fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
+    let same = |i: usize, j: usize| places[i] == places[j] && (points[i] - points[j]).norm() < 0.06 * reach;
+    (0..points.len())
+        .map(|i| match (0..i).any(|j| same(i, j)) {
+            true => String::new(),
+            false => (i..points.len()).filter(|&j| same(i, j)).map(|j| names[j].as_str()).collect::<Vec<_>>().join(", "),
+        })
+        .collect()
+}
+
 /// Where each point's name goes: below the point when another one is close above it, else above. Points that coincide
 /// take turns, so that their names stand side by side.
 fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
@@ -152,7 +167,7 @@ fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
         .enumerate()
         .map(|(i, p)| {
             let same = points[..i].iter().filter(|q| (*q - p).norm() < 0.01 * reach).count();
-            let crowded = points.iter().any(|q| q.z - p.z > 0.01 * reach && (q - p).norm() < 0.12 * reach);
+            let crowded = points.iter().any(|q| q.z - p.z > 0.5 * (q - p).norm() && (q - p).norm() < 0.12 * reach);
             match (same, crowded) {
                 (0, false) => "top center",
                 (0, true) => "bottom center",

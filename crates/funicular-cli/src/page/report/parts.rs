@@ -118,17 +118,24 @@ pub(super) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
 pub(super) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
     let stiffness = tangent_stiffness(robot, equilibrium)?;
     let (columns, rows): (&[&str], &[&str]) = match robot.platform.freedoms {
-        Freedoms::PointMass => (&["<", "δx|N/m", "δy|N/m", "δz|N/m"], &["fx", "fy", "fz"]),
+        Freedoms::PointMass => (&["<", "δx|m", "δy|m", "δz|m"], &["fx [N]", "fy [N]", "fz [N]"]),
         Freedoms::Rigid => (
-            &["<", "δx|N/m, N", "δy|N/m, N", "δz|N/m, N", "δθx|N, N·m", "δθy|N, N·m", "δθz|N, N·m"],
-            &["fx", "fy", "fz", "mx", "my", "mz"],
+            &["<", "δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"],
+            &["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"],
         ),
+    };
+    let units = match robot.platform.freedoms {
+        Freedoms::PointMass => "",
+        Freedoms::Rigid => {
+            " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
+        }
     };
     let mut table = Table::new(
         "table-stiffness",
-        "Static stiffness: the wrench that holds a small motion, about the platform origin, world axes. Forces per \
-         translation in N/m, forces per rotation and moments per translation in N(/rad), moments per rotation in N·m/rad. \
-         Exact tangent of the cables, with the turning of static forces on their lever arms.",
+        format!(
+            "Static stiffness: the wrench that holds a small motion, about the platform origin, world axes.{units} Exact \
+             tangent of the cables, with the turning of static forces on their lever arms."
+        ),
         columns,
     );
     for (i, name) in rows.iter().enumerate() {
