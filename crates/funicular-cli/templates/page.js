@@ -1,6 +1,7 @@
 (function () {
   "use strict";
-  const config = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
+  // A narrow screen has no room for the buttons beside the legend.
+  const config = { responsive: true, displayModeBar: window.innerWidth > 640 ? "hover" : false, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
   const plots = [];
   document.querySelectorAll("script[data-plot]").forEach(function (source) {
     const figure = JSON.parse(source.textContent);

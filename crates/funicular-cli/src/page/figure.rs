@@ -3,8 +3,8 @@
 //! The descriptions are written as JSON and not through the crate's builders, which lack parts that are used here (empty
 //! values in a line, several legends) and would be three times as long; the crate brings the library itself.
 
-pub mod response;
-pub mod robot;
+pub(crate) mod response;
+pub(crate) mod robot;
 
 use askama::Template;
 use funicular::cable::CableModel;
@@ -12,29 +12,29 @@ use funicular::modes::Kind;
 use serde_json::{Value, json};
 
 /// Okabe and Ito's colours, told apart by readers of every colour vision.
-pub mod colour {
+pub(crate) mod colour {
     /// Black.
-    pub const BLACK: &str = "#000000";
+    pub(crate) const BLACK: &str = "#000000";
     /// Orange.
-    pub const ORANGE: &str = "#e69f00";
+    pub(crate) const ORANGE: &str = "#e69f00";
     /// Sky blue.
-    pub const SKY: &str = "#56b4e9";
+    pub(crate) const SKY: &str = "#56b4e9";
     /// Bluish green.
-    pub const GREEN: &str = "#009e73";
+    pub(crate) const GREEN: &str = "#009e73";
     /// Blue.
-    pub const BLUE: &str = "#0072b2";
+    pub(crate) const BLUE: &str = "#0072b2";
     /// Vermilion.
-    pub const VERMILION: &str = "#d55e00";
+    pub(crate) const VERMILION: &str = "#d55e00";
     /// Reddish purple.
-    pub const PURPLE: &str = "#cc79a7";
+    pub(crate) const PURPLE: &str = "#cc79a7";
     /// Grey, for what is not data.
-    pub const GREY: &str = "#8a8a8a";
+    pub(crate) const GREY: &str = "#8a8a8a";
 }
 
 /// A figure with caption.
 #[derive(Template)]
 #[template(path = "figure.html")]
-pub struct Figure {
+pub(crate) struct Figure {
     id: &'static str,
     height: usize,
     caption: String,
@@ -45,7 +45,13 @@ pub struct Figure {
 
 impl Figure {
     /// From plotly's traces and layout; `layout` is completed by the common style.
-    pub fn new(id: &'static str, height: usize, caption: impl Into<String>, data: &[Value], layout: Value) -> Self {
+    pub(crate) fn new(
+        id: &'static str,
+        height: usize,
+        caption: impl Into<String>,
+        data: &[Value],
+        layout: Value,
+    ) -> Self {
         let mut full = json!({
             "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", "size": 13, "color": "#1b1b1b"},
             "paper_bgcolor": "#ffffff",
@@ -76,13 +82,13 @@ fn merge(base: &mut Value, over: Value) {
 }
 
 /// `base` with `over` laid on it.
-pub fn with(mut base: Value, over: Value) -> Value {
+pub(crate) fn with(mut base: Value, over: Value) -> Value {
     merge(&mut base, over);
     base
 }
 
 /// A Cartesian axis with a title.
-pub fn axis(title: &str, more: Value) -> Value {
+pub(crate) fn axis(title: &str, more: Value) -> Value {
     let base = json!({
         "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
         "gridcolor": "#ebebeb", "zeroline": false, "mirror": true,
@@ -91,7 +97,7 @@ pub fn axis(title: &str, more: Value) -> Value {
 }
 
 /// A line through points.
-pub fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -> Value {
+pub(crate) fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -> Value {
     json!({
         "type": "scatter", "mode": "lines", "name": name, "x": rounded(x), "y": rounded(y),
         "line": {"color": colour, "width": 1.8, "dash": dash},
@@ -99,7 +105,7 @@ pub fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -> Value
 }
 
 /// Points with a symbol.
-pub fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &str) -> Value {
+pub(crate) fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &str) -> Value {
     json!({
         "type": "scatter", "mode": "markers", "name": name, "x": rounded(x), "y": rounded(y),
         "marker": {"color": colour, "symbol": symbol, "size": 8, "line": {"color": colour, "width": 1.4}},
@@ -107,17 +113,17 @@ pub fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &str) -> V
 }
 
 /// Six significant digits: finer than any pixel, half the size of the page.
-pub fn rounded(values: &[f64]) -> Vec<Option<f64>> {
+pub(crate) fn rounded(values: &[f64]) -> Vec<Option<f64>> {
     values.iter().map(|v| if v.is_finite() { format!("{v:.5e}").parse().ok() } else { None }).collect()
 }
 
 /// Text for plotly, which reads a small set of tags in every text.
-pub fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// Colour and dash of a cable model, the same in every figure.
-pub fn model_style(model: CableModel) -> (&'static str, &'static str) {
+pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
     match model {
         CableModel::ClosedForm => (colour::BLUE, "solid"),
         CableModel::StaticSag => (colour::ORANGE, "dash"),
@@ -127,7 +133,7 @@ pub fn model_style(model: CableModel) -> (&'static str, &'static str) {
 }
 
 /// A cable model in words.
-pub fn model_name(model: CableModel) -> &'static str {
+pub(crate) fn model_name(model: CableModel) -> &'static str {
     match model {
         CableModel::ClosedForm => "closed form (dynamic)",
         CableModel::StaticSag => "static sag",
@@ -137,7 +143,7 @@ pub fn model_name(model: CableModel) -> &'static str {
 }
 
 /// Colour of a kind of mode.
-pub fn kind_colour(kind: Kind) -> &'static str {
+pub(crate) fn kind_colour(kind: Kind) -> &'static str {
     match kind {
         Kind::Platform => colour::VERMILION,
         Kind::Mixed => colour::PURPLE,

@@ -19,7 +19,7 @@ const FILES: [(&str, &str); 2] = [
     ("robots/yuan2014-8mm.toml", include_str!("../../../../robots/yuan2014-8mm.toml")),
 ];
 
-const CONTENTS: &[(&str, &str)] = &[
+pub(crate) const CONTENTS: &[(&str, &str)] = &[
     ("single-cable", "Fig. 2: one cable"),
     ("geometry", "Tables I and II: the robot"),
     ("pose-error", "Fig. 6: pose error"),
@@ -45,13 +45,14 @@ struct PaperPage {
     test_figures: Vec<Figure>,
     lists: Vec<Table>,
     counts: Table,
+    sag_text: String,
 }
 
 /// The page, as HTML.
 ///
 /// # Errors
 /// If one of the computations fails, which the tests exclude.
-pub fn paper() -> anyhow::Result<String> {
+pub(crate) fn paper() -> anyhow::Result<String> {
     let [small, large] = robots()?;
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
     let outcomes = dynamic_test::outcomes([&small, &large])?;
@@ -70,6 +71,7 @@ pub fn paper() -> anyhow::Result<String> {
         test_figures: outcomes.iter().map(dynamic_test::Outcome::figure).collect(),
         lists: dynamic_test::lists(&outcomes),
         counts: dynamic_test::counts(&outcomes),
+        sag_text: dynamic_test::sag_text(&outcomes),
     };
     page.render().context("the page could not be written as HTML")
 }

@@ -21,25 +21,25 @@ use funicular::validity;
 const PEAK_PROMINENCE_DB: f64 = 3.0;
 
 /// What a report is about.
-pub struct ReportInput<'a> {
+pub(crate) struct ReportInput<'a> {
     /// The robot.
-    pub robot: &'a Robot,
+    pub(crate) robot: &'a Robot,
     /// Where its file is, or what stands for it.
-    pub file_label: &'a str,
+    pub(crate) file_label: &'a str,
     /// The file itself.
-    pub robot_text: &'a str,
+    pub(crate) robot_text: &'a str,
     /// The state.
-    pub equilibrium: &'a Equilibrium,
+    pub(crate) equilibrium: &'a Equilibrium,
     /// How the robot is linearised about it.
-    pub linearisation: Linearisation,
+    pub(crate) linearisation: Linearisation,
     /// Upper limit of the frequencies [Hz].
-    pub below_hz: f64,
+    pub(crate) below_hz: f64,
     /// Name and 6-vector of the force or moment that excites.
-    pub frf_input: (String, Vec6),
+    pub(crate) frf_input: (String, Vec6),
     /// Name, 6-vector and kind of the motion that is measured.
-    pub frf_output: (String, Vec6, Quantity),
+    pub(crate) frf_output: (String, Vec6, Quantity),
     /// The command that writes this page again.
-    pub command_line: String,
+    pub(crate) command_line: String,
 }
 
 #[derive(Template)]
@@ -69,7 +69,7 @@ struct ReportPage<'a> {
 }
 
 /// Sections: id and name.
-const CONTENTS: &[(&str, &str)] = &[
+pub(crate) const CONTENTS: &[(&str, &str)] = &[
     ("robot", "Robot"),
     ("tensions", "Tensions and sag"),
     ("stiffness", "Static stiffness"),
@@ -84,14 +84,17 @@ const CONTENTS: &[(&str, &str)] = &[
 ///
 /// # Errors
 /// If the robot cannot be linearised at this state with the model asked, or has no finite response there.
-pub fn report(input: &ReportInput<'_>) -> anyhow::Result<String> {
+pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<String> {
     let ReportInput { robot, equilibrium, linearisation, below_hz, .. } = *input;
     let dynamics = Dynamics::about(robot, equilibrium, linearisation)?;
     let found = modes::below(&dynamics, below_hz);
     let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
-    let warnings = validity::of_statics(robot, equilibrium)
-        .into_iter()
-        .chain(validity::of_dynamics(robot, equilibrium, linearisation.cable_model, below_hz));
+    let warnings = validity::of_statics(robot, equilibrium).into_iter().chain(validity::of_dynamics(
+        robot,
+        equilibrium,
+        linearisation.cable_model,
+        below_hz,
+    ));
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
         source: robot.source.trim_end_matches('.'),
@@ -207,7 +210,11 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
 }
 
 /// The response with the model asked, and with the other ones that there are at this state.
-fn respond(input: &ReportInput<'_>, dynamics: &Dynamics, found: &Modes) -> anyhow::Result<(Figure, Table, Vec<String>)> {
+fn respond(
+    input: &ReportInput<'_>,
+    dynamics: &Dynamics,
+    found: &Modes,
+) -> anyhow::Result<(Figure, Table, Vec<String>)> {
     let ReportInput { robot, equilibrium, linearisation, below_hz, .. } = *input;
     let (force, u) = &input.frf_input;
     let (motion, v, quantity) = &input.frf_output;
@@ -261,8 +268,7 @@ fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> Table {
     );
     for peak in tops {
         let distance = |f: f64| (f - peak.frequency_hz).abs();
-        let nearest =
-            found.modes.iter().min_by(|a, b| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz)));
+        let nearest = found.modes.iter().min_by(|a, b| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz)));
         table.row(vec![
             fixed(peak.frequency_hz, 3),
             fixed(peak.prominence_db, 1),

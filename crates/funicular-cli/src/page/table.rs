@@ -5,7 +5,7 @@ use askama::Template;
 /// A table with caption.
 #[derive(Template)]
 #[template(path = "table.html")]
-pub struct Table {
+pub(crate) struct Table {
     id: &'static str,
     caption: String,
     columns: Vec<Column>,
@@ -31,7 +31,7 @@ const TALL: usize = 30;
 impl Table {
     /// An empty table. A column is `name` or `name|unit`; one that starts with `<` is text and stands left, with `<<` it
     /// may also wrap.
-    pub fn new(id: &'static str, caption: impl Into<String>, columns: &[&str]) -> Self {
+    pub(crate) fn new(id: &'static str, caption: impl Into<String>, columns: &[&str]) -> Self {
         let columns = columns
             .iter()
             .map(|column| {
@@ -48,12 +48,12 @@ impl Table {
     }
 
     /// Adds a row.
-    pub fn row(&mut self, cells: Vec<String>) {
+    pub(crate) fn row(&mut self, cells: Vec<String>) {
         self.marked_row("", cells);
     }
 
     /// Adds a row with a style class of the sheet.
-    pub fn marked_row(&mut self, class: &'static str, cells: Vec<String>) {
+    pub(crate) fn marked_row(&mut self, class: &'static str, cells: Vec<String>) {
         debug_assert_eq!(cells.len(), self.columns.len(), "a cell for every column of {}", self.id);
         self.rows.push(Row { class, cells });
         self.tall = self.rows.len() > TALL;
@@ -61,7 +61,7 @@ impl Table {
 }
 
 /// A number with fixed decimals and a true minus sign; what rounds to zero has none. A dash if it is not a number.
-pub fn fixed(value: f64, decimals: usize) -> String {
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
     }
@@ -74,21 +74,21 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// A number with a count of significant digits, without exponent between 1e-4 and 1e7.
-pub fn significant(value: f64, digits: usize) -> String {
+pub(crate) fn significant(value: f64, digits: u8) -> String {
     let size = value.abs();
     if !value.is_finite() || size < f64::MIN_POSITIVE {
         return fixed(value, 0);
     }
     let exponent = size.log10().floor() as i32;
     if (-4..7).contains(&exponent) {
-        fixed(value, usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0))
+        fixed(value, usize::try_from(i32::from(digits) - 1 - exponent).unwrap_or(0))
     } else {
-        format!("{value:.*e}", digits - 1).replace('-', "−")
+        format!("{value:.*e}", usize::from(digits) - 1).replace('-', "−")
     }
 }
 
 /// Numbers in a row, separated by commas.
-pub fn listed(values: &[f64], decimals: usize) -> String {
+pub(crate) fn listed(values: &[f64], decimals: usize) -> String {
     if values.is_empty() {
         return "none".to_owned();
     }

@@ -16,7 +16,7 @@ const LEAST_HALF_WIDTH: f64 = 2e-4;
 
 /// Frequencies that show a response up to a limit [Hz]: even ones and a cluster at each mode, without which lightly
 /// damped resonances would fall between the points.
-pub fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
+pub(crate) fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
     let step = below_hz / f64::from(EVEN_POINTS);
     let mut all: Vec<f64> = (1..=EVEN_POINTS).map(|k| step * f64::from(k)).collect();
     for mode in modes {
@@ -35,15 +35,15 @@ pub fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
 }
 
 /// One response as it is drawn.
-pub struct Curve {
+pub(crate) struct Curve {
     /// Name in the legend.
-    pub name: String,
+    pub(crate) name: String,
     /// Colour and dash.
-    pub style: (&'static str, &'static str),
+    pub(crate) style: (&'static str, &'static str),
     /// Frequencies [Hz].
-    pub frequencies_hz: Vec<f64>,
+    pub(crate) frequencies_hz: Vec<f64>,
     /// Response; several outputs added by magnitude have no phase and are real.
-    pub values: Vec<Complex>,
+    pub(crate) values: Vec<Complex>,
 }
 
 impl Curve {
@@ -51,7 +51,7 @@ impl Curve {
     ///
     /// # Errors
     /// An undamped resonance at a sampled frequency.
-    pub fn of(
+    pub(crate) fn of(
         name: impl Into<String>,
         style: (&'static str, &'static str),
         (dynamics, frequencies_hz): (&Dynamics, Vec<f64>),
@@ -95,23 +95,32 @@ impl Curve {
 }
 
 /// What a response figure shows besides its curves.
-pub struct Marks<'a> {
+pub(crate) struct Marks<'a> {
     /// Natural frequencies of the first curve's model, as ticks below.
-    pub modes: &'a [Mode],
+    pub(crate) modes: &'a [Mode],
     /// Peaks to label.
-    pub peaks: &'a [Peak],
+    pub(crate) peaks: &'a [Peak],
     /// Published frequencies, as dashed lines; name and values [Hz].
-    pub published: Option<(&'a str, &'a [f64])>,
+    pub(crate) published: Option<(&'a str, &'a [f64])>,
     /// Whether the phase is shown.
-    pub phase: bool,
+    pub(crate) phase: bool,
 }
 
 /// Responses on one frequency axis, logarithmic magnitude, with phase and modes below. The first curve sets the range of
 /// the magnitude: undamped ones leave it at their resonances.
-pub fn figure(id: &'static str, caption: String, unit: &str, below_hz: f64, curves: &[Curve], marks: &Marks<'_>) -> Figure {
-    let levels: Vec<f64> = curves[0].magnitude().iter().map(|m| m.log10()).filter(|l| l.is_finite()).collect();
+pub(crate) fn figure(
+    id: &'static str,
+    caption: String,
+    unit: &str,
+    below_hz: f64,
+    curves: &[Curve],
+    marks: &Marks<'_>,
+) -> Figure {
+    // The first twentieth is left out: an accelerance falls to zero there and would press the rest together.
+    let shown = curves[0].frequencies_hz.iter().zip(curves[0].magnitude()).filter(|(f, _)| **f > 0.05 * below_hz);
+    let levels: Vec<f64> = shown.map(|(_, m)| m.log10()).filter(|l| l.is_finite()).collect();
     let (low, high) = (least(&levels), -least(&levels.iter().map(|l| -l).collect::<Vec<_>>()));
-    let room = 0.16 * (high - low).max(0.5);
+    let room = 0.22 * (high - low).max(0.5);
     let mut data = Vec::new();
     for curve in curves {
         let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.0, curve.style.1);
@@ -152,7 +161,7 @@ pub fn figure(id: &'static str, caption: String, unit: &str, below_hz: f64, curv
     let mut layout = json!({
         "xaxis": axis("frequency [Hz]", json!({"range": [0, below_hz], "anchor": "y3", "mirror": "all"})),
         "yaxis": axis(&format!("magnitude [{unit}]"), json!({
-            "type": "log", "domain": magnitude, "exponentformat": "power", "dtick": 1, "range": [low - 0.3 * room, high + room],
+            "type": "log", "domain": magnitude, "exponentformat": "power", "dtick": 1, "range": [low - 0.2 * room, high + room],
         })),
         "yaxis3": axis("", json!({
             "domain": strip, "range": [-1, 1], "showticklabels": false, "ticks": "", "showgrid": false, "fixedrange": true,
@@ -186,7 +195,7 @@ fn spaced(peaks: &[Peak], distance: f64) -> Vec<Peak> {
 }
 
 /// The three kinds in the order in which they are drawn and listed.
-pub const KINDS: [Kind; 3] = [Kind::Cable, Kind::Mixed, Kind::Platform];
+pub(crate) const KINDS: [Kind; 3] = [Kind::Cable, Kind::Mixed, Kind::Platform];
 
 /// Modes as ticks on the strip below a response, one trace a kind.
 fn ticks(modes: &[Mode]) -> Vec<Value> {
@@ -210,7 +219,7 @@ fn of_kinds(modes: &[Mode]) -> impl Iterator<Item = (Kind, Vec<&Mode>)> {
 }
 
 /// Every mode over its frequency: how much of its kinetic energy the platform has.
-pub fn strip(modes: &Modes) -> Figure {
+pub(crate) fn strip(modes: &Modes) -> Figure {
     let mut data = Vec::new();
     for (kind, found) in of_kinds(&modes.modes) {
         let (mut stem_x, mut stem_y) = (Vec::new(), Vec::new());

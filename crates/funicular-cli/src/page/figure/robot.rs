@@ -9,18 +9,11 @@ use serde_json::{Value, json};
 /// Points drawn along a cable; its curve is smooth, and a straight cable needs two.
 const SAMPLES: u32 = 48;
 /// Cables of one colour each; further ones begin again.
-const CABLE_COLOURS: [&str; 7] = [
-    colour::BLUE,
-    colour::VERMILION,
-    colour::GREEN,
-    colour::PURPLE,
-    colour::ORANGE,
-    colour::SKY,
-    colour::BLACK,
-];
+const CABLE_COLOURS: [&str; 7] =
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
 
 /// The whole robot.
-pub fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let mut data: Vec<Value> = equilibrium
         .cables
         .iter()
@@ -43,12 +36,11 @@ pub fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     trace["text"] = json!(joined(&anchors, &names, &places, reach));
     data.push(trace);
     data.extend(platform(robot, equilibrium, false));
-    let lowest = anchors.iter().map(|a| a.z).fold(equilibrium.pose.position_w.z, f64::min);
-    let highest = anchors.iter().map(|a| a.z).fold(equilibrium.pose.position_w.z, f64::max);
-    let mut scene = scene(0.85);
-    // The floor: z = 0 when the robot stands above it, else a little below the robot.
-    let floor = if lowest >= 0.0 { 0.0 } else { lowest - 0.05 * reach };
-    scene["zaxis"]["range"] = json!([floor, highest + 0.06 * reach]);
+    let mut points = anchors.clone();
+    for state in &equilibrium.cables {
+        points.extend(curve(state, state.unstrained_length));
+    }
+    let scene = scene(&points, true, WIDE);
     Figure::new(
         "figure-robot",
         400,
@@ -61,19 +53,18 @@ pub fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
 }
 
 /// The platform and the beginnings of its cables.
-pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let reach = extent(&attachments).max(0.2);
-    let mut data: Vec<Value> = equilibrium
-        .cables
-        .iter()
-        .enumerate()
-        .map(|(i, state)| {
-            let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
-            let part = (0.6 * reach / state.chord()).min(1.0);
-            cable_line(i, &curve(state, part * state.unstrained_length), &hover)
-        })
-        .collect();
+    let mut points = attachments.clone();
+    let mut data = Vec::new();
+    for (i, state) in equilibrium.cables.iter().enumerate() {
+        let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
+        let part = (0.6 * reach / state.chord()).min(1.0);
+        let stub = curve(state, part * state.unstrained_length);
+        data.push(cable_line(i, &stub, &hover));
+        points.extend(stub);
+    }
     data.extend(platform(robot, equilibrium, true));
     let origin = equilibrium.pose.position_w;
     for (k, (name, colour)) in
@@ -82,6 +73,7 @@ pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         let mut unit = Vec3::zeros();
         unit[k] = 0.22 * reach;
         let tip = origin + equilibrium.pose.rot_wp * unit;
+        points.push(tip);
         data.push(json!({
             "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]), "y": rounded(&[origin.y, tip.y]),
             "z": rounded(&[origin.z, tip.z]), "line": {"color": colour, "width": 5}, "text": ["", name],
@@ -94,35 +86,65 @@ pub fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
          first stretch of each cable.",
         &data,
-        json!({"scene": scene(1.25), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+        json!({"scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
 }
 
-/// A larger `distance` of the eye shows the scene smaller.
-fn scene(distance: f64) -> Value {
-    let axis = |title: &str, plane: bool| {
+/// Width of a drawn volume over the height that fills its view: a wide view, and one a third of the page.
+const WIDE: f64 = 1.85;
+const SQUARE: f64 = 1.2;
+/// Height of the drawn volume in plotly's units: it fills a view with parallel lines of sight, less the labels.
+const FILL: f64 = 1.35;
+/// Where the eye is: to the side and a little above, so that the sag shows in the vertical.
+const EYE: [f64; 3] = [0.7, -1.65, 0.5];
+
+/// Axes of one scale around points, as large as fits a view of some width over height. `floor`: down to z = 0 if the
+/// points are above it.
+fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
+    let bounds = |k: usize| {
+        let values = || points.iter().map(|p| p[k]);
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let mut ranges = [0, 1, 2].map(bounds);
+    // A margin, and some room where a robot is flat.
+    let size = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+    for (low, high) in &mut ranges {
+        let more = 0.04 * size + (0.06 * size - 0.5 * (*high - *low)).max(0.0);
+        (*low, *high) = (*low - more, *high + more);
+    }
+    if floor && bounds(2).0 >= 0.0 {
+        ranges[2].0 = 0.0;
+    }
+    let span = ranges.map(|(low, high)| high - low);
+    let [x, y, z] = EYE;
+    let (level, far) = (x.hypot(y), x.hypot(y).hypot(z));
+    let across = (span[0] * y.abs() + span[1] * x.abs()) / level;
+    let upright = (span[2] * level + (span[0] * x.abs() + span[1] * y.abs()) / level * z) / far;
+    let scale = FILL * (width / across).min(1.0 / upright);
+    let axis = |k: usize, title: &str| {
         json!({
-            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 7, "showbackground": plane,
-            "backgroundcolor": "#f3f4f5", "gridcolor": "#d9d9d9", "zeroline": false, "showspikes": false,
+            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6, "showbackground": k == 2,
+            "range": rounded(&[ranges[k].0, ranges[k].1]), "backgroundcolor": "#f3f4f5", "gridcolor": "#d9d9d9",
+            "zeroline": false, "showspikes": false,
         })
     };
+    let ratio = rounded(&span.map(|s| s * scale));
     json!({
-        "aspectmode": "data",
-        // From a side, a little above: the sag shows in the vertical, and parallel lines stay parallel.
-        "camera": {"eye": {"x": 0.7 * distance, "y": -1.65 * distance, "z": 0.5 * distance}, "center": {"x": 0.03, "y": 0, "z": -0.05}, "projection": {"type": "orthographic"}},
-        "xaxis": axis("x [m]", false), "yaxis": axis("y [m]", false), "zaxis": axis("z [m]", true),
+        "aspectmode": "manual", "aspectratio": {"x": ratio[0], "y": ratio[1], "z": ratio[2]},
+        "camera": {
+            "eye": {"x": x, "y": y, "z": z}, "center": {"x": 0.0, "y": 0.0, "z": -0.06}, "projection": {"type": "orthographic"},
+        },
+        "xaxis": axis(0, "x [m]"), "yaxis": axis(1, "y [m]"), "zaxis": axis(2, "z [m]"),
     })
 }
 
 /// Points of a cable from the attachment up to an unstrained arc length.
 fn curve(state: &CableState, up_to: f64) -> Vec<Vec3> {
-    match &state.hanging {
-        Some(hanging) => (0..=SAMPLES).map(|k| hanging.point_w(up_to * f64::from(k) / f64::from(SAMPLES))).collect(),
-        None => {
-            let part = up_to / state.unstrained_length;
-            vec![state.attachment_w, state.attachment_w + (state.anchor_w - state.attachment_w) * part]
-        }
+    if let Some(hanging) = &state.hanging {
+        return (0..=SAMPLES).map(|k| hanging.point_w(up_to * f64::from(k) / f64::from(SAMPLES))).collect();
     }
+    let part = up_to / state.unstrained_length;
+    vec![state.attachment_w, state.attachment_w + (state.anchor_w - state.attachment_w) * part]
 }
 
 fn coordinates(points: &[Vec3]) -> [Vec<Option<f64>>; 3] {
@@ -151,9 +173,9 @@ fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, sym
 fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
     let same = |i: usize, j: usize| places[i] == places[j] && (points[i] - points[j]).norm() < 0.06 * reach;
     (0..points.len())
-        .map(|i| match (0..i).any(|j| same(i, j)) {
-            true => String::new(),
-            false => (i..points.len()).filter(|&j| same(i, j)).map(|j| names[j].as_str()).collect::<Vec<_>>().join(", "),
+        .map(|i| {
+            let others = if (0..i).any(|j| same(i, j)) { 0..0 } else { i..points.len() };
+            others.filter(|&j| same(i, j)).map(|j| names[j].as_str()).collect::<Vec<_>>().join(", ")
         })
         .collect()
 }

@@ -1,20 +1,20 @@
 //! Two lists of frequencies, paired.
 
 /// Widest difference of a pair [Hz].
-pub(super) const WIDEST: f64 = 0.5;
+pub(crate) const WIDEST: f64 = 0.5;
 
 /// How two ascending lists agree.
-pub(super) struct Agreement {
+pub(crate) struct Agreement {
     /// For each published frequency ours, if one is near enough.
-    pub(super) pairs: Vec<(f64, Option<f64>)>,
+    pub(crate) pairs: Vec<(f64, Option<f64>)>,
     /// Ours that pair with none.
-    pub(super) extra: Vec<f64>,
+    pub(crate) extra: Vec<f64>,
 }
 
 impl Agreement {
     /// Pairs in order so that the sum of differences is least, each unpaired frequency counting half [`WIDEST`]: a pair is
     /// made exactly if it is closer than that.
-    pub(super) fn of(published: &[f64], ours: &[f64]) -> Self {
+    pub(crate) fn of(published: &[f64], ours: &[f64]) -> Self {
         let (m, n) = (published.len(), ours.len());
         // cost[i][j]: the best for the first i and j.
         let mut cost = vec![vec![0.0; n + 1]; m + 1];
@@ -55,22 +55,22 @@ impl Agreement {
     }
 
     /// Number of pairs.
-    pub(super) fn paired(&self) -> usize {
+    pub(crate) fn paired(&self) -> usize {
         self.differences().count()
     }
 
     /// Published frequencies without a pair.
-    pub(super) fn missing(&self) -> usize {
+    pub(crate) fn missing(&self) -> usize {
         self.pairs.len() - self.paired()
     }
 
     /// Root mean square of the differences of pairs [Hz].
-    pub(super) fn rms(&self) -> f64 {
+    pub(crate) fn rms(&self) -> f64 {
         (self.differences().map(|d| d * d).sum::<f64>() / self.paired() as f64).sqrt()
     }
 
     /// Largest difference of a pair [Hz].
-    pub(super) fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.differences().fold(0.0, |most, d| d.abs().max(most))
     }
 }

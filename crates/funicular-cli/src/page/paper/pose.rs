@@ -17,7 +17,7 @@ const TOLERANCES: [f64; 4] = [0.001, 0.002, 0.005, 0.01];
 const SET_NAMES: [&str; 2] = ["4 mm", "8 mm"];
 
 /// One cable set over the range of masses.
-pub(super) struct Sweep {
+pub(crate) struct Sweep {
     robot: Robot,
     lengths: Vec<f64>,
     points: Vec<PoseErrorPoint>,
@@ -25,18 +25,17 @@ pub(super) struct Sweep {
 
 impl Sweep {
     /// Of a robot whose file gives lengths.
-    pub(super) fn of(robot: &Robot) -> Self {
+    pub(crate) fn of(robot: &Robot) -> Self {
         let lengths = lengths(robot);
         let step = (MASS_RANGE.1 - MASS_RANGE.0) / f64::from(POINTS - 1);
-        let points = (0..POINTS)
-            .map(|k| PoseErrorPoint::at_mass(robot, &lengths, MASS_RANGE.0 + step * f64::from(k)))
-            .collect();
+        let points =
+            (0..POINTS).map(|k| PoseErrorPoint::at_mass(robot, &lengths, MASS_RANGE.0 + step * f64::from(k))).collect();
         Self { robot: robot.clone(), lengths, points }
     }
 }
 
 /// Unstrained lengths that the file gives [m]; none if it gives a pose.
-pub(super) fn lengths(robot: &Robot) -> Vec<f64> {
+pub(crate) fn lengths(robot: &Robot) -> Vec<f64> {
     match &robot.state {
         State::Lengths(lengths) => lengths.clone(),
         State::Pose(_) | State::Unknown => Vec::new(),
@@ -44,22 +43,12 @@ pub(super) fn lengths(robot: &Robot) -> Vec<f64> {
 }
 
 /// Tables I and II, with the ideal pose as a check of the closure.
-pub(super) fn geometry(sweeps: &[Sweep; 2]) -> Table {
+pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> Table {
     let mut table = Table::new(
         "table-geometry",
         "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained lengths of \
          both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 kg/m (8 mm).",
-        &[
-            "<cable",
-            "anchor x|m",
-            "y|m",
-            "z|m",
-            "attachment x|m",
-            "y|m",
-            "z|m",
-            "length, 4 mm|m",
-            "length, 8 mm|m",
-        ],
+        &["<cable", "anchor x|m", "y|m", "z|m", "attachment x|m", "y|m", "z|m", "length, 4 mm|m", "length, 8 mm|m"],
     );
     for (i, cable) in sweeps[0].robot.cables.iter().enumerate() {
         let (b, a) = (cable.anchor_w, cable.attachment_p);
@@ -72,7 +61,7 @@ pub(super) fn geometry(sweeps: &[Sweep; 2]) -> Table {
 }
 
 /// The ideal pose of both sets, against an independent closure.
-pub(super) fn ideal_poses(sweeps: &[Sweep; 2]) -> Table {
+pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> Table {
     let mut table = Table::new(
         "table-ideal",
         "Ideal pose (rigid straight cables): ours, and from closing the six lengths |B − (p + R A)| = L0 independently. Six \
@@ -97,7 +86,7 @@ pub(super) fn ideal_poses(sweeps: &[Sweep; 2]) -> Table {
 }
 
 /// Fig. 6: distance of the platform from its ideal position. First cable set 0, then 1.
-pub(super) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
     let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
@@ -134,33 +123,36 @@ fn independent(sweep: &Sweep, set: usize) -> Value {
 }
 
 /// Fig. 6 by axis.
-pub(super) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
     let mut data = Vec::new();
-    for (k, (name, colour)) in [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate() {
+    for (k, (name, colour)) in
+        [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
+    {
         let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
             sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.translation[k])).collect::<Vec<_>>()
         };
-        data.push(line(&format!("{name}, catenary"), &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour, "solid"));
+        data.push(line(name, &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour, "solid"));
         data.push(with(
             line(&format!("{name}, spring"), &masses, &curve(PoseErrorPoint::spring_from_ideal), colour, "dot"),
-            json!({"line": {"width": 2.2}}),
+            json!({"line": {"width": 2.2}, "showlegend": false}),
         ));
     }
     let id = ["figure-axes-4mm", "figure-axes-8mm"][set];
-    let caption =
-        format!("The same by axis, {} cables: displacement from the ideal position in world axes.", SET_NAMES[set]);
+    let caption = format!(
+        "The same by axis, {} cables: displacement from the ideal position in world axes; solid: catenary, dotted: spring.",
+        SET_NAMES[set]
+    );
     let layout = json!({
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
         "yaxis": axis("displacement [mm]", json!({"zeroline": true, "zerolinecolor": "#aaaaaa"})),
-        "margin": {"t": 52},
     });
     Figure::new(id, 380, caption, &data, layout)
 }
 
 /// From which mass on the spring model is within a tolerance of the catenary.
-pub(super) fn thresholds(sweeps: &[Sweep; 2]) -> Table {
+pub(crate) fn thresholds(sweeps: &[Sweep; 2]) -> Table {
     let mut table = Table::new(
         "table-thresholds",
         "Platform mass from which on, up to 86.35 kg, the spring model's position stays within a tolerance of the catenary's.",
@@ -179,25 +171,17 @@ pub(super) fn thresholds(sweeps: &[Sweep; 2]) -> Table {
 }
 
 /// Our equilibria against MoorPy's.
-pub(super) fn against_moorpy(sweeps: &[Sweep; 2]) -> Table {
+pub(crate) fn against_moorpy(sweeps: &[Sweep; 2]) -> Table {
     let mut table = Table::new(
         "table-moorpy",
         "Equilibrium with catenaries: ours against MoorPy 1.3.0 (printed there to 0.01 mm).",
-        &[
-            "<cable set",
-            "mass|kg",
-            "x, ours|m",
-            "y|m",
-            "z|m",
-            "x, MoorPy|m",
-            "y|m",
-            "z|m",
-            "distance|mm",
-        ],
+        &["<cable set", "mass|kg", "x, ours|m", "y|m", "z|m", "x, MoorPy|m", "y|m", "z|m", "distance|mm"],
     );
     for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(&MOORPY) {
         for theirs in theirs {
-            let Ok(ours) = PoseErrorPoint::at_mass(&sweep.robot, &sweep.lengths, theirs.mass).catenary else { continue };
+            let Ok(ours) = PoseErrorPoint::at_mass(&sweep.robot, &sweep.lengths, theirs.mass).catenary else {
+                continue;
+            };
             let p = ours.pose.position_w;
             let mut cells = vec![name.to_owned(), fixed(theirs.mass, 2)];
             cells.extend([p.x, p.y, p.z].map(|v| fixed(v, 5)));

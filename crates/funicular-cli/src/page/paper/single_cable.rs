@@ -55,7 +55,7 @@ fn horizontal_undamped(cable: &ClosedForm, frequency_hz: f64) -> f64 {
 }
 
 /// |K11| over frequency, with independent finite elements.
-pub(super) fn figure() -> Figure {
+pub(crate) fn figure() -> Figure {
     let frequencies: Vec<f64> = (0..=POINTS).map(|k| BELOW_HZ * f64::from(k) / f64::from(POINTS)).collect();
     let curve = |name: &str, mass, end, colour, dash| {
         let cable = cable(mass, end);
@@ -91,12 +91,20 @@ pub(super) fn figure() -> Figure {
 }
 
 /// The cable's numbers: printed, and with either mass per length.
-pub(super) fn numbers() -> Table {
+pub(crate) fn numbers() -> Table {
     let mut table = Table::new(
         "table-cable-numbers",
         "The cable of Fig. 2: what the paper prints, and what follows from its data with the mass per length of its Table II \
          and with the one that reproduces the printed λ² and ε.",
-        &["<", "mass per length|kg/m", "λ²", "ε", "Le/l", "first resonance of the held cable, in plane|Hz", "second|Hz"],
+        &[
+            "<",
+            "mass per length|kg/m",
+            "λ²",
+            "ε",
+            "Le/l",
+            "first resonance of the held cable, in plane|Hz",
+            "second|Hz",
+        ],
     );
     let (lambda2, epsilon) = FIG2_PRINTED;
     let blank = || "–".to_owned();
@@ -127,7 +135,7 @@ pub(super) fn numbers() -> Table {
 }
 
 /// Closed form against finite elements, point by point.
-pub(super) fn against_elements() -> Table {
+pub(crate) fn against_elements() -> Table {
     let mut table = Table::new(
         "table-elements",
         "K11 without damping, 0.067 kg/m: closed form against finite elements of the exact catenary. Relative differences \

@@ -1,7 +1,7 @@
 //! The report's tables and bars.
 
-use crate::page::figure::{Figure, axis, colour, model_name, plain, rounded};
 use super::{Part, parts_of};
+use crate::page::figure::{Figure, axis, colour, model_name, plain, rounded};
 use crate::page::table::{Table, fixed, listed, significant};
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison};
@@ -23,7 +23,7 @@ fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
 }
 
 /// Lengths, tensions and sag of every cable.
-pub(super) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> Table {
+pub(crate) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> Table {
     let mut table = Table::new(
         "table-tensions",
         "Cables at equilibrium. d/l: sag over chord, shallow up to 0.05 (tinted rows are beyond); λ²: Irvine's parameter, \
@@ -75,7 +75,7 @@ fn bars(name: &str, names: &[String], values: &[f64], colour: &str, unit: &str) 
 }
 
 /// Tensions as bars.
-pub(super) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let of = |end: fn(&funicular::statics::CableState) -> f64| equilibrium.cables.iter().map(end).collect::<Vec<_>>();
     let data = [
         bars("at the platform", &names(robot), &of(|c| c.tension_platform), colour::BLUE, "N"),
@@ -88,7 +88,7 @@ pub(super) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure
 }
 
 /// Sag as bars, against the limit of the shallow models.
-pub(super) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let ratios: Vec<f64> = sags(robot, equilibrium).iter().map(Sag::ratio).collect();
     let most = ratios.iter().copied().filter(|r| r.is_finite()).fold(0.0, f64::max);
     // The limit is drawn where it does not press the bars to the floor.
@@ -115,7 +115,7 @@ pub(super) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
 }
 
 /// The static stiffness of catenaries, consistently assembled.
-pub(super) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
+pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
     let stiffness = tangent_stiffness(robot, equilibrium)?;
     let (columns, rows): (&[&str], &[&str]) = match robot.platform.freedoms {
         Freedoms::PointMass => (&["<", "δx|m", "δy|m", "δz|m"], &["fx [N]", "fy [N]", "fz [N]"]),
@@ -146,7 +146,7 @@ pub(super) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
 }
 
 /// Every mode.
-pub(super) fn modes_table(robot: &Robot, found: &Modes) -> Table {
+pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
     let rigid = robot.platform.freedoms == Freedoms::Rigid;
     let mut columns = vec![
         "no.",
@@ -168,7 +168,11 @@ pub(super) fn modes_table(robot: &Robot, found: &Modes) -> Table {
             "All natural frequencies below {} Hz, undamped, with multiplicity; damping ratio to first order; motion of the \
              platform origin, world axes{}. A dash: the platform rests.",
             found.below_hz,
-            if rigid { ", scaled so that the largest of translation and ℓ · rotation is 1" } else { ", largest part 1" }
+            if rigid {
+                ", scaled so that the largest of translation and ℓ · rotation is 1"
+            } else {
+                ", largest part 1"
+            }
         ),
         &columns,
     );
@@ -198,7 +202,7 @@ fn class_of(kind: Kind) -> &'static str {
 }
 
 /// Names of the cables with most of a mode's energy, up to three.
-pub(super) fn strongest(robot: &Robot, mode: &Mode) -> String {
+pub(crate) fn strongest(robot: &Robot, mode: &Mode) -> String {
     let mut order: Vec<usize> = (0..robot.cables.len()).collect();
     let share = |i: usize| mode.cable_energy_fractions[i];
     order.sort_by(|&a, &b| share(b).total_cmp(&share(a)));
@@ -212,17 +216,17 @@ pub(super) fn strongest(robot: &Robot, mode: &Mode) -> String {
 }
 
 /// The comparison of the cable models.
-pub(super) struct ComparisonPart {
+pub(crate) struct ComparisonPart {
     /// Advice of the core.
-    pub(super) advice: Vec<Part>,
+    pub(crate) advice: Vec<Part>,
     /// One row a model.
-    pub(super) models: Table,
+    pub(crate) models: Table,
     /// One row a mode.
-    pub(super) modes: Table,
+    pub(crate) modes: Table,
 }
 
 /// All cable models side by side, or why they cannot be.
-pub(super) fn comparison(
+pub(crate) fn comparison(
     robot: &Robot,
     equilibrium: &Equilibrium,
     below_hz: f64,
@@ -249,7 +253,12 @@ fn models_table(comparison: &Comparison) -> Table {
         let is_reference = result.model == comparison.reference;
         let modes = result.modes.as_ref().ok();
         let list = match &result.modes {
-            Ok(found) if found.modes.len() > LISTED => format!("{} from {} to {}", found.modes.len(), fixed(found.modes[0].frequency_hz, 3), fixed(found.modes[found.modes.len() - 1].frequency_hz, 3)),
+            Ok(found) if found.modes.len() > LISTED => format!(
+                "{} from {} to {}",
+                found.modes.len(),
+                fixed(found.modes[0].frequency_hz, 3),
+                fixed(found.modes[found.modes.len() - 1].frequency_hz, 3)
+            ),
             Ok(found) => {
                 let all: Vec<f64> = found.modes.iter().map(|m| m.frequency_hz).collect();
                 let free = match found.unstable_directions {
@@ -274,8 +283,10 @@ fn models_table(comparison: &Comparison) -> Table {
 
 /// The reference's modes that move the platform, with each model's counterpart.
 fn side_by_side(comparison: &Comparison) -> Table {
-    let others: Vec<_> = comparison.models.iter().filter(|m| m.model != comparison.reference && m.modes.is_ok()).collect();
-    let mut columns = vec![format!("{}|Hz", model_name(comparison.reference)), "<kind".to_owned(), "platform energy|%".to_owned()];
+    let others: Vec<_> =
+        comparison.models.iter().filter(|m| m.model != comparison.reference && m.modes.is_ok()).collect();
+    let mut columns =
+        vec![format!("{}|Hz", model_name(comparison.reference)), "<kind".to_owned(), "platform energy|%".to_owned()];
     for other in &others {
         columns.push(format!("{}|Hz", model_name(other.model)));
         columns.push("difference|%".to_owned());
