@@ -52,6 +52,7 @@ mod tests {
     use super::paper::paper;
     use super::plotly_script;
     use super::report::{ReportInput, report};
+    use funicular::cable::CableModel;
     use funicular::dynamics::Linearisation;
     use funicular::math::Vec3;
     use funicular::response::{Direction, Quantity};
@@ -68,6 +69,10 @@ mod tests {
     }
 
     fn page_of(text: &str, model: StaticModel) -> String {
+        page_with(text, model, Linearisation::default())
+    }
+
+    fn page_with(text: &str, model: StaticModel, linearisation: Linearisation) -> String {
         let robot = Robot::from_toml(text).unwrap();
         let equilibrium = rest(&robot, model);
         let up = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
@@ -77,7 +82,7 @@ mod tests {
             file_label: "robot.toml",
             robot_text: text,
             equilibrium: &equilibrium,
-            linearisation: Linearisation::default(),
+            linearisation,
             below_hz: 20.0,
             frf_input: ("a vertical force".to_owned(), u),
             frf_output: ("the vertical acceleration".to_owned(), u, Quantity::Acceleration),
@@ -150,9 +155,18 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_robot_has_a_report_too() {
+    fn every_model_has_a_report() {
         let page = page_of(YUAN, StaticModel::Spring);
         assert!(own_part(&page).contains("straight elastic cables"));
+        for cable_model in CableModel::ALL {
+            let linearisation = Linearisation { cable_model, in_plane_only: true, ..Linearisation::default() };
+            let page = page_with(YUAN, StaticModel::Catenary, linearisation);
+            assert!(own_part(&page).contains("cables stiff in their planes only"), "{cable_model}");
+        }
+        // Ideal cables may push; then only the model that asks for no tension is left.
+        let linearisation = Linearisation { cable_model: CableModel::Spring, ..Linearisation::default() };
+        let page = page_with(YUAN, StaticModel::Ideal, linearisation);
+        assert!(own_part(&page).contains("Ideal cables are rigid"));
     }
 
     #[test]
