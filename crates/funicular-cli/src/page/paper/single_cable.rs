@@ -96,15 +96,7 @@ pub(crate) fn numbers() -> Table {
         "table-cable-numbers",
         "The cable of Fig. 2: what the paper prints, and what follows from its data with the mass per length of its Table II \
          and with the one that reproduces the printed λ² and ε.",
-        &[
-            "<",
-            "mass per length|kg/m",
-            "λ²",
-            "ε",
-            "Le/l",
-            "held cable, in plane: first resonance|Hz",
-            "second|Hz",
-        ],
+        &["<", "mass per length|kg/m", "λ²", "ε", "Le/l", "held cable, in plane: first resonance|Hz", "second|Hz"],
     );
     let (lambda2, epsilon) = FIG2_PRINTED;
     let blank = || "–".to_owned();
