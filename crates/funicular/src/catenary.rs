@@ -452,26 +452,27 @@ fn root(x: f64, z: f64, k: f64) -> Root {
         }
         let rest = 1.0 - z2 * b * b;
         // Deep sag: F grows like e^{2v}; its logarithm is nearly straight.
-        let step = if rest > 0.0 && value.abs() > 0.01 * rest && value > -rest {
+        let step = if v > 1.0 && rest > 0.0 && value.abs() > 0.01 * rest && value > -rest {
             let ratio = value / rest;
             ratio.ln_1p() * (rest + value) / (slope + 2.0 * z2 * b * b_by_v * ratio)
         } else {
             value / slope
         };
-        let mut next = v - step;
-        if !(next > low && next < high) {
-            next = if high.is_finite() {
-                if low > 0.0 { (low * high).sqrt() } else { 0.1 * high }
-            } else {
-                2.0 * low + 1.0
-            };
-        }
-        let change = (next - v).abs();
-        v = next;
-        // Newton squares the error: below 1e-8 the step just taken was the last that counts.
-        if change <= 1e-8 * v || value == 0.0 {
+        // Newton squares the error: a step below 1e-8 is the last that counts.
+        if step.abs() <= 1e-8 * v {
+            v -= step;
             break;
         }
+        let next = v - step;
+        v = if next > low && next < high {
+            next
+        } else if high.is_infinite() {
+            2.0 * low + 1.0
+        } else if low > 0.0 {
+            (low * high).sqrt()
+        } else {
+            0.1 * high
+        };
     }
     Root { v, hyperbolic: Hyperbolic::of(v) }
 }

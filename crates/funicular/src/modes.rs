@@ -181,9 +181,9 @@ impl List<'_> {
             while high - low > 4.0 * f64::EPSILON * high {
                 let middle = 0.5 * (low + high);
                 if self.dynamics.modes_below(middle) > count_low {
-                    high = middle
+                    high = middle;
                 } else {
-                    low = middle
+                    low = middle;
                 }
                 if middle <= low && middle >= high {
                     break;

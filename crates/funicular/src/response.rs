@@ -1,7 +1,7 @@
 //! Frequency responses of the platform: receptance, mobility, accelerance; and their peaks.
 //!
 //! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are worked on side by side in vector registers
-//! ([`kernel`]); the plain version, [`receptance`], is its oracle and takes over where it is not accurate.
+//! (the kernel); the plain version, [`receptance`], is its oracle and takes over where it is not accurate.
 
 mod kernel;
 mod lanes;

@@ -1,6 +1,6 @@
 //! The catenary placed in space: end forces and stiffness in world axes.
 
-use super::{Catenary, Rope};
+use super::{Catenary, CatenaryError, Rope};
 use crate::math::{Mat3, Vec3};
 
 /// A cable in static equilibrium between a platform point (its start) and an anchor (its end). World axes.
@@ -19,7 +19,22 @@ pub struct HangingCable {
 }
 
 impl HangingCable {
-    /// The cable from `start_w` to `end_w` [m] whose load points against the unit vector `up_w`.
+    /// The cable from `start_w` to `end_w` [m] whose load points against `up_w`.
+    ///
+    /// # Errors
+    /// As [`Catenary::between`], and for a direction `up_w` without length.
+    pub fn new(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope) -> Result<Self, CatenaryError> {
+        let up = up_w.norm();
+        if !(up > 0.0 && up.is_finite()) {
+            let must = "finite and positive";
+            return Err(CatenaryError::Input { quantity: "length of the upward direction", value: up, must });
+        }
+        let chord = end_w - start_w;
+        Catenary::between(chord.norm(), 0.0, rope)?;
+        Ok(Self::between(start_w, end_w, up_w / up, rope))
+    }
+
+    /// As [`HangingCable::new`] for numbers that a [`crate::robot::Robot`] has already checked; `up_w` is a unit vector.
     #[inline]
     pub(crate) fn between(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope) -> Self {
         let chord = end_w - start_w;

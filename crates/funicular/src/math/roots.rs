@@ -29,7 +29,8 @@ pub fn brent(low: f64, f_low: f64, high: f64, f_high: f64, mut f: impl FnMut(f64
         }
         if before.abs() >= tolerance && fa.abs() > fb.abs() && fa.is_finite() {
             let s = fb / fa;
-            let (mut p, mut q) = if a == c {
+            let secant_only = (a - c).abs() <= 0.0;
+            let (mut p, mut q) = if secant_only {
                 (2.0 * half * s, 1.0 - s)
             } else {
                 let (q, r) = (fa / fc, fb / fc);
@@ -63,7 +64,8 @@ mod tests {
 
     #[test]
     fn simple_steep_flat_and_jumping_functions_give_their_root() {
-        let cases: [(fn(f64) -> f64, f64, f64, f64); 5] = [
+        type Case = (fn(f64) -> f64, f64, f64, f64);
+        let cases: [Case; 5] = [
             (|x| x * x - 2.0, 0.0, 2.0, std::f64::consts::SQRT_2),
             (|x| (x - 1.0).powi(9), 0.0, 3.0, 1.0),
             (|x| x.exp() - 1e300, 0.0, 709.0, 300.0 * std::f64::consts::LN_10),

@@ -90,6 +90,7 @@ impl Mul for Complexes {
 impl Div for Complexes {
     type Output = Self;
     #[inline(always)]
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "one real division a lane")]
     fn div(self, other: Self) -> Self {
         self * other.inverse()
     }

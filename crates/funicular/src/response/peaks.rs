@@ -28,7 +28,7 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], least_prominence_db: f6
         if level[i] > level[i - 1] && end + 1 < level.len() && level[i] > level[end + 1] {
             let prominence_db = level[i] - valley(&level, i, end);
             if prominence_db >= least_prominence_db {
-                let top = (i + end) / 2;
+                let top = usize::midpoint(i, end);
                 let frequency_hz = if i == end { vertex(frequencies_hz, &level, i) } else { frequencies_hz[top] };
                 found.push(Peak { frequency_hz, prominence_db, magnitude: values[top].norm() });
             }

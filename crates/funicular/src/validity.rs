@@ -1,0 +1,127 @@
+//! Where a model leaves its range: each warning says which cable, the number, the limit and what to do.
+
+use crate::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
+use crate::robot::Robot;
+use crate::statics::{Equilibrium, Stability, StaticModel};
+use std::fmt;
+
+/// Something the user should know before trusting a result.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Warning {
+    /// A cable without force.
+    Slack {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// An ideal cable that would have to push.
+    Pushing {
+        /// Name of the cable.
+        cable: String,
+        /// Its tension [N], negative.
+        tension: f64,
+    },
+    /// An equilibrium that the platform leaves by itself.
+    Unstable {
+        /// Directions that are not opposed.
+        directions: usize,
+        /// Least eigenvalue of the scaled stiffness [N/m].
+        least_stiffness: f64,
+    },
+    /// A shallow-sag model on a cable that sags deeper.
+    DeepSag {
+        /// Name of the cable.
+        cable: String,
+        /// Sag over chord.
+        ratio: f64,
+        /// The model.
+        model: CableModel,
+    },
+    /// Frequencies near a cable's first axial resonance, which no model here contains.
+    AxialWaves {
+        /// Name of the cable with the lowest one.
+        cable: String,
+        /// First axial frequency [Hz].
+        axial_hz: f64,
+        /// Highest frequency asked [Hz].
+        below_hz: f64,
+    },
+}
+
+/// Part of the first axial frequency up to which axial inertia counts as negligible: the axial stiffness is then
+/// (π/3)²/3, a third, too stiff at the limit for a taut cable, and 4 % at a third of that.
+pub const AXIAL_PART: f64 = 1.0 / 3.0;
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Slack { cable } => write!(
+                f,
+                "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
+                 choose the static model `catenary`, which knows its weight"
+            ),
+            Self::Pushing { cable, tension } => write!(
+                f,
+                "cable \"{cable}\" would have to push with {:.3} N: ideal cables cannot hold this pose; choose the \
+                 static model `spring` or `catenary`, or another pose",
+                -tension
+            ),
+            Self::Unstable { directions, least_stiffness } => write!(
+                f,
+                "the equilibrium is not stable: {directions} of its directions {} not opposed (least scaled stiffness \
+                 {least_stiffness:.3e} N/m); the robot would leave it",
+                if *directions == 1 { "is" } else { "are" }
+            ),
+            Self::DeepSag { cable, ratio, model } => write!(
+                f,
+                "cable \"{cable}\" sags by {ratio:.4} of its chord, more than 1/20: the {model} model is outside its \
+                 range, its first cable frequency is wrong by some 2 % at 0.05 and 7 % at 0.10; raise the tension or \
+                 read its cable resonances with care"
+            ),
+            Self::AxialWaves { cable, axial_hz, below_hz } => write!(
+                f,
+                "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \"{cable}\": \
+                 axial waves, which this model leaves out, matter there; lower the limit"
+            ),
+        }
+    }
+}
+
+/// Warnings about a static state.
+pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (cable, state) in robot.cables.iter().zip(&equilibrium.cables) {
+        if equilibrium.model == StaticModel::Ideal {
+            if state.tension_platform < 0.0 {
+                let (cable, tension) = (cable.name.clone(), state.tension_platform);
+                warnings.push(Warning::Pushing { cable, tension });
+            }
+        } else if state.is_slack() {
+            warnings.push(Warning::Slack { cable: cable.name.clone() });
+        }
+    }
+    if let Stability::Unstable { least_stiffness, directions } = equilibrium.stability {
+        warnings.push(Warning::Unstable { directions, least_stiffness });
+    }
+    warnings
+}
+
+/// Warnings about a cable model at a static state for frequencies up to `below_hz` [Hz].
+pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, below_hz: f64) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let sags: Vec<Sag> = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect();
+    if matches!(model, CableModel::StaticSag | CableModel::ClosedForm) {
+        for (cable, sag) in robot.cables.iter().zip(&sags) {
+            if sag.tension > 0.0 && sag.ratio() > SHALLOW_SAG_LIMIT {
+                warnings.push(Warning::DeepSag { cable: cable.name.clone(), ratio: sag.ratio(), model });
+            }
+        }
+    }
+    let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
+    if let Some(i) = lowest {
+        let axial_hz = sags[i].axial_frequency_hz();
+        if below_hz > AXIAL_PART * axial_hz {
+            warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
+        }
+    }
+    warnings
+}
