@@ -48,6 +48,13 @@ pub(crate) enum Command {
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log --input f:1,0,1 \
         --output x --output-point-m 0,0,-0.2 -o frf.csv")]
     Frf(FrfArgs),
+    /// Every cable model side by side, and the simplest that is good enough
+    #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
+    Compare(CompareArgs),
+    /// Poses of spring and catenary cables against ideal ones over platform mass
+    #[command(after_help = "Examples:\n  funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100\n  \
+        funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv")]
+    PoseError(PoseErrorArgs),
     /// Dynamic stiffness of one cable over frequency
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000 -o cable-1.csv")]
@@ -222,6 +229,51 @@ pub(crate) struct FrfArgs {
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Limit of the frequencies [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) below_hz: f64,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+
+    /// Terms of the stiffness: all (consistent), or the cables' end stiffness only, as Yuan et al. 2014 (paper)
+    #[arg(long, value_name = "TERMS", value_enum, default_value_t)]
+    pub(crate) assembly: AssemblyName,
+
+    /// Leave out the stiffness of cables out of their planes, as Yuan et al. 2014
+    #[arg(long)]
+    pub(crate) in_plane_only: bool,
+
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PoseErrorArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Platform masses [kg] from A to B, N of them in equal steps, as in 10:90:81
+    #[arg(long, value_name = "A:B:N", value_parser = values::mass_range, allow_hyphen_values = true)]
+    pub(crate) mass_kg: MassRange,
+
+    /// Unstrained lengths [m], one a cable in file order [default: as the robot file says]
+    #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true)]
+    pub(crate) lengths_m: Option<Lengths>,
+
+    /// Name the mass from which on the spring pose is this near to the catenary pose [mm]
+    #[arg(long, value_name = "MM", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) tolerance_mm: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
 }
 
 #[derive(Debug, Args)]

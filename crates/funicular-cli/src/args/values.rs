@@ -62,9 +62,7 @@ pub(crate) struct PoseNumbers {
 pub(crate) fn pose(text: &str) -> Result<PoseNumbers, String> {
     match list(text)?[..] {
         [x, y, z] => Ok(PoseNumbers { position: [x, y, z], roll_pitch_yaw_deg: [0.0; 3] }),
-        [x, y, z, roll, pitch, yaw] => {
-            Ok(PoseNumbers { position: [x, y, z], roll_pitch_yaw_deg: [roll, pitch, yaw] })
-        }
+        [x, y, z, roll, pitch, yaw] => Ok(PoseNumbers { position: [x, y, z], roll_pitch_yaw_deg: [roll, pitch, yaw] }),
         ref other => Err(format!("{} numbers where x,y,z or x,y,z,roll,pitch,yaw are needed", other.len())),
     }
 }
@@ -141,8 +139,7 @@ pub(crate) struct Output {
 /// `x` … `rz`, with `v` or `a` before it, or `x:ux,uy,uz`, `v:…`, `a:…`
 pub(crate) fn output(text: &str) -> Result<Output, String> {
     let name = text.trim().to_owned();
-    let of =
-        |quantity, is_rotation, direction_w| Ok(Output { name: name.clone(), is_rotation, quantity, direction_w });
+    let of = |quantity, is_rotation, direction_w| Ok(Output { name: name.clone(), is_rotation, quantity, direction_w });
     for (prefix, quantity) in
         [("x:", Quantity::Displacement), ("v:", Quantity::Velocity), ("a:", Quantity::Acceleration)]
     {
@@ -175,7 +172,7 @@ pub(crate) struct MassRange {
 }
 
 /// Most masses of a range.
-const MOST_MASSES: usize = 1_000_000;
+const MOST_MASSES: usize = 100_000;
 
 /// `from:to:count`
 pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
