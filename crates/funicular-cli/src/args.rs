@@ -32,7 +32,7 @@ pub(crate) enum Command {
     /// Equilibrium: pose, tensions, sag
     #[command(after_help = "Examples:\n  funicular statics robots/yuan2014-4mm.toml\n  \
         funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \
-        funicular statics robots/yuan2014-4mm.toml --lengths-m 6.863,6.565,6.756,6.663,6.801,6.604 --static-model spring")]
+        funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6")]
     Statics(StaticsArgs),
     /// The 6×6 stiffness at one frequency, static at 0 Hz
     #[command(after_help = "Examples:\n  funicular stiffness robots/yuan2014-4mm.toml\n  \
@@ -40,13 +40,14 @@ pub(crate) enum Command {
     Stiffness(StiffnessArgs),
     /// Every natural frequency below a limit, counted: none missed
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
-        funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring --format csv -o modes.csv")]
+        funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv")]
     Modes(ModesArgs),
     /// Frequency response of the platform, and its peaks
     #[command(after_help = "Examples:\n  \
-        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 --input fz --output ay\n  \
-        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log --input f:1,0,1 \
-        --output x --output-point-m 0,0,-0.2 -o frf.csv")]
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
+        --input fz --output ay\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    \
+        --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv")]
     Frf(FrfArgs),
     /// Every cable model side by side, and the simplest that is good enough
     #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
@@ -57,7 +58,7 @@ pub(crate) enum Command {
     PoseError(PoseErrorArgs),
     /// Dynamic stiffness of one cable over frequency
     #[command(after_help = "Example:\n  \
-        funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000 -o cable-1.csv")]
+        funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
 }
 

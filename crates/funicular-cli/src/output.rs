@@ -102,7 +102,7 @@ impl Sink {
 fn as_json<R: Results>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
     json::write(out, R::COMMAND, results.robot(), results, results.warnings()).map_err(|error| {
         NoSolution(format!(
-            "{error}: the numbers of the robot file are too far apart for this analysis; check their units"
+            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the frequency or check the units"
         ))
     })
 }

@@ -6,7 +6,6 @@ use std::fmt;
 /// A table with a header; columns from the second on hold numbers and are aligned to the right.
 pub(crate) struct Table {
     inner: comfy_table::Table,
-    columns: usize,
 }
 
 impl Table {
@@ -14,22 +13,24 @@ impl Table {
         let mut inner = comfy_table::Table::new();
         // Never wrapped: a table in a pipe or a file looks as it does in a wide terminal.
         inner.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled).set_header(header);
-        let mut table = Self { inner, columns: header.len() };
-        table.align(1.., CellAlignment::Right);
+        let mut table = Self { inner };
+        for index in 1..header.len() {
+            table.align(index, CellAlignment::Right);
+        }
         table
     }
 
-    /// Aligns the columns of text to the left.
-    pub(crate) fn text_columns(mut self, columns: std::ops::RangeFrom<usize>) -> Self {
-        self.align(columns, CellAlignment::Left);
+    /// Aligns these columns to the left: they hold text.
+    pub(crate) fn text_columns(mut self, columns: &[usize]) -> Self {
+        for &index in columns {
+            self.align(index, CellAlignment::Left);
+        }
         self
     }
 
-    fn align(&mut self, columns: std::ops::RangeFrom<usize>, alignment: CellAlignment) {
-        for index in columns.start..self.columns {
-            if let Some(column) = self.inner.column_mut(index) {
-                column.set_cell_alignment(alignment);
-            }
+    fn align(&mut self, index: usize, alignment: CellAlignment) {
+        if let Some(column) = self.inner.column_mut(index) {
+            column.set_cell_alignment(alignment);
         }
     }
 
@@ -61,11 +62,21 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let exponent = value.abs().log10().floor() as i32;
+    let exponent = value.abs().log10().floor() as i64;
     if (-4..=6).contains(&exponent) {
-        decimals(value, (digits as i32 - 1 - exponent).max(0) as usize)
+        decimals(value, (i64::try_from(digits).unwrap_or(i64::MAX) - 1 - exponent).max(0) as usize)
     } else {
         format!("{value:.places$e}", places = digits.saturating_sub(1))
+    }
+}
+
+/// As [`significant`], without the zeros at the end: for numbers that the user chose.
+pub(crate) fn short(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 
@@ -99,6 +110,8 @@ mod tests {
         assert_eq!(significant(-0.000_012_345, 3), "-1.23e-5");
         assert_eq!(significant(1.5e9, 4), "1.500e9");
         assert_eq!(significant(0.0, 4), "0");
+        assert_eq!(short(10.55, 6), "10.55");
+        assert_eq!(short(100.0, 6), "100");
     }
 
     #[test]

@@ -206,8 +206,9 @@ mod tests {
 
     #[test]
     fn poses_have_three_or_six_numbers() {
-        assert_eq!(pose("-1,2,3").unwrap().position, [-1.0, 2.0, 3.0]);
-        assert_eq!(pose("1,2,3,4,5,-6").unwrap().roll_pitch_yaw_deg, [4.0, 5.0, -6.0]);
+        let written = |text| format!("{:?}", pose(text).unwrap());
+        assert!(written("-1,2,3").contains("[-1.0, 2.0, 3.0]"));
+        assert!(written("1,2,3,4,5,-6").contains("[4.0, 5.0, -6.0]"));
         assert!(pose("1,2").is_err() && pose("1,2,3,4").is_err() && pose("1,,3").is_err());
     }
 

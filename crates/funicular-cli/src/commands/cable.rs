@@ -56,6 +56,7 @@ struct Axes {
 
 /// Along the chord, coupling, normal in plane, out of plane [N/m].
 #[derive(Serialize)]
+#[expect(clippy::struct_field_names, reason = "the symbols of the cited equations, and the keys of the JSON")]
 struct Local {
     k_a: Curve,
     k_b: Curve,
@@ -124,7 +125,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
         },
         world: World { real: world(|k| k.re), imag: world(|k| k.im) },
         frequency_hz,
-        warnings: warnings(robot, state, &sag, model, args),
+        warnings: warnings(state, &sag, model, args),
     })
 }
 
@@ -186,7 +187,7 @@ fn clamped(stiffness: &EndStiffness, args: &CableArgs) -> Result<Option<Vec<f64>
 }
 
 /// What the core warns of, for this cable alone.
-fn warnings(robot: &Robot, state: &CableState, sag: &Sag, model: CableModel, args: &CableArgs) -> Vec<String> {
+fn warnings(state: &CableState, sag: &Sag, model: CableModel, args: &CableArgs) -> Vec<String> {
     use funicular::cable::SHALLOW_SAG_LIMIT;
     use funicular::validity::{AXIAL_PART, Warning};
     let cable = args.name.clone();
@@ -202,8 +203,11 @@ fn warnings(robot: &Robot, state: &CableState, sag: &Sag, model: CableModel, arg
     if below_hz > AXIAL_PART * axial_hz {
         warnings.push(Warning::AxialWaves { cable, axial_hz, below_hz });
     }
-    debug_assert!(robot.cables.iter().any(|cable| cable.name == args.name));
     warnings.iter().map(ToString::to_string).collect()
+}
+
+fn line(label: &str, text: &str) -> String {
+    format!("  {label:<24} {text}\n")
 }
 
 impl Results for CableResult {
@@ -226,7 +230,7 @@ impl Results for CableResult {
             self.cable_model,
             if self.in_plane_only { ", in plane only" } else { "" }
         );
-        let mut say = |label: &str, text: String| out.push_str(&format!("  {label:<24} {text}\n"));
+        let mut say = |label: &str, text: String| out.push_str(&line(label, &text));
         say("chord", format!("{} m", decimals(self.chord_m, 4)));
         say("tension along the chord", format!("{} N", significant(self.parallel_tension_n, 6)));
         if let (Some(ratio), Some(lambda2)) = (self.sag_ratio, self.lambda2) {

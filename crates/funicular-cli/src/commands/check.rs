@@ -1,10 +1,11 @@
 //! `check`: what the robot file says.
 
 use crate::output::Results;
-use crate::table::{self, Table, decimals, decimals_or_none, significant, vector};
+use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::math::rotation;
 use funicular::robot::{Damping, Freedoms, Robot, State};
 use serde::Serialize;
+use std::cmp::Ordering;
 use std::fmt::Write;
 
 /// The robot as it was read.
@@ -160,18 +161,19 @@ impl Results for Checked {
         if !self.source.is_empty() {
             say(format!("  source      {}", self.source));
         }
-        let redundancy = match self.cables.len() as isize - self.freedoms as isize {
-            0 => "as many as freedoms".to_owned(),
-            more @ 1.. => format!("{more} more than freedoms"),
-            fewer => format!("{} fewer than freedoms", -fewer),
+        let (cables, freedoms) = (self.cables.len(), self.freedoms);
+        let redundancy = match cables.cmp(&freedoms) {
+            Ordering::Less => format!("{} fewer than freedoms", freedoms - cables),
+            Ordering::Equal => "as many as freedoms".to_owned(),
+            Ordering::Greater => format!("{} more than freedoms", cables - freedoms),
         };
         say(format!("  cables      {}, {redundancy}", self.cables.len()));
         let platform = &self.platform;
         let kind = if self.freedoms == Freedoms::PointMass.count() { "point mass" } else { "rigid platform" };
-        say(format!("  platform    {kind}, {} kg", significant(platform.mass_kg, 6)));
+        say(format!("  platform    {kind}, {} kg", short(platform.mass_kg, 6)));
         if self.freedoms == Freedoms::Rigid.count() {
             let rows = platform.inertia_kg_m2;
-            let cell = |i: usize, j: usize| significant(rows[i][j], 5);
+            let cell = |i: usize, j: usize| short(rows[i][j], 5);
             say(format!(
                 "  inertia     xx {}, yy {}, zz {}, xy {}, xz {}, yz {} kg m² about the centre of mass",
                 cell(0, 0),
@@ -219,12 +221,12 @@ impl Results for Checked {
 impl Checked {
     fn rope_table(&self) -> String {
         let mut ropes = Table::new(&["rope", "EA [N]", "mass [kg/m]", "damping ratio", "viscous damping [N s/m²]"]);
-        let or_none = |value: Option<f64>| value.map_or_else(|| table::NONE.to_owned(), |v| significant(v, 4));
+        let or_none = |value: Option<f64>| value.map_or_else(|| table::NONE.to_owned(), |v| short(v, 4));
         for rope in &self.materials {
             ropes.row(vec![
                 rope.name.clone(),
-                significant(rope.axial_stiffness_n, 6),
-                significant(rope.mass_kg_per_m, 5),
+                short(rope.axial_stiffness_n, 6),
+                short(rope.mass_kg_per_m, 5),
                 or_none(rope.damping_ratio),
                 or_none(rope.viscous_damping_n_s_m2),
             ]);
@@ -233,7 +235,8 @@ impl Checked {
     }
 
     fn cable_table(&self) -> String {
-        let mut cables = Table::new(&["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]"]);
+        let mut cables =
+            Table::new(&["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]"]).text_columns(&[1]);
         for cable in &self.cables {
             let point = |values: &[f64; 3]| {
                 values.iter().fold(String::new(), |mut text, value| {

@@ -135,7 +135,7 @@ impl Results for Compared {
             .chain(["kind".to_owned()])
             .chain(others.iter().flat_map(|model| [format!("{} [Hz]", model.cable_model), "differs".to_owned()]))
             .collect();
-        let mut table = Table::new(&heads.iter().map(String::as_str).collect::<Vec<_>>());
+        let mut table = Table::new(&heads.iter().map(String::as_str).collect::<Vec<_>>()).text_columns(&[1]);
         let reference: &[ModeRow] = self.reference().map_or(&[], |model| &model.modes);
         for (i, mode) in reference.iter().enumerate() {
             let mut row = vec![decimals(mode.frequency_hz, 4), mode.kind.to_owned()];
@@ -150,7 +150,7 @@ impl Results for Compared {
             }
             table.row(row);
         }
-        let mut out = format!(
+        let head = format!(
             "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n{table}\n",
             self.robot,
             self.below_hz,
@@ -159,6 +159,7 @@ impl Results for Compared {
             self.assembly,
             if self.in_plane_only { ", in plane only" } else { "" }
         );
+        let mut lines = Vec::new();
         for model in others {
             let line = match (&model.error, model.first_wrong_hz) {
                 (Some(error), _) => error.clone(),
@@ -171,9 +172,9 @@ impl Results for Compared {
                     decimals(first, 4)
                 ),
             };
-            out.push_str(&format!("  {:<17} {line}\n", model.cable_model));
+            lines.push(format!("  {:<17} {line}", model.cable_model));
         }
-        out + "\n" + &self.advice.text + "\n"
+        format!("{head}{}\n\n{}\n", lines.join("\n"), self.advice.text)
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {

@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 pub(crate) const MOST_MODES: usize = 20_000;
 
 #[derive(Serialize)]
+#[expect(clippy::struct_field_names, reason = "`modes` is a key of the JSON")]
 pub(crate) struct Modes {
     #[serde(skip)]
     robot: String,
@@ -169,7 +170,7 @@ impl Results for Modes {
             "kind",
             "cables",
         ])
-        .text_columns(9..);
+        .text_columns(&[9, 10]);
         for mode in &self.modes {
             let mut row = vec![
                 decimals(mode.frequency_hz, 4),

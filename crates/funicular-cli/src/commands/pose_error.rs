@@ -4,7 +4,7 @@ use crate::args::PoseErrorArgs;
 use crate::errors::NoSolution;
 use crate::output::Results;
 use crate::progress::Progress;
-use crate::table::{self, Table, decimals, decimals_or_none, significant};
+use crate::table::{self, Table, decimals, decimals_or_none, short, significant};
 use anyhow::{Result, bail};
 use funicular::pose_error::{self, PoseDifference, PoseErrorPoint, Threshold};
 use funicular::robot::{Robot, State};
@@ -194,7 +194,7 @@ impl Results for PoseErrors {
             "[°]",
         ]);
         for point in &self.points {
-            let mut row = vec![significant(point.mass_kg, 6)];
+            let mut row = vec![short(point.mass_kg, 6)];
             for difference in [point.spring_from_ideal, point.catenary_from_ideal, point.spring_from_catenary] {
                 row.push(decimals_or_none(difference.map(|d| 1e3 * d.distance_m), 3));
                 row.push(difference.map_or_else(|| table::NONE.to_owned(), |d| decimals(d.angle_deg, 4)));

@@ -3,7 +3,7 @@
 use crate::args::StateArgs;
 use crate::output::Results;
 use crate::state::{self, AtRest, static_model_name};
-use crate::table::{self, Table, decimals, decimals_or_none, significant, vector};
+use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use anyhow::Result;
 use funicular::cable::Sag;
 use funicular::math::rotation;
@@ -145,7 +145,7 @@ impl Results for Statics {
              {cables}\n{stability}. Residual {:.1e} after {}.\n",
             self.robot,
             self.static_model,
-            significant(self.mass_kg, 6),
+            short(self.mass_kg, 6),
             vector(&self.pose.position_m, 6),
             vector(&self.pose.roll_pitch_yaw_deg, 4),
             self.residual,

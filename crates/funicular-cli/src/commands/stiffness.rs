@@ -6,7 +6,7 @@ use crate::state::{self, Models};
 use crate::table::{Table, significant};
 use anyhow::Result;
 use funicular::cable::CableModel;
-use funicular::dynamics::{Assembly, DynamicsError, Linearisation};
+use funicular::dynamics::{DynamicsError, Linearisation};
 use funicular::math::{CMat6, Complex};
 use funicular::robot::Robot;
 use funicular::statics::{self, StaticModel};
@@ -49,7 +49,6 @@ pub(crate) fn run(robot: Robot, args: &StiffnessArgs) -> Result<Stiffness> {
     // `+ 0.0` makes a negative zero positive: the sign would mean nothing.
     let rows =
         |part: fn(&Complex) -> f64| std::array::from_fn(|i| std::array::from_fn(|j| part(&matrix[(i, j)]) + 0.0));
-    debug_assert!(linearisation.assembly == Assembly::Consistent || exact.is_none());
     Ok(Stiffness {
         robot: at_rest.robot.name.clone(),
         frequency_hz: args.at_hz,
@@ -105,16 +104,19 @@ impl Results for Stiffness {
         if is_real {
             out += &table(&self.real);
         } else {
-            out += &format!("Real part\n{}\nImaginary part (damping)\n{}", table(&self.real), table(&self.imag));
+            out += "Real part\n";
+            out += &table(&self.real);
+            out += "\nImaginary part (damping)\n";
+            out += &table(&self.imag);
         }
         out
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
         out.write_record(["row", "column", "unit", "real", "imag"])?;
-        for i in 0..6 {
-            for j in 0..6 {
-                out.serialize((WRENCH[i], MOTION[j], unit(i, j), self.real[i][j], self.imag[i][j]))?;
+        for (i, row) in WRENCH.iter().enumerate() {
+            for (j, column) in MOTION.iter().enumerate() {
+                out.serialize((row, column, unit(i, j), self.real[i][j], self.imag[i][j]))?;
             }
         }
         Ok(())
