@@ -121,7 +121,7 @@ mod tests {
         table.row(vec!["long name".to_owned(), "100.0".to_owned()]);
         assert_eq!(
             table.to_string(),
-            "  cable       tension [N]\n  é                   1.0\n  long name         100.0\n"
+            "  cable      tension [N]\n  é                  1.0\n  long name        100.0\n"
         );
     }
 }
