@@ -109,7 +109,7 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     let count_below = dynamics.modes_below(limit);
     let poles = dynamics.clamped_frequencies_below(limit);
     let first = poles.first().map_or(limit, |p| p.0);
-    // Low enough that no frequency lies below: a millionth of the least pole, or of the limit.
+    // Low enough that no frequency lies below: a billionth of the least pole, or of the limit.
     let lowest = 1e-9 * first.min(limit);
     let unstable_directions = dynamics.modes_below(lowest);
 

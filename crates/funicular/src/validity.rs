@@ -47,8 +47,8 @@ pub enum Warning {
     },
 }
 
-/// Part of the first axial frequency up to which axial inertia counts as negligible: the axial stiffness is then
-/// (π/3)²/3, a third, too stiff at the limit for a taut cable, and 4 % at a third of that.
+/// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
+/// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
 pub const AXIAL_PART: f64 = 1.0 / 3.0;
 
 impl fmt::Display for Warning {
@@ -74,8 +74,8 @@ impl fmt::Display for Warning {
             Self::DeepSag { cable, ratio, model } => write!(
                 f,
                 "cable \"{cable}\" sags by {ratio:.4} of its chord, more than 1/20: the {model} model is outside its \
-                 range, its first cable frequency is wrong by some 2 % at 0.05 and 7 % at 0.10; raise the tension or \
-                 read its cable resonances with care"
+                 range, its first cable frequency is wrong by some 2 % at 0.05 and 7 % at 0.10 at 36° inclination, more \
+                 where steeper; raise the tension or read its cable resonances with care"
             ),
             Self::AxialWaves { cable, axial_hz, below_hz } => write!(
                 f,

@@ -181,63 +181,99 @@ fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
 
 /// `outputᵀ D⁻¹ input` at each frequency [Hz].
 pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
-    let prepared = Prepared::new(dynamics);
     let scale = dynamics.scale();
     // Motions and wrenches of lacking freedoms are not there; unit diagonals in D must not pass them through.
     let vector = |v: &Vec6| from_fn(|i| if i < dynamics.freedoms { v[i] / scale[i] } else { 0.0 });
-    let (force, motion): ([f64; 6], [f64; 6]) = (vector(input), vector(output));
     let mut values = vec![Complex::new(0.0, 0.0); frequencies_hz.len()];
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || {
-            for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
-                let omega = angular(block);
-                let mut d = prepared.dynamic_stiffness(&omega);
-                let accurate = factorise(&mut d);
-                let (z, y) = (forward(&d, &force), forward(&d, &motion));
-                let mut sum = Complexes::ZERO;
-                for i in 0..6 {
-                    sum += z[i] * y[i] * d[at(i, i)];
-                }
-                for (i, value) in values.iter_mut().enumerate() {
-                    *value = if accurate[i] { sum.lane(i) } else { plain(dynamics, omega[i], input, output) };
-                }
-            }
+    pulp::Arch::new().dispatch(OneEntry {
+        prepared: Prepared::new(dynamics),
+        frequencies_hz,
+        force: vector(input),
+        motion: vector(output),
+        plain: &|omega| {
+            let x = receptance(dynamics, omega) * input.map(|v| Complex::new(v, 0.0));
+            (0..6).map(|i| x[i] * output[i]).sum()
         },
-    );
+        values: &mut values,
+    });
     values
 }
 
 /// The whole receptance at each frequency [Hz].
 pub(super) fn all_entries(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Vec<CMat6> {
-    let prepared = Prepared::new(dynamics);
-    let scale = dynamics.scale();
     let mut values = vec![CMat6::zeros(); frequencies_hz.len()];
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || {
-            for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
-                let omega = angular(block);
-                let mut d = prepared.dynamic_stiffness(&omega);
-                let accurate = factorise(&mut d);
-                let inverse = invert(&d);
-                for (i, value) in values.iter_mut().enumerate() {
-                    if !accurate[i] {
-                        *value = receptance(dynamics, omega[i]);
-                        continue;
-                    }
-                    for column in 0..dynamics.freedoms {
-                        for row in column..dynamics.freedoms {
-                            let entry = inverse[at(row, column)].lane(i) / (scale[row] * scale[column]);
-                            value[(row, column)] = entry;
-                            value[(column, row)] = entry;
-                        }
+    pulp::Arch::new().dispatch(AllEntries { prepared: Prepared::new(dynamics), frequencies_hz, values: &mut values });
+    values
+}
+
+/// The loop of [`one_entry`]. A type of its own, since its call must be inlined into the function that has the vector
+/// instructions; nothing promises that for the call operator of a closure.
+struct OneEntry<'a> {
+    prepared: Prepared<'a>,
+    frequencies_hz: &'a [f64],
+    force: [f64; 6],
+    motion: [f64; 6],
+    plain: &'a dyn Fn(f64) -> Complex,
+    values: &'a mut [Complex],
+}
+
+impl pulp::NullaryFnOnce for OneEntry<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { prepared, frequencies_hz, force, motion, plain, values } = self;
+        for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
+            let omega = angular(block);
+            let mut d = prepared.dynamic_stiffness(&omega);
+            let accurate = factorise(&mut d);
+            let (z, y) = (forward(&d, &force), forward(&d, &motion));
+            let mut sum = Complexes::ZERO;
+            for i in 0..6 {
+                sum += z[i] * y[i] * d[at(i, i)];
+            }
+            for (i, value) in values.iter_mut().enumerate() {
+                *value = if accurate[i] { sum.lane(i) } else { plain(omega[i]) };
+            }
+        }
+    }
+}
+
+/// The loop of [`all_entries`].
+struct AllEntries<'a> {
+    prepared: Prepared<'a>,
+    frequencies_hz: &'a [f64],
+    values: &'a mut [CMat6],
+}
+
+impl pulp::NullaryFnOnce for AllEntries<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { prepared, frequencies_hz, values } = self;
+        let dynamics = prepared.dynamics;
+        let scale = dynamics.scale();
+        for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
+            let omega = angular(block);
+            let mut d = prepared.dynamic_stiffness(&omega);
+            let accurate = factorise(&mut d);
+            let inverse = invert(&d);
+            for (i, value) in values.iter_mut().enumerate() {
+                if !accurate[i] {
+                    *value = receptance(dynamics, omega[i]);
+                    continue;
+                }
+                for column in 0..dynamics.freedoms {
+                    for row in column..dynamics.freedoms {
+                        let entry = inverse[at(row, column)].lane(i) * (1.0 / (scale[row] * scale[column]));
+                        value[(row, column)] = entry;
+                        value[(column, row)] = entry;
                     }
                 }
             }
-        },
-    );
-    values
+        }
+    }
 }
 
 /// `L⁻ᵀ D⁻¹ L⁻¹`, lower triangle, from [`factorise`].
@@ -272,10 +308,4 @@ fn invert(l: &[Complexes; 21]) -> [Complexes; 21] {
 #[inline(always)]
 fn angular(block: &[f64]) -> Reals {
     from_fn(|i| block[i.min(block.len() - 1)] * TAU)
-}
-
-#[inline(never)]
-fn plain(dynamics: &Dynamics, omega: f64, input: &Vec6, output: &Vec6) -> Complex {
-    let x = receptance(dynamics, omega) * input.map(|v| Complex::new(v, 0.0));
-    (0..6).map(|i| x[i] * output[i]).sum()
 }

@@ -64,6 +64,11 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     }
 }
 
+/// A solution that needs this many times the tension of straight cables, one of which would push, counts as none. In
+/// 15,000 such poses of the paper's robot the ratio runs from 1 through 2.5 (half of them) and 10 (all but 2 %) to 550
+/// beside singular poses.
+const OUT_OF_PROPORTION: f64 = 100.0;
+
 fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
 }
@@ -123,10 +128,17 @@ fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, 
             }
         }
     }
-    if residual <= RESIDUAL_LIMIT {
+    let pushing = weakest(straight).filter(|&i| straight[i] <= 0.0);
+    let strongest = |tensions: &mut dyn Iterator<Item = f64>| tensions.fold(0.0, |m: f64, t| m.max(t.abs()));
+    // Where a straight cable would push, sagging ones may still hold the pose, by their weight; or only by tensions out
+    // of all proportion, which no one means.
+    let far_fetched = pushing.is_some()
+        && strongest(&mut hanging.iter().map(|c| c.catenary.tension_at_start()))
+            > OUT_OF_PROPORTION * strongest(&mut straight.iter().copied());
+    if residual <= RESIDUAL_LIMIT && !far_fetched {
         return Ok(collect(robot, *pose, StaticModel::Catenary, hanging, &lengths, iterations));
     }
-    if let Some(i) = weakest(straight).filter(|&i| straight[i] <= 0.0) {
+    if let Some(i) = pushing {
         return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: straight[i] });
     }
     let p = pose.position_w;
@@ -158,19 +170,19 @@ fn length_for_tension(robot: &Robot, pose: &Pose, i: usize, from: f64, wanted: f
             high = length;
         }
         // Taut, τ grows like c − L; sagging, like 1/√(L − c): its logarithm is between both.
-        let next = length - (tension / wanted).ln() * tension / cable.parallel_tension_by_length();
-        let next = if next > low && next < high {
+        let step = (tension / wanted).ln() * tension / cable.parallel_tension_by_length();
+        // Newton squares the error, and only a step on the way is wanted: what counts is the balance afterwards.
+        if step.abs() <= 1e-9 * length {
+            return length - step;
+        }
+        let next = length - step;
+        length = if next > low && next < high {
             next
         } else if high.is_finite() {
             0.5 * (low + high)
         } else {
             2.0 * low
         };
-        let change = (next - length).abs();
-        length = next;
-        if change <= 1e-15 * length {
-            break;
-        }
     }
     length
 }

@@ -1,7 +1,11 @@
 //! One binary: what others published or computed, limits, properties, and broken robot files.
 #![allow(missing_docs)]
-#![allow(clippy::excessive_precision)] // published values keep their digits
+#![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)] // published values keep their digits
 
+mod cable;
 mod catenary;
 mod independent;
+mod modes;
+mod response;
 mod robot_files;
+mod statics;

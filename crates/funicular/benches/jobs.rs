@@ -1,0 +1,90 @@
+//! The user's jobs, one bench each, on one core; robot: robots/yuan2014-4mm.toml at 10.55 kg.
+#![allow(missing_docs)]
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use funicular::catenary::{Catenary, Rope};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::Vec3;
+use funicular::response::{self, Direction, Quantity};
+use funicular::robot::{Robot, State};
+use funicular::statics::{self, StaticModel};
+use funicular::{modes, robot::Pose};
+use std::hint::black_box;
+use std::time::Duration;
+
+fn robot() -> (Robot, Vec<f64>) {
+    let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml")).expect("the library's robot");
+    let State::Lengths(lengths) = robot.state.clone() else { panic!("its state is given by lengths") };
+    (robot, lengths)
+}
+
+fn one_catenary(c: &mut Criterion) {
+    // Sixteen cables from taut to deep sag, so that no branch is learned by heart.
+    let ropes: Vec<(f64, f64, Rope)> = (0..16)
+        .map(|i| {
+            let rope = Rope {
+                unstrained_length: 6.7 + 0.03 * f64::from(i),
+                weight_per_length: 0.657_27,
+                axial_stiffness: 251_327.4,
+            };
+            (5.54 - 0.02 * f64::from(i), 4.025 - 0.01 * f64::from(i), rope)
+        })
+        .collect();
+    let mut i = 0;
+    c.bench_function("catenary: one cable, end forces", |b| {
+        b.iter(|| {
+            i = (i + 1) & 15;
+            let (span, rise, rope) = black_box(ropes[i]);
+            Catenary::between(span, rise, rope).expect("valid").horizontal_force()
+        });
+    });
+}
+
+fn statics_both_ways(c: &mut Criterion) {
+    let (robot, lengths) = robot();
+    c.bench_function("statics: lengths to pose, no start", |b| {
+        b.iter(|| statics::forward(&robot, black_box(&lengths), StaticModel::Catenary, None).expect("converges"));
+    });
+    let pose = Pose::new([0.3, -0.2, 0.7], [1.0, 2.0, 3.0]);
+    c.bench_function("statics: pose to lengths", |b| {
+        b.iter(|| statics::inverse(&robot, black_box(&pose), StaticModel::Catenary).expect("converges"));
+    });
+}
+
+fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
+    let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
+    (Dynamics::about(robot, &rest, Linearisation::default()).expect("taut"), rest.pose)
+}
+
+fn responses(c: &mut Criterion) {
+    let (robot, lengths) = robot();
+    let (dynamics, pose) = linearised(&robot, &lengths);
+    let frequencies: Vec<f64> = (0..10_000).map(|i| 0.002 * f64::from(i + 1)).collect();
+    let along = |direction_w| Direction::Along { direction_w, point_p: Vec3::zeros() }.vector(&pose);
+    let (input, output) = (along(Vec3::z()), along(Vec3::y()));
+    c.bench_function("frf: 10,000 frequencies, one input, one output", |b| {
+        b.iter(|| response::frf(&dynamics, black_box(&frequencies), &input, &output, Quantity::Acceleration));
+    });
+    c.bench_function("frf: 10,000 frequencies, all 36 entries", |b| {
+        b.iter(|| response::receptances(&dynamics, black_box(&frequencies)));
+    });
+}
+
+fn natural_frequencies(c: &mut Criterion) {
+    let (robot, lengths) = robot();
+    let (dynamics, _) = linearised(&robot, &lengths);
+    c.bench_function("modes: all below 20 Hz, certified", |b| {
+        b.iter(|| {
+            let found = modes::below(black_box(&dynamics), 20.0);
+            assert!(found.certified);
+            found.modes.len()
+        });
+    });
+}
+
+criterion_group! {
+    name = jobs;
+    config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
+    targets = one_catenary, statics_both_ways, responses, natural_frequencies
+}
+criterion_main!(jobs);

@@ -1,0 +1,244 @@
+//! Natural frequencies against published models, other algorithms and identities.
+
+use funicular::cable::CableModel;
+use funicular::catenary::Rope;
+use funicular::catenary::space::HangingCable;
+use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::math::{Mat6, Vec3, rotation};
+use funicular::modes::{self, Kind};
+use funicular::robot::{Pose, Robot, State};
+use funicular::statics::{self, CableState, Equilibrium, Stability, StaticModel};
+use std::f64::consts::TAU;
+
+fn load(text: &str) -> (Robot, Vec<f64>) {
+    let robot = Robot::from_toml(text).unwrap();
+    let State::Lengths(lengths) = robot.state.clone() else { panic!("given by lengths") };
+    (robot, lengths)
+}
+
+fn yuan() -> (Robot, Equilibrium) {
+    let (robot, lengths) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    (robot, rest)
+}
+
+/// Eight straight cables and a 30 kg point mass in the middle of a 2.5 m cube (Nguyen-Van, JMST 2020,
+/// doi 10.1007/s12206-020-0809-9; SAP2000 models Eight_60N and Eight_140N, CC0): (unstrained lengths, tensions of the
+/// model, first frequencies of continuous strings by the Wittrick-Williams count [Hz]).
+#[rustfmt::skip]
+const CUBE: [([f64; 8], &[f64]); 2] = [
+    (
+        [1.767_666_007_226_99, 1.767_666_007_226_99, 1.767_666_007_226_99, 1.767_666_007_226_99,
+         2.164_791_893_778_93, 2.164_791_892_915_13, 2.164_791_892_915_13, 2.164_791_897_450_09],
+        &[13.425120051, 13.428850801, 13.428850801, 13.4294160606, 13.4294160606, 13.4294160606, 13.4294160606,
+          13.4294160606, 16.2454887929, 16.2518994495, 16.2519409652, 16.2536197312, 16.2536248639, 16.2536938975,
+          16.253699769, 16.2537092308, 22.9066729684, 26.8569038385, 26.8569038385, 26.8588321211, 26.8588321211,
+          26.8588321211, 26.8588321211, 26.8588321211, 26.8738137304, 32.4973951243, 32.4974763884, 32.5072370071,
+          32.507246597, 32.5073876617, 32.5073993613, 32.5074184616, 32.5153892202, 38.5635742297, 38.5635745087],
+    ),
+    (
+        [1.767_522_771_214_67, 1.767_522_771_214_67, 1.767_522_771_214_67, 1.767_522_771_214_67,
+         2.164_791_802_432_18, 2.164_791_984_046_64, 2.164_791_984_046_64, 2.164_791_806_103_31],
+        &[16.2446506202, 16.2495810587, 16.2504211067, 16.2509816338, 16.2544705523, 16.2551715827, 16.2560166477,
+          16.2563645191, 20.827823042, 20.8857462669, 20.8857462685, 20.888388084, 20.888388084, 20.888388084,
+          20.888388084, 20.888388084, 22.9779372449, 32.4934497012, 32.4972122711, 32.5019632675, 32.5046483776,
+          32.50756244, 32.5113385547, 32.5127260683, 32.5180837127, 38.560611592, 38.5606302321],
+    ),
+];
+
+#[test]
+fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multiplicity() {
+    let (mut robot, _) = load(include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"));
+    // The published model is the linearisation at the middle of the cube with the tensions of its lengths, without sag.
+    robot.gravity_w = Vec3::zeros();
+    for (lengths, expected) in CUBE {
+        let pose = Pose::new([1.25; 3], [0.0; 3]);
+        let cables = robot.cables.iter().zip(lengths).map(|(cable, unstrained_length)| {
+            let axial_stiffness = cable.material.axial_stiffness;
+            let rope = Rope { unstrained_length, weight_per_length: 0.0, axial_stiffness };
+            let hanging = HangingCable::new(pose.position_w, cable.anchor_w, Vec3::z(), rope).unwrap();
+            CableState {
+                attachment_w: pose.position_w,
+                lever_w: Vec3::zeros(),
+                anchor_w: cable.anchor_w,
+                unstrained_length,
+                force_on_platform_w: hanging.force_on_start_w(),
+                tension_platform: hanging.catenary.tension_at_start(),
+                tension_anchor: hanging.catenary.tension_at_end(),
+                hanging: Some(hanging),
+            }
+        });
+        let state = Equilibrium {
+            pose,
+            model: StaticModel::Spring,
+            cables: cables.collect(),
+            residual: 0.0,
+            iterations: 0,
+            stability: Stability::Rigid,
+        };
+        let strain = state.cables.iter().map(|c| c.tension_platform).fold(0.0, f64::max)
+            / robot.cables[0].material.axial_stiffness;
+        let dynamics = Dynamics::about(&robot, &state, Linearisation::default()).unwrap();
+        // The lists end before the third family of the strings.
+        let limit = 38.6;
+        let found = modes::below(&dynamics, limit);
+        assert!(found.certified);
+        assert_eq!(found.modes.len(), expected.len());
+        for (mode, theirs) in found.modes.iter().zip(expected) {
+            // The reference has axial waves, which the closed form leaves out: its axial stiffness is too large by
+            // (ω l √(m/EA))²/3 (l = 2.165 m), its frequencies by up to half of that where a mode stretches the cables.
+            // Its strings have the mass of the unstrained length spread over the stretched one, ours per length: half
+            // of the strain.
+            let axial = (TAU * theirs * 2.165).powi(2) * 0.025_594_946 / 1_010_336.2;
+            let moves = if mode.platform_energy_fraction == 0.0 { 0.0 } else { axial / 6.0 };
+            let bound = moves + 0.501 * strain;
+            let gap = (mode.frequency_hz / theirs - 1.0).abs();
+            assert!(gap < bound, "{} for {theirs}", mode.frequency_hz);
+        }
+    }
+}
+
+#[test]
+fn counts_grow_by_one_at_every_listed_frequency_and_nowhere_else() {
+    let (robot, rest) = yuan();
+    for assembly in [Assembly::Consistent, Assembly::Paper] {
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation { assembly, ..Default::default() }).unwrap();
+        let found = modes::below(&dynamics, 20.0);
+        assert!(found.certified);
+        for (i, mode) in found.modes.iter().enumerate() {
+            let omega = mode.frequency_hz * TAU;
+            assert!(dynamics.modes_below(omega * (1.0 - 1e-9)) <= i, "{assembly:?} {i}");
+            assert!(dynamics.modes_below(omega * (1.0 + 1e-9)) > i, "{assembly:?} {i}");
+        }
+    }
+}
+
+#[test]
+fn constant_models_give_the_eigenvalues_of_stiffness_and_mass() {
+    let (robot, rest) = yuan();
+    for cable_model in [CableModel::Spring, CableModel::StaticSag, CableModel::CatenaryTangent] {
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }).unwrap();
+        let found = modes::below(&dynamics, 100.0);
+        assert!(found.certified);
+        // Another algorithm: Cholesky of M, eigenvalues of L⁻¹ K L⁻ᵀ.
+        let factor = dynamics.mass().cholesky().unwrap().l();
+        let inverse: Mat6 = factor.try_inverse().unwrap();
+        let k = dynamics.stiffness(0.0).map(|k| k.re);
+        let mut squares: Vec<f64> =
+            (inverse * k * inverse.transpose()).symmetric_eigenvalues().iter().copied().collect();
+        squares.sort_by(f64::total_cmp);
+        assert_eq!(found.modes.len(), 6);
+        for (mode, square) in found.modes.iter().zip(squares) {
+            assert!((mode.frequency_hz / (square.sqrt() / TAU) - 1.0).abs() < 1e-10, "{cable_model}");
+            assert_eq!(mode.kind, Kind::Platform);
+            assert!((mode.platform_energy_fraction - 1.0).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn a_mode_is_a_motion_that_the_dynamic_stiffness_does_not_oppose() {
+    let (robot, rest) = yuan();
+    let mut quiet = robot.clone();
+    for cable in &mut quiet.cables {
+        cable.material.damping = funicular::robot::Damping::Ratio(0.0);
+    }
+    let dynamics = Dynamics::about(&quiet, &rest, Linearisation::default()).unwrap();
+    for mode in modes::below(&dynamics, 20.0).modes {
+        let omega = mode.frequency_hz * TAU;
+        let d = dynamics.stiffness(omega).map(|k| k.re) - dynamics.mass() * (omega * omega);
+        let x = funicular::math::Vec6::from(mode.shape);
+        assert!((d * x).norm() < 1e-6 * d.norm() * x.norm(), "{} Hz", mode.frequency_hz);
+        let sum = mode.platform_energy_fraction + mode.cable_energy_fractions.iter().sum::<f64>();
+        assert!((sum - 1.0).abs() < 1e-12 && mode.cable_energy_fractions.iter().all(|f| *f > -1e-12));
+    }
+}
+
+#[test]
+fn damping_to_first_order_is_the_width_of_the_resonance() {
+    // The half-power width of the response of a well separated mode is 2ζf.
+    let (robot, rest) = yuan();
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let found = modes::below(&dynamics, 3.0).modes;
+    let mut checked = 0;
+    for (i, mode) in found.iter().enumerate() {
+        let gap = |j: usize| (found[j].frequency_hz / mode.frequency_hz - 1.0).abs();
+        let alone = (i == 0 || gap(i - 1) > 0.03) && (i + 1 == found.len() || gap(i + 1) > 0.03);
+        if !alone || mode.platform_energy_fraction < 0.02 {
+            continue;
+        }
+        // xᵀ X x about the mode: one peak, |X|² falls to half at ±ζ.
+        let x = funicular::math::Vec6::from(mode.shape);
+        let f = mode.frequency_hz;
+        let level = |f: f64| {
+            let mx = dynamics.mass() * x;
+            let values =
+                funicular::response::frf(&dynamics, &[f], &mx, &mx, funicular::response::Quantity::Displacement);
+            values.unwrap()[0].norm()
+        };
+        let top = level(f);
+        let zeta = mode.damping_ratio;
+        for side in [-1.0, 1.0] {
+            let half = level(f * (1.0 + side * zeta)) / top;
+            assert!((half - 0.5f64.sqrt()).abs() < 0.06, "{f} Hz: {half}");
+        }
+        checked += 1;
+    }
+    assert!(checked >= 3, "{checked} modes stand alone");
+}
+
+#[test]
+fn turning_the_whole_world_changes_no_frequency() {
+    let (robot, lengths) = load(include_str!("../../../../robots/cogiro.toml"));
+    let turn = rotation::from_roll_pitch_yaw_deg(25.0, -40.0, 70.0);
+    let mut turned = robot.clone();
+    turned.gravity_w = turn * robot.gravity_w;
+    for cable in &mut turned.cables {
+        cable.anchor_w = turn * cable.anchor_w;
+    }
+    let list = |robot: &Robot, start: Option<&Pose>| {
+        let rest = statics::forward(robot, &lengths, StaticModel::Catenary, start).unwrap();
+        let found = modes::below(&Dynamics::about(robot, &rest, Linearisation::default()).unwrap(), 20.0);
+        assert!(found.certified);
+        (rest.pose, found.modes.iter().map(|m| m.frequency_hz).collect::<Vec<f64>>())
+    };
+    let (pose, straight) = list(&robot, None);
+    let start = Pose { position_w: turn * pose.position_w, rot_wp: turn * pose.rot_wp };
+    let (_, other) = list(&turned, Some(&start));
+    assert_eq!(straight.len(), other.len());
+    for (a, b) in straight.iter().zip(&other) {
+        assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
+    // The centre of mass high above the attachments, by external hand held at the pose of springs without moment arm.
+    let (mut robot, _) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let (_, rest) = yuan();
+    robot.platform.center_of_mass_p = Vec3::new(0.0, 0.0, 200.0);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let found = modes::below(&dynamics, 5.0);
+    assert!(found.unstable_directions >= 1);
+    assert_eq!(found.modes.len() + found.unstable_directions, found.count_below);
+}
+
+#[test]
+fn cables_are_warned_about_outside_the_models_range() {
+    use funicular::validity::{self, Warning};
+    let (robot, lengths) = load(include_str!("../../../../robots/yuan2014-8mm.toml"));
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    let warnings = validity::of_dynamics(&robot, &rest, CableModel::ClosedForm, 20.0);
+    let deep: Vec<&str> = warnings
+        .iter()
+        .filter_map(|w| match w {
+            Warning::DeepSag { cable, ratio, .. } if *ratio > 0.05 => Some(cable.as_str()),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(deep, ["5", "6"], "the long cables sag by 6.6 % of the chord");
+    assert!(warnings[0].to_string().contains("more than 1/20"));
+    assert!(validity::of_dynamics(&robot, &rest, CableModel::CatenaryTangent, 20.0).is_empty());
+    let axial = validity::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);
+    assert!(matches!(&axial[..], [Warning::AxialWaves { .. }]), "{axial:?}");
+}

@@ -1,0 +1,129 @@
+//! Frequency responses: the vector kernel against plain elimination, physics against identities.
+
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Complex, Vec3, Vec6};
+use funicular::response::{self, Direction, Quantity, ResponseError};
+use funicular::robot::{Damping, Robot, State};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use std::f64::consts::TAU;
+
+fn load(text: &str) -> (Robot, Equilibrium) {
+    let robot = Robot::from_toml(text).unwrap();
+    let State::Lengths(lengths) = robot.state.clone() else { panic!("given by lengths") };
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    (robot, rest)
+}
+
+const ROBOTS: [&str; 4] = [
+    include_str!("../../../../robots/yuan2014-4mm.toml"),
+    include_str!("../../../../robots/yuan2014-8mm.toml"),
+    include_str!("../../../../robots/cogiro.toml"),
+    include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"),
+];
+
+#[test]
+fn the_vector_kernel_equals_plain_elimination() {
+    // 0 Hz, the series near rest, single lanes at the end of a block, damping beyond the range of the fast functions.
+    let frequencies: Vec<f64> = (0..1003).map(|i| 0.03 * f64::from(i)).collect();
+    for text in ROBOTS {
+        let (robot, rest) = load(text);
+        for damping in [Damping::Ratio(0.003), Damping::Ratio(0.3), Damping::Viscous(0.02), Damping::Viscous(3.0)] {
+            let mut robot = robot.clone();
+            for cable in &mut robot.cables {
+                cable.material.damping = damping;
+            }
+            for cable_model in CableModel::ALL {
+                for in_plane_only in [false, true] {
+                    let linearisation = Linearisation { cable_model, in_plane_only, ..Default::default() };
+                    let dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+                    let fast = response::receptances(&dynamics, &frequencies).unwrap();
+                    let (input, output) =
+                        (Vec6::new(1.0, 0.2, -0.3, 0.1, 0.4, 0.0), Vec6::new(0.0, 0.3, 1.0, 0.0, -0.2, 0.1));
+                    let one = response::frf(&dynamics, &frequencies, &input, &output, Quantity::Displacement).unwrap();
+                    for (i, frequency) in frequencies.iter().enumerate() {
+                        let plain = response::receptance(&dynamics, frequency * TAU);
+                        let gap = (fast[i] - plain).norm() / plain.norm();
+                        // Elimination without exchange may lose six digits of sixteen (see the kernel).
+                        assert!(gap < 1e-9, "{} {damping:?} {cable_model} {frequency} Hz: {gap:e}", robot.name);
+                        let wanted: Complex = (0..6)
+                            .flat_map(|r| (0..6).map(move |c| (r, c)))
+                            .map(|(r, c)| plain[(r, c)] * (output[r] * input[c]))
+                            .sum();
+                        assert!((one[i] - wanted).norm() < 1e-9 * plain.norm(), "{frequency} Hz");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn at_rest_the_response_is_the_compliance_and_far_up_it_is_the_mass() {
+    let (robot, rest) = load(ROBOTS[0]);
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryTangent, ..Default::default() };
+    let dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+    let compliance = statics::tangent_stiffness(&robot, &rest).unwrap().try_inverse().unwrap();
+    let still = response::receptances(&dynamics, &[0.0]).unwrap()[0].map(|z| z.re);
+    assert!((still - compliance).amax() < 1e-10 * compliance.amax());
+    let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose);
+    let fast = response::frf(&dynamics, &[1e5], &z, &z, Quantity::Acceleration).unwrap()[0];
+    assert!((fast.re * robot.platform.mass - 1.0).abs() < 1e-6, "accelerance tends to 1/m");
+}
+
+#[test]
+fn reciprocity_and_positive_power_hold_between_any_two_points() {
+    let (robot, rest) = load(ROBOTS[1]);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let frequencies: Vec<f64> = (1..500).map(|i| 0.04 * f64::from(i)).collect();
+    let a = Direction::Along { direction_w: Vec3::new(1.0, 2.0, -0.5), point_p: Vec3::new(0.1, 0.0, 0.3) }
+        .vector(&rest.pose);
+    let b = Direction::About { axis_w: Vec3::new(0.0, 3.0, 1.0) }.vector(&rest.pose);
+    let there = response::frf(&dynamics, &frequencies, &a, &b, Quantity::Velocity).unwrap();
+    let back = response::frf(&dynamics, &frequencies, &b, &a, Quantity::Velocity).unwrap();
+    let own = response::frf(&dynamics, &frequencies, &a, &a, Quantity::Velocity).unwrap();
+    for i in 0..frequencies.len() {
+        assert!((there[i] - back[i]).norm() < 1e-9 * there[i].norm());
+        assert!(own[i].re > 0.0, "a damped robot takes power from a force at {} Hz", frequencies[i]);
+    }
+}
+
+#[test]
+fn velocity_and_acceleration_are_the_derivatives_of_displacement() {
+    let (robot, rest) = load(ROBOTS[2]);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let u = Direction::Along { direction_w: Vec3::x(), point_p: Vec3::zeros() }.vector(&rest.pose);
+    let f = 3.7;
+    let [x, v, a] = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
+        .map(|quantity| response::frf(&dynamics, &[f], &u, &u, quantity).unwrap()[0]);
+    let omega = Complex::new(0.0, TAU * f);
+    assert!((v - x * omega).norm() < 1e-15 * v.norm() && (a - x * omega * omega).norm() < 1e-14 * a.norm());
+}
+
+#[test]
+fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
+    let (mut robot, rest) = load(ROBOTS[0]);
+    // Springs of no stiffness: at 0 Hz nothing resists.
+    for cable in &mut robot.cables {
+        cable.material.axial_stiffness = 1e-12;
+    }
+    let linearisation = Linearisation {
+        cable_model: CableModel::Spring,
+        assembly: funicular::dynamics::Assembly::Paper,
+        in_plane_only: false,
+    };
+    let mut dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+    let u = Vec6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
+    assert!(response::frf(&dynamics, &[0.0], &u, &u, Quantity::Displacement).unwrap()[0].norm() > 1e10);
+    let slack = {
+        let mut state = rest.clone();
+        for cable in &mut state.cables {
+            cable.tension_platform = 0.0;
+            cable.hanging = None;
+        }
+        state
+    };
+    dynamics = Dynamics::about(&robot, &slack, linearisation).unwrap();
+    let refused = response::frf(&dynamics, &[0.0, 1.0], &u, &u, Quantity::Displacement);
+    assert_eq!(refused.unwrap_err(), ResponseError::Resonance { frequency_hz: 0.0 });
+}

@@ -1,0 +1,226 @@
+//! Equilibria: others' numbers, identities, hard cases, random robots.
+
+use funicular::math::{Mat6, Vec3, Vec6};
+use funicular::robot::{Pose, Robot, State};
+use funicular::statics::{self, Stability, StaticModel, StaticsError};
+use proptest::prelude::*;
+
+const YUAN_4MM: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+const YUAN_8MM: &str = include_str!("../../../../robots/yuan2014-8mm.toml");
+const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
+
+fn load(text: &str) -> (Robot, Vec<f64>) {
+    let robot = Robot::from_toml(text).unwrap();
+    let State::Lengths(lengths) = robot.state.clone() else { panic!("given by lengths") };
+    (robot, lengths)
+}
+
+/// MoorPy 1.3.0 (elastic catenary, EA = E π d²/4, tolerance 1e-7, g 9.81): position [m], tensions at the platform [N].
+#[rustfmt::skip]
+const MOORPY: [(&str, f64, [f64; 3], [f64; 6]); 4] = [
+    (YUAN_4MM, 10.55, [0.0203, 0.01023, 0.45548], [17.69, 36.93, 39.89, 15.64, 50.44, 52.55]),
+    (YUAN_4MM, 86.35, [0.01643, 0.00999, 0.43526], [102.54, 311.24, 343.6, 78.49, 378.44, 391.71]),
+    (YUAN_8MM, 10.55, [2.92521, -8e-05, 0.56726], [49.45, 22.95, 20.55, 50.3, 41.26, 39.56]),
+    (YUAN_8MM, 86.35, [3.00329, -0.00341, 0.50409], [319.6, 151.92, 139.81, 320.87, 272.52, 219.46]),
+];
+
+#[test]
+fn the_papers_robot_rests_where_moorpy_finds_it() {
+    for (text, mass, position, tensions) in MOORPY {
+        let (robot, lengths) = load(text);
+        let rest = statics::forward(&robot.with_mass(mass), &lengths, StaticModel::Catenary, None).unwrap();
+        // Five decimals and 0.01 N are what the table prints.
+        assert!((rest.pose.position_w - Vec3::from(position)).amax() < 6e-6);
+        for (cable, theirs) in rest.cables.iter().zip(tensions) {
+            // MoorPy's tolerance leaves 3e-6 of the tension; two decimals or one are printed.
+            assert!((cable.tension_platform - theirs).abs() < 8e-3, "{} for {theirs}", cable.tension_platform);
+        }
+    }
+}
+
+#[test]
+fn ideal_poses_close_the_lengths_of_tables_i_and_ii() {
+    for (text, position) in [(YUAN_4MM, [0.0089, 0.0098, 0.4521]), (YUAN_8MM, [3.0047, -0.0048, 0.5049])] {
+        let (robot, lengths) = load(text);
+        let rest = statics::forward(&robot, &lengths, StaticModel::Ideal, None).unwrap();
+        assert!((rest.pose.position_w - Vec3::from(position)).amax() < 6e-5);
+        for (cable, length) in rest.cables.iter().zip(&lengths) {
+            assert!((cable.chord() - length).abs() < 1e-12);
+        }
+        assert!(rest.residual < 1e-13 && rest.stability == Stability::Rigid);
+    }
+}
+
+#[test]
+fn every_mass_of_the_paper_has_a_stable_equilibrium_without_a_start() {
+    for text in [YUAN_4MM, YUAN_8MM] {
+        let (robot, lengths) = load(text);
+        for step in 0..=400 {
+            let mass = 10.55 + (86.35 - 10.55) * f64::from(step) / 400.0;
+            for model in [StaticModel::Spring, StaticModel::Catenary] {
+                let rest = statics::forward(&robot.with_mass(mass), &lengths, model, None).unwrap();
+                assert!(rest.residual <= 1e-10, "{mass} kg, {model:?}");
+                assert!(matches!(rest.stability, Stability::Stable { .. }), "{mass} kg, {model:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn cogiro_stands_with_all_eight_cables_taut() {
+    let (robot, lengths) = load(COGIRO);
+    for model in [StaticModel::Spring, StaticModel::Catenary] {
+        let rest = statics::forward(&robot, &lengths, model, None).unwrap();
+        assert!(rest.cables.iter().all(|c| c.tension_platform > 295.0 && c.tension_platform < 345.0));
+        assert!((rest.pose.position_w - Vec3::new(0.0, 0.0, 1.5)).norm() < 2e-3, "{}", rest.pose.position_w);
+        assert!(matches!(rest.stability, Stability::Stable { .. }));
+    }
+}
+
+#[test]
+fn stiffness_is_symmetric_and_the_differenced_wrench() {
+    for text in [YUAN_4MM, YUAN_8MM, COGIRO] {
+        let (robot, lengths) = load(text);
+        for model in [StaticModel::Spring, StaticModel::Catenary] {
+            let rest = statics::forward(&robot, &lengths, model, None).unwrap();
+            let k = statics::tangent_stiffness(&robot, &rest).unwrap();
+            assert!((k - k.transpose()).amax() < 1e-12 * k.amax());
+            // Central differences, extrapolated (Richardson): error of fourth order in the step.
+            let along = |i: usize, step: f64| {
+                let mut small = [0.0; 6];
+                small[i] = step;
+                let (translation, turn) =
+                    (Vec3::new(small[0], small[1], small[2]), Vec3::new(small[3], small[4], small[5]));
+                statics::wrench(&robot, &rest.pose.moved(&translation, &turn), &lengths, model).unwrap()
+            };
+            let mut differenced = Mat6::zeros();
+            for i in 0..6 {
+                let h = 2e-6;
+                let column: Vec6 =
+                    ((along(i, h) - along(i, -h)) * 8.0 - (along(i, 2.0 * h) - along(i, -2.0 * h))) / (-12.0 * h);
+                differenced.set_column(i, &column);
+            }
+            let gap = (k - differenced).amax() / k.amax();
+            assert!(gap < 1e-6, "{} {model:?}: {gap:e}", robot.name);
+        }
+    }
+}
+
+#[test]
+fn pose_to_lengths_and_back_is_the_identity() {
+    let (robot, _) = load(YUAN_4MM);
+    let mut held = 0;
+    for i in 0..400 {
+        let t = f64::from(i);
+        let pose = Pose::new(
+            [2.0 * (0.7 * t).sin(), 0.8 * (1.1 * t).cos(), 1.0 + 0.8 * (0.3 * t).sin()],
+            [4.0 * (0.9 * t).sin(), 4.0 * (0.5 * t).cos(), 3.0 * (1.3 * t).sin()],
+        );
+        for model in [StaticModel::Spring, StaticModel::Catenary] {
+            match statics::inverse(&robot, &pose, model) {
+                Ok(rest) => {
+                    held += 1;
+                    assert!(rest.residual <= statics::RESIDUAL_LIMIT);
+                    let lengths: Vec<f64> = rest.cables.iter().map(|c| c.unstrained_length).collect();
+                    let back = statics::forward(&robot, &lengths, model, Some(&pose)).unwrap();
+                    if matches!(rest.stability, Stability::Stable { .. }) {
+                        let gap = (back.pose.position_w - pose.position_w).norm();
+                        assert!(gap < 1e-8, "{i} {model:?}: {gap:e}");
+                    }
+                }
+                Err(StaticsError::WouldPush { tension, .. }) => assert!(tension <= 0.0),
+                Err(other) => panic!("{i} {model:?}: {other}"),
+            }
+        }
+    }
+    assert!(held > 50, "{held} of 800 poses are held");
+}
+
+#[test]
+fn a_cable_cut_to_half_its_length_is_an_answer_not_an_accident() {
+    for text in [YUAN_4MM, YUAN_8MM, COGIRO] {
+        let (robot, lengths) = load(text);
+        for cut in 0..lengths.len() {
+            let mut short = lengths.clone();
+            short[cut] *= 0.5;
+            for model in [StaticModel::Spring, StaticModel::Catenary] {
+                let rest = statics::forward(&robot, &short, model, None).unwrap();
+                assert!(rest.residual <= 1e-10, "{} cable {cut} {model:?}", robot.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn too_few_cables_and_lengths_that_do_not_fit_are_refused_with_numbers() {
+    let (robot, lengths) = load(COGIRO);
+    let text = |r: Result<_, StaticsError>| r.map(|_: statics::Equilibrium| ()).unwrap_err().to_string();
+    assert_eq!(
+        text(statics::forward(&robot, &lengths[..7], StaticModel::Catenary, None)),
+        "7 unstrained lengths for 8 cables: give one a cable, in file order"
+    );
+    assert!(text(statics::forward(&robot, &lengths, StaticModel::Ideal, None)).contains("exactly 6"));
+    let pose = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);
+    assert!(text(statics::inverse(&robot, &pose, StaticModel::Catenary)).contains("8 cables for 6 freedoms"));
+    let mut bad = lengths.clone();
+    bad[2] = -1.0;
+    assert!(text(statics::forward(&robot, &bad, StaticModel::Catenary, None)).contains("is -1 m"));
+    let (yuan, _) = load(YUAN_4MM);
+    let far = Pose::new([40.0, 0.0, 1.0], [0.0; 3]);
+    assert!(text(statics::inverse(&yuan, &far, StaticModel::Spring)).contains("would need -"));
+}
+
+/// A robot of 6 to 9 cables around and above (or also below) a platform, with lengths near those of a random pose.
+fn any_robot() -> impl Strategy<Value = (Robot, Vec<f64>)> {
+    let cable = (0.0f64..1.0, 0.6f64..1.4, 0.0f64..1.0, 0.05f64..0.5, -0.3f64..0.3, 0.985f64..1.02);
+    let rope = (2.0f64..6.0, -3.0f64..0.0);
+    (prop::collection::vec(cable, 6..=9), rope, 0.3f64..3.0, 0.0f64..0.4, any::<bool>()).prop_map(
+        |(cables, (ea, m), mass, com, below)| {
+            let mut text = format!(
+                "name = \"random\"\n[platform]\nmass_kg = {}\ninertia_kg_m2 = [0.9, 1.0, 1.1]\n\
+                 center_of_mass_m = [{}, {}, {}]\n[materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\n",
+                10f64.powf(mass),
+                0.3 * com,
+                -0.2 * com,
+                -com,
+                10f64.powf(ea),
+                10f64.powf(m),
+            );
+            let n = cables.len() as f64;
+            for (i, (turn, out, height, radius, z, slack)) in cables.into_iter().enumerate() {
+                let around = std::f64::consts::TAU * (i as f64 + 0.6 * turn) / n;
+                let up = if below && i % 3 == 2 { -1.0 - 3.0 * height } else { 3.0 + 2.0 * height };
+                let anchor = [6.0 * out * around.cos(), 5.0 * out * around.sin(), up];
+                let inner = 2.7 * around;
+                let attachment = [radius * inner.cos(), radius * inner.sin(), z];
+                let chord = (Vec3::from(anchor) - Vec3::from(attachment)).norm();
+                let cable = format!(
+                    "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = \
+                     {attachment:?}\nunstrained_length_m = {}\n",
+                    chord * slack
+                );
+                text.push_str(&cable);
+            }
+            let robot = Robot::from_toml(&text).unwrap();
+            let State::Lengths(lengths) = robot.state.clone() else { unreachable!() };
+            (robot, lengths)
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn random_robots_come_to_rest_stably((robot, lengths) in any_robot()) {
+        for model in [StaticModel::Spring, StaticModel::Catenary] {
+            let rest = statics::forward(&robot, &lengths, model, None);
+            let rest = rest.map_err(|e| TestCaseError::fail(format!("{model:?}: {e}")))?;
+            prop_assert!(rest.residual <= 1e-10);
+            // Springs may leave a direction free where cables are slack; catenaries never do.
+            if model == StaticModel::Catenary {
+                prop_assert!(matches!(rest.stability, Stability::Stable { .. }), "{:?}", rest.stability);
+            }
+        }
+    }
+}
