@@ -6,6 +6,7 @@
 //! and one that goes down. One file a model.
 
 pub mod closed_form;
+pub mod exact;
 pub mod spring;
 pub mod static_sag;
 
