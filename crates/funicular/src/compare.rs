@@ -71,7 +71,7 @@ pub struct Advice {
     pub text: String,
 }
 
-/// Finds the modes below `below_hz` [Hz] with every model and measures each against the closed form. The model in
+/// Finds the modes below `below_hz` [Hz] with every model and measures each against the exact cable. The model in
 /// `linearisation` is ignored; assembly and plane hold for all.
 ///
 /// # Errors
@@ -82,8 +82,9 @@ pub fn compare(
     below_hz: f64,
     linearisation: Linearisation,
 ) -> Result<Comparison, DynamicsError> {
-    let reference = CableModel::ClosedForm;
-    let with = |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation });
+    let reference = CableModel::Exact;
+    let with =
+        |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
     let dynamics = with(reference)?;
     let truth = modes::below(&dynamics, below_hz);
     let models: Vec<ModelResult> = CableModel::ALL
@@ -172,26 +173,33 @@ fn advise(
         ),
         None => format!("no cable resonance lies below the {below_hz} Hz asked"),
     };
-    let simplest = models
-        .iter()
-        .find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none())
-        .map_or(CableModel::ClosedForm, |m| m.model);
+    let simplest =
+        models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(CableModel::Exact, |m| m.model);
     let percent = 100.0 * TOLERANCE;
-    let choice = if simplest == CableModel::ClosedForm {
-        let wrong = models.iter().rev().find(|m| m.model == CableModel::CatenaryTangent);
-        let lost = wrong.map_or(0, |m| m.missed);
-        format!(
-            "Use `closed-form`: {string}, {cable_modes} of the {} modes there have most of their energy in the cables, \
-             and a constant cable stiffness misses {lost} of them",
-            truth.modes.len()
-        )
-    } else if truth.modes.is_empty() {
-        format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
-    } else {
-        format!(
-            "Use `{simplest}`: it has all {} modes below {below_hz} Hz within {percent} % of the closed form; {string}",
-            truth.modes.len()
-        )
+    let result = |model: CableModel| models.iter().find(|m| m.model == model);
+    let lost = result(CableModel::CatenaryTangent).map_or(0, |m| m.missed);
+    let total = truth.modes.len();
+    let constant = format!(
+        "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant cable \
+         stiffness misses {lost} of them"
+    );
+    let choice = match simplest {
+        _ if truth.modes.is_empty() => {
+            format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
+        }
+        CableModel::Exact => {
+            let wrong = result(CableModel::ClosedForm).and_then(|m| m.first_wrong_hz);
+            let closed = wrong.map_or(String::new(), |hz| {
+                format!("; the closed form lacks the one at {hz:.3} Hz or has it wrong by more than {percent} %")
+            });
+            format!("Use `exact`: {constant}{closed}")
+        }
+        CableModel::ClosedForm => {
+            format!("Use `closed-form`, which has all {total} within {percent} % of the exact ones: {constant}")
+        }
+        _ => format!(
+            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the exact ones; {string}"
+        ),
     };
     let range = if ratio > SHALLOW_SAG_LIMIT {
         " The sag is beyond d/l = 1/20, the range of the closed form: take its cable resonances as approximate."

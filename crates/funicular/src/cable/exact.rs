@@ -13,9 +13,11 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations a pole.
 //! Derivation: docs/theory.md, section 9.
 
-use super::LocalStiffness;
+use super::{LocalAxes, LocalStiffness, damped_square};
 use crate::catenary::Catenary;
+use crate::catenary::space::HangingCable;
 use crate::math::{Complex, DMat, legendre, projected};
+use crate::robot::Damping;
 use thiserror::Error;
 
 /// One cable as poles and residues, in plane and out of plane.
@@ -66,8 +68,22 @@ impl<const N: usize> PoleResidue<N> {
     /// Entries (i, j) of the undamped stiffness at x = ω² [N/m].
     #[inline]
     pub fn undamped<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
+        self.without(entries, x, |_, _| false)
+    }
+
+    /// As [`Self::undamped`], without the poles that `taken` takes.
+    #[inline]
+    fn without<const E: usize>(
+        &self,
+        entries: [(usize, usize); E],
+        x: f64,
+        mut taken: impl FnMut(f64, &[f64; N]) -> bool,
+    ) -> [f64; E] {
         let mut sums = [0.0; E];
         for (pole, g) in self.poles.iter().zip(&self.participation) {
+            if taken(*pole, g) {
+                continue;
+            }
             let factor = 1.0 / (pole - x);
             for (sum, (i, j)) in sums.iter_mut().zip(entries) {
                 *sum += g[i] * g[j] * factor;
@@ -111,6 +127,107 @@ impl<const N: usize> PoleResidue<N> {
     /// Number of poles below ω² = x.
     pub fn poles_below(&self, x: f64) -> usize {
         self.poles.partition_point(|pole| *pole < x)
+    }
+}
+
+/// The platform end of an exact cable: its axes and its damping.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactEnd {
+    /// Poles and residues, the platform being the start.
+    pub exact: Exact,
+    /// e horizontal towards the anchor, n up, b across.
+    pub axes: LocalAxes,
+    /// Damping of the rope.
+    pub damping: Damping,
+    /// Mass per unstrained length m [kg/m].
+    pub mass_per_length: f64,
+    /// Leave out the stiffness across, as the paper does.
+    pub in_plane_only: bool,
+}
+
+impl ExactEnd {
+    /// Of a cable that hangs from the platform, good up to ω = `limit` [rad/s].
+    ///
+    /// # Errors
+    /// [`ExactError`].
+    pub fn new(
+        hanging: &HangingCable,
+        mass_per_length: f64,
+        damping: Damping,
+        in_plane_only: bool,
+        limit: f64,
+    ) -> Result<Self, ExactError> {
+        let exact = Exact::new(&hanging.catenary, mass_per_length, limit)?;
+        let (e, n) = hanging.axes_w();
+        Ok(Self { exact, axes: LocalAxes { e, n, b: e.cross(&n) }, damping, mass_per_length, in_plane_only })
+    }
+
+    fn in_plane_if_asked<T: Default>(&self, mut k: LocalStiffness<T>) -> LocalStiffness<T> {
+        if self.in_plane_only {
+            k.out_of_plane = T::default();
+        }
+        k
+    }
+
+    /// Undamped stiffness at ω [rad/s], [N/m].
+    pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
+        self.in_plane_if_asked(self.exact.undamped(omega))
+    }
+
+    /// Damped stiffness at ω [rad/s], [N/m].
+    pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
+        let (re, im) = damped_square(omega, self.damping, self.mass_per_length);
+        self.in_plane_if_asked(self.exact.damped(Complex::new(re, im)))
+    }
+
+    /// Minus the derivative of the undamped stiffness by ω² [kg].
+    pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
+        self.in_plane_if_asked(self.exact.moving_mass(omega))
+    }
+
+    /// Number of clamped-clamped frequencies below ω [rad/s].
+    pub fn clamped_modes_below(&self, omega: f64) -> usize {
+        let x = omega * omega;
+        let across = if self.in_plane_only { 0 } else { self.exact.out_of_plane.poles_below(x) };
+        self.exact.in_plane.poles_below(x) + across
+    }
+
+    /// The clamped-clamped frequencies below ω [rad/s], ascending.
+    pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<f64> {
+        let x = omega * omega;
+        let (in_plane, across) = (&self.exact.in_plane, &self.exact.out_of_plane);
+        let count = if self.in_plane_only { 0 } else { across.poles_below(x) };
+        let mut all: Vec<f64> =
+            in_plane.poles[..in_plane.poles_below(x)].iter().chain(&across.poles[..count]).map(|p| p.sqrt()).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// The undamped stiffness at x = ω² without the poles nearer to it than the part `width`, and those poles: for each
+    /// its direction in (e, n, b) and 1/κ of the term κ g gᵀ that was left out [m/N].
+    pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<([f64; 3], f64)>) {
+        let near = |pole: f64| (pole - x).abs() < width * x;
+        let mut poles = Vec::new();
+        let (in_plane, across) = (&self.exact.in_plane, &self.exact.out_of_plane);
+        let plane = in_plane.without([(0, 0), (0, 1), (1, 1)], x, |pole, g| {
+            let taken = near(pole);
+            if taken {
+                poles.push(([g[0], g[1], 0.0], (x - pole) / (x * x)));
+            }
+            taken
+        });
+        let mut out = [0.0];
+        if !self.in_plane_only {
+            out = across.without([(0, 0)], x, |pole, g| {
+                let taken = near(pole);
+                if taken {
+                    poles.push(([0.0, 0.0, g[0]], (x - pole) / (x * x)));
+                }
+                taken
+            });
+        }
+        let [axial, coupling, normal] = plane;
+        (LocalStiffness { axial, coupling, normal, out_of_plane: out[0] }, poles)
     }
 }
 
