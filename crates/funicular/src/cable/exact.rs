@@ -18,6 +18,7 @@ use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::{Complex, DMat, legendre, projected};
 use crate::robot::Damping;
+use std::ops::Range;
 use thiserror::Error;
 
 /// One cable as poles and residues, in plane and out of plane.
@@ -66,24 +67,9 @@ pub struct PoleResidue<const N: usize> {
 
 impl<const N: usize> PoleResidue<N> {
     /// Entries (i, j) of the undamped stiffness at x = ω² [N/m].
-    #[inline]
     pub fn undamped<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
-        self.without(entries, x, |_, _| false)
-    }
-
-    /// As [`Self::undamped`], without the poles that `taken` takes.
-    #[inline]
-    fn without<const E: usize>(
-        &self,
-        entries: [(usize, usize); E],
-        x: f64,
-        mut taken: impl FnMut(f64, &[f64; N]) -> bool,
-    ) -> [f64; E] {
         let mut sums = [0.0; E];
         for (pole, g) in self.poles.iter().zip(&self.participation) {
-            if taken(*pole, g) {
-                continue;
-            }
             let factor = 1.0 / (pole - x);
             for (sum, (i, j)) in sums.iter_mut().zip(entries) {
                 *sum += g[i] * g[j] * factor;
@@ -143,6 +129,8 @@ pub struct ExactEnd {
     pub mass_per_length: f64,
     /// Leave out the stiffness across, as the paper does.
     pub in_plane_only: bool,
+    pub(crate) plane: EndSeries<3>,
+    pub(crate) across: EndSeries<1>,
 }
 
 impl ExactEnd {
@@ -159,7 +147,10 @@ impl ExactEnd {
     ) -> Result<Self, ExactError> {
         let exact = Exact::new(&hanging.catenary, mass_per_length, limit)?;
         let (e, n) = hanging.axes_w();
-        Ok(Self { exact, axes: LocalAxes { e, n, b: e.cross(&n) }, damping, mass_per_length, in_plane_only })
+        let plane = EndSeries::of(&exact.in_plane, [(0, 0), (0, 1), (1, 1)]);
+        let across = EndSeries::of(&exact.out_of_plane, [(0, 0)]);
+        let axes = LocalAxes { e, n, b: e.cross(&n) };
+        Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, plane, across })
     }
 
     fn in_plane_if_asked<T: Default>(&self, mut k: LocalStiffness<T>) -> LocalStiffness<T> {
@@ -171,7 +162,10 @@ impl ExactEnd {
 
     /// Undamped stiffness at ω [rad/s], [N/m].
     pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
-        self.in_plane_if_asked(self.exact.undamped(omega))
+        let x = omega * omega;
+        let [axial, coupling, normal] = self.plane.undamped(x, 0..0);
+        let [out_of_plane] = if self.in_plane_only { [0.0] } else { self.across.undamped(x, 0..0) };
+        LocalStiffness { axial, coupling, normal, out_of_plane }
     }
 
     /// Damped stiffness at ω [rad/s], [N/m].
@@ -206,28 +200,78 @@ impl ExactEnd {
     /// The undamped stiffness at x = ω² without the poles nearer to it than the part `width`, and those poles: for each
     /// its direction in (e, n, b) and 1/κ of the term κ g gᵀ that was left out [m/N].
     pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<([f64; 3], f64)>) {
-        let near = |pole: f64| (pole - x).abs() < width * x;
         let mut poles = Vec::new();
-        let (in_plane, across) = (&self.exact.in_plane, &self.exact.out_of_plane);
-        let plane = in_plane.without([(0, 0), (0, 1), (1, 1)], x, |pole, g| {
-            let taken = near(pole);
-            if taken {
-                poles.push(([g[0], g[1], 0.0], (x - pole) / (x * x)));
-            }
-            taken
-        });
-        let mut out = [0.0];
-        if !self.in_plane_only {
-            out = across.without([(0, 0)], x, |pole, g| {
-                let taken = near(pole);
-                if taken {
-                    poles.push(([0.0, 0.0, g[0]], (x - pole) / (x * x)));
-                }
-                taken
-            });
+        let near = self.plane.near(x, width);
+        for k in near.clone() {
+            let g = self.exact.in_plane.participation[k];
+            poles.push(([g[0], g[1], 0.0], (x - self.plane.poles[k]) / (x * x)));
         }
-        let [axial, coupling, normal] = plane;
-        (LocalStiffness { axial, coupling, normal, out_of_plane: out[0] }, poles)
+        let [axial, coupling, normal] = self.plane.undamped(x, near);
+        let mut out_of_plane = 0.0;
+        if !self.in_plane_only {
+            let near = self.across.near(x, width);
+            for k in near.clone() {
+                let g = self.exact.out_of_plane.participation[k];
+                poles.push(([0.0, 0.0, g[0]], (x - self.across.poles[k]) / (x * x)));
+            }
+            [out_of_plane] = self.across.undamped(x, near);
+        }
+        (LocalStiffness { axial, coupling, normal, out_of_plane }, poles)
+    }
+}
+
+/// Entries of the platform end's stiffness, poles and residues each in a row, for sums in vector registers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct EndSeries<const E: usize> {
+    pub(crate) poles: Vec<f64>,
+    pub(crate) residues: [Vec<f64>; E],
+    pub(crate) stiffness: [f64; E],
+    pub(crate) mass: [f64; E],
+}
+
+impl<const E: usize> EndSeries<E> {
+    fn of<const N: usize>(all: &PoleResidue<N>, entries: [(usize, usize); E]) -> Self {
+        Self {
+            poles: all.poles.clone(),
+            residues: entries.map(|(i, j)| all.participation.iter().map(|g| g[i] * g[j]).collect()),
+            stiffness: entries.map(|(i, j)| all.stiffness[i][j]),
+            mass: entries.map(|(i, j)| all.mass[i][j]),
+        }
+    }
+
+    /// Places of the poles nearer to x than the part `width`.
+    fn near(&self, x: f64, width: f64) -> Range<usize> {
+        let from = self.poles.partition_point(|pole| *pole < x * (1.0 - width));
+        let count = self.poles[from..].iter().take_while(|pole| **pole < x * (1.0 + width)).count();
+        from..from + count
+    }
+
+    /// Undamped entries at x = ω², without the poles `left_out`.
+    fn undamped(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
+        const LANES: usize = 8;
+        let mut sums = [0.0; E];
+        for range in [0..left_out.start, left_out.end..self.poles.len()] {
+            let poles = &self.poles[range.clone()];
+            let residues: [&[f64]; E] = std::array::from_fn(|e| &self.residues[e][range.clone()]);
+            let whole = poles.len() / LANES * LANES;
+            let mut lanes = [[0.0; LANES]; E];
+            for (k, block) in poles.chunks_exact(LANES).enumerate() {
+                let factors: [f64; LANES] = std::array::from_fn(|i| 1.0 / (block[i] - x));
+                for (lanes, residues) in lanes.iter_mut().zip(residues) {
+                    let block = &residues[k * LANES..(k + 1) * LANES];
+                    for i in 0..LANES {
+                        lanes[i] += block[i] * factors[i];
+                    }
+                }
+            }
+            for ((sum, lanes), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
+                *sum += lanes.iter().sum::<f64>();
+                for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
+                    *sum += residue / (pole - x);
+                }
+            }
+        }
+        std::array::from_fn(|e| self.stiffness[e] - x * (self.mass[e] + x * sums[e]))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::lanes::{Complexes, LANES, Reals, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
 use super::receptance;
 use crate::cable::closed_form::{self, ClosedForm, Entire, SERIES_BELOW};
-use crate::cable::exact::{ExactEnd, PoleResidue};
+use crate::cable::exact::{EndSeries, ExactEnd};
 use crate::cable::{DynamicCable, LocalStiffness, damped_square};
 use crate::dynamics::Dynamics;
 use crate::math::{CMat6, Complex, Vec6};
@@ -104,31 +104,23 @@ fn exact(form: &ExactEnd, omega: &Reals) -> LocalStiffness<Complexes> {
         (re[i], im[i]) = damped_square(omega[i], form.damping, form.mass_per_length);
     }
     let x = Complexes { re, im };
-    let [axial, coupling, normal] = pole_sum(&form.exact.in_plane, [(0, 0), (0, 1), (1, 1)], &x);
-    let out_of_plane =
-        if form.in_plane_only { Complexes::ZERO } else { pole_sum(&form.exact.out_of_plane, [(0, 0)], &x)[0] };
+    let [axial, coupling, normal] = pole_sum(&form.plane, &x);
+    let out_of_plane = if form.in_plane_only { Complexes::ZERO } else { pole_sum(&form.across, &x)[0] };
     LocalStiffness { axial, coupling, normal, out_of_plane }
 }
 
-/// `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)` for some entries.
+/// `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)`.
 #[inline(always)]
-fn pole_sum<const N: usize, const E: usize>(
-    of: &PoleResidue<N>,
-    entries: [(usize, usize); E],
-    x: &Complexes,
-) -> [Complexes; E] {
+fn pole_sum<const E: usize>(of: &EndSeries<E>, x: &Complexes) -> [Complexes; E] {
     let mut sums = [Complexes::ZERO; E];
-    for (pole, g) in of.poles.iter().zip(&of.participation) {
+    for (k, pole) in of.poles.iter().enumerate() {
         let gap = Complexes { re: from_fn(|i| pole - x.re[i]), im: from_fn(|i| -x.im[i]) };
         let factor = gap.inverse();
-        for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-            sum.add_scaled(&factor, g[i] * g[j]);
+        for (sum, residues) in sums.iter_mut().zip(&of.residues) {
+            sum.add_scaled(&factor, residues[k]);
         }
     }
-    from_fn(|e| {
-        let (i, j) = entries[e];
-        Complexes::real(of.stiffness[i][j]) - *x * (Complexes::real(of.mass[i][j]) + *x * sums[e])
-    })
+    from_fn(|e| Complexes::real(of.stiffness[e]) - *x * (Complexes::real(of.mass[e]) + *x * sums[e]))
 }
 
 /// The closed form's functions of γ at each lane, divided by cosh Im √γ.
