@@ -13,12 +13,18 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations a pole.
 //! Derivation: docs/theory.md, section 9.
 
+mod mesh;
+mod poles;
+
+pub(crate) use poles::EndSeries;
+pub use poles::PoleResidue;
+
 use super::{LocalAxes, LocalStiffness, damped_square};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
-use crate::math::{Complex, DMat, legendre, projected};
+use crate::math::Complex;
 use crate::robot::Damping;
-use std::ops::Range;
+use mesh::Mesh;
 use thiserror::Error;
 
 /// One cable as poles and residues, in plane and out of plane.
@@ -50,70 +56,6 @@ pub enum ExactError {
         /// Unknowns allowed.
         limit: usize,
     },
-}
-
-/// A symmetric end stiffness by poles and residues; N end components.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PoleResidue<const N: usize> {
-    /// K_s, symmetric [N/m].
-    pub stiffness: [[f64; N]; N],
-    /// M_s, symmetric [kg].
-    pub mass: [[f64; N]; N],
-    /// ω_k² of the clamped modes, ascending [rad²/s²].
-    pub poles: Vec<f64>,
-    /// g_k [√kg].
-    pub participation: Vec<[f64; N]>,
-}
-
-impl<const N: usize> PoleResidue<N> {
-    /// Entries (i, j) of the undamped stiffness at x = ω² [N/m].
-    pub fn undamped<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
-        let mut sums = [0.0; E];
-        for (pole, g) in self.poles.iter().zip(&self.participation) {
-            let factor = 1.0 / (pole - x);
-            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-                *sum += g[i] * g[j] * factor;
-            }
-        }
-        std::array::from_fn(|e| {
-            let (i, j) = entries[e];
-            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
-        })
-    }
-
-    /// Entries (i, j) of the stiffness at the complex x = ω_c² [N/m].
-    pub fn damped<const E: usize>(&self, entries: [(usize, usize); E], x: Complex) -> [Complex; E] {
-        let mut sums = [Complex::new(0.0, 0.0); E];
-        for (pole, g) in self.poles.iter().zip(&self.participation) {
-            let factor = 1.0 / (*pole - x);
-            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-                *sum += factor * (g[i] * g[j]);
-            }
-        }
-        std::array::from_fn(|e| {
-            let (i, j) = entries[e];
-            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
-        })
-    }
-
-    /// Entries (i, j) of minus the derivative of the undamped stiffness by ω² [kg]:
-    /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω².
-    pub fn moving_mass<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
-        let mut sums = entries.map(|(i, j)| self.mass[i][j]);
-        for (pole, g) in self.poles.iter().zip(&self.participation) {
-            let gap = pole - x;
-            let factor = x * (2.0 * pole - x) / (gap * gap);
-            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-                *sum += g[i] * g[j] * factor;
-            }
-        }
-        sums
-    }
-
-    /// Number of poles below ω² = x.
-    pub fn poles_below(&self, x: f64) -> usize {
-        self.poles.partition_point(|pole| *pole < x)
-    }
 }
 
 /// The platform end of an exact cable: its axes and its damping.
@@ -220,61 +162,6 @@ impl ExactEnd {
     }
 }
 
-/// Entries of the platform end's stiffness, poles and residues each in a row, for sums in vector registers.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct EndSeries<const E: usize> {
-    pub(crate) poles: Vec<f64>,
-    pub(crate) residues: [Vec<f64>; E],
-    pub(crate) stiffness: [f64; E],
-    pub(crate) mass: [f64; E],
-}
-
-impl<const E: usize> EndSeries<E> {
-    fn of<const N: usize>(all: &PoleResidue<N>, entries: [(usize, usize); E]) -> Self {
-        Self {
-            poles: all.poles.clone(),
-            residues: entries.map(|(i, j)| all.participation.iter().map(|g| g[i] * g[j]).collect()),
-            stiffness: entries.map(|(i, j)| all.stiffness[i][j]),
-            mass: entries.map(|(i, j)| all.mass[i][j]),
-        }
-    }
-
-    /// Places of the poles nearer to x than the part `width`.
-    fn near(&self, x: f64, width: f64) -> Range<usize> {
-        let from = self.poles.partition_point(|pole| *pole < x * (1.0 - width));
-        let count = self.poles[from..].iter().take_while(|pole| **pole < x * (1.0 + width)).count();
-        from..from + count
-    }
-
-    /// Undamped entries at x = ω², without the poles `left_out`.
-    fn undamped(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
-        const LANES: usize = 8;
-        let mut sums = [0.0; E];
-        for range in [0..left_out.start, left_out.end..self.poles.len()] {
-            let poles = &self.poles[range.clone()];
-            let residues: [&[f64]; E] = std::array::from_fn(|e| &self.residues[e][range.clone()]);
-            let whole = poles.len() / LANES * LANES;
-            let mut lanes = [[0.0; LANES]; E];
-            for (k, block) in poles.chunks_exact(LANES).enumerate() {
-                let factors: [f64; LANES] = std::array::from_fn(|i| 1.0 / (block[i] - x));
-                for (lanes, residues) in lanes.iter_mut().zip(residues) {
-                    let block = &residues[k * LANES..(k + 1) * LANES];
-                    for i in 0..LANES {
-                        lanes[i] += block[i] * factors[i];
-                    }
-                }
-            }
-            for ((sum, lanes), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
-                *sum += lanes.iter().sum::<f64>();
-                for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
-                    *sum += residue / (pole - x);
-                }
-            }
-        }
-        std::array::from_fn(|e| self.stiffness[e] - x * (self.mass[e] + x * sums[e]))
-    }
-}
-
 /// Most unknowns of one cable in its plane; they take about two seconds.
 const MOST_UNKNOWNS: usize = 1200;
 
@@ -313,8 +200,7 @@ impl Exact {
             let (out_of_plane, error_out) = mesh.condense::<1, 2>([[o, -o], [-o, o]], limit)?;
             let error = error_in.max(error_out);
             if error <= WANTED_ERROR || mesh.refined == MOST_REFINEMENTS {
-                let degrees = mesh.elements.iter().map(|e| e.degree).collect();
-                return Ok(Self { in_plane, out_of_plane, limit, error, degrees });
+                return Ok(Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() });
             }
             mesh.refine();
         }
@@ -346,265 +232,3 @@ impl Exact {
 
 /// Refinements until the estimate is taken as it is; each adds a sixth of the degree and eight.
 const MOST_REFINEMENTS: usize = 4;
-
-/// A cable cut into elements, each with its polynomial degree.
-struct Mesh<'a> {
-    catenary: &'a Catenary,
-    mass_per_length: f64,
-    elements: Vec<Element>,
-    refined: usize,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Element {
-    from: f64,
-    to: f64,
-    degree: usize,
-}
-
-/// A matrix over the functions of one element, two degrees more than it has: what the discretisation leaves out shows
-/// in what these would answer.
-const BEYOND: usize = 2;
-
-impl<'a> Mesh<'a> {
-    fn new(catenary: &'a Catenary, mass_per_length: f64, limit: f64) -> Result<Self, ExactError> {
-        let rope = catenary.rope();
-        let w = rope.weight_per_length;
-        let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
-        let straight = w == 0.0;
-        // T is analytic but at V = ±iH, that is at s = lowest ± i H/w.
-        let (lowest, depth) = (-va / w, h / w);
-        let least = if !straight && (0.0..=rope.unstrained_length).contains(&lowest) {
-            h
-        } else {
-            catenary.tension_at_start().min(catenary.tension_at_end())
-        };
-        if least.is_nan() || least <= 1e-9 * catenary.tension_at_end().max(catenary.tension_at_start()) {
-            return Err(ExactError::NoTension);
-        }
-        let mut cuts = vec![(0.0, rope.unstrained_length)];
-        let mut elements = Vec::new();
-        while let Some((from, to)) = cuts.pop() {
-            let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
-            // Size of the Bernstein ellipse through the singularity: the coefficients of C fall like its powers.
-            let z = Complex::new((lowest - center) / half, depth / half);
-            let root = (z * z - 1.0).sqrt();
-            let size = if straight { f64::INFINITY } else { (z + root).norm().max((z - root).norm()) };
-            if size < SMOOTH_ENOUGH {
-                cuts.extend([(center, to), (from, center)]);
-                continue;
-            }
-            // Phase of the transverse wave, the slower one, over the element (Simpson).
-            let slowness = |s: f64| {
-                let t = catenary.tension_at(s);
-                (mass_per_length * (rope.axial_stiffness + t) / (rope.axial_stiffness * t)).sqrt()
-            };
-            let mean = (slowness(from) + 4.0 * slowness(center) + slowness(to)) / 6.0;
-            let phase = limit * mean * (to - from);
-            // 0.5 resolves a wave; the cube root is the width of the transition to exponential convergence.
-            let waves = 0.53 * phase + 2.2 * (0.5 * phase).cbrt();
-            let degree = (waves + 6.0 + 14.0 / size.ln()).ceil().min(1e6) as usize;
-            elements.push(Element { from, to, degree });
-        }
-        Ok(Self { catenary, mass_per_length, elements, refined: 0 })
-    }
-
-    fn refine(&mut self) {
-        self.refined += 1;
-        for element in &mut self.elements {
-            element.degree += element.degree / 6 + 8;
-        }
-    }
-
-    /// Inner unknowns in plane.
-    fn unknowns(&self) -> usize {
-        2 * (self.elements.iter().map(|e| e.degree).sum::<usize>() - 1)
-    }
-
-    /// C at arc length s [N]: in plane (hh, hv, vv), out of plane the first only.
-    fn tangent_at(&self, s: f64) -> ([f64; 3], f64) {
-        let rope = self.catenary.rope();
-        let h = self.catenary.horizontal_force();
-        let v = self.catenary.vertical_force_at_start() + rope.weight_per_length * s;
-        let tension = h.hypot(v);
-        let ea = rope.axial_stiffness;
-        let across = ea * tension / (ea + tension);
-        let (c, s) = (h / tension, v / tension);
-        let extra = ea - across;
-        ([across + extra * c * c, extra * c * s, across + extra * s * s], across)
-    }
-
-    /// Condenses D components a point onto the two ends (N = 2D) with the static stiffness `still`; also the estimated
-    /// relative error of the clamped frequencies below the limit.
-    fn condense<const D: usize, const N: usize>(
-        &self,
-        still: [[f64; N]; N],
-        limit: f64,
-    ) -> Result<(PoleResidue<N>, f64), ExactError> {
-        // Scalar functions: inner ones (nodes, then bubbles), the two ends, then those beyond the degree.
-        let inner = self.elements.iter().map(|e| e.degree).sum::<usize>() - 1;
-        let beyond = BEYOND * self.elements.len();
-        let total = inner + 2 + beyond;
-        let (n, count) = (D * inner, 2 * D * (2 + beyond));
-        let mut stiffness = vec![0.0; n * n];
-        let mut mass = vec![0.0; n * n];
-        // Columns of K for ends and beyond, then the same of M, by rows.
-        let mut columns = vec![0.0; n * count];
-        let mut end_mass = [[0.0; N]; N];
-        let mut own = vec![(0.0, 0.0); D * beyond];
-        let nodes = self.elements.len() - 1;
-        let mut bubble = nodes;
-        for (e, element) in self.elements.iter().enumerate() {
-            let left = if e == 0 { inner } else { e - 1 };
-            let right = if e == nodes { inner + 1 } else { e };
-            let functions: Vec<usize> = [left, right]
-                .into_iter()
-                .chain(bubble..bubble + element.degree - 1)
-                .chain((0..BEYOND).map(|k| inner + 2 + BEYOND * e + k))
-                .collect();
-            bubble += element.degree - 1;
-            let (k, m) = self.element_matrices::<D>(element);
-            for (b, &column) in functions.iter().enumerate() {
-                for (a, &row) in functions.iter().enumerate() {
-                    let inertia = m[(a, b)];
-                    for dj in 0..D {
-                        for di in 0..D {
-                            let (entry, inertia) = (k[di + dj][(a, b)], if di == dj { inertia } else { 0.0 });
-                            if row < inner && column < inner {
-                                stiffness[(D * column + dj) * n + D * row + di] += entry;
-                                mass[(D * column + dj) * n + D * row + di] += inertia;
-                            } else if row < inner {
-                                let at = (D * row + di) * count + D * (column - inner) + dj;
-                                columns[at] += entry;
-                                columns[at + count / 2] += inertia;
-                            } else if column < inner {
-                                // The transpose of what the branch above takes.
-                            } else if row < inner + 2 && column < inner + 2 {
-                                end_mass[D * (row - inner) + di][D * (column - inner) + dj] += inertia;
-                            } else if row == column && di == dj {
-                                own[D * (row - inner - 2) + di] = (entry, inertia);
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        debug_assert!(total == inner + 2 + beyond && bubble == inner);
-        let (values, products) = projected::pencil(stiffness, mass, columns, count).ok_or(ExactError::NoTension)?;
-        Ok(self.pole_residue(&values, &products, still, end_mass, &own, limit))
-    }
-
-    /// Poles and residues from the eigenvalues μ = 1/ω² and the products of the eigenvectors, normalised to φᵀKφ = 1,
-    /// with the columns a = K_ib and b = M_ib of the ends: `g = (b − μ a)/√μ`, `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`.
-    fn pole_residue<const N: usize>(
-        &self,
-        values: &[f64],
-        products: &[f64],
-        still: [[f64; N]; N],
-        end_mass: [[f64; N]; N],
-        own: &[(f64, f64)],
-        limit: f64,
-    ) -> (PoleResidue<N>, f64) {
-        let count = products.len() / values.len().max(1);
-        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
-        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-        let mut mass = end_mass;
-        let mut error = 0.0_f64;
-        let mut poles = Vec::with_capacity(order.len());
-        let mut participation = Vec::with_capacity(order.len());
-        for k in order {
-            let mu = values[k];
-            let (stiff, heavy) = products[k * count..(k + 1) * count].split_at(count / 2);
-            for i in 0..N {
-                for j in 0..N {
-                    mass[i][j] -= heavy[i] * stiff[j] + stiff[i] * heavy[j] - mu * stiff[i] * stiff[j];
-                }
-            }
-            poles.push(1.0 / mu);
-            participation.push(std::array::from_fn(|i| (heavy[i] - mu * stiff[i]) / mu.sqrt()));
-            if 1.0 / mu < limit * limit {
-                // What the functions beyond would take off ω², to first order in each, over ω² (φᵀKφ = 1).
-                let lost: f64 = own
-                    .iter()
-                    .enumerate()
-                    .map(|(e, (k_own, m_own))| {
-                        let answer = stiff[N + e] - heavy[N + e] / mu;
-                        answer * answer / (k_own - m_own / mu).abs().max(f64::MIN_POSITIVE)
-                    })
-                    .sum();
-                error = error.max(0.5 * lost);
-            }
-        }
-        (PoleResidue { stiffness: still, mass, poles, participation }, error)
-    }
-
-    /// K of each component (hh, hv, vv, or one) and M of an element over its hats and bubbles, [`BEYOND`] included.
-    fn element_matrices<const D: usize>(&self, element: &Element) -> (Vec<DMat>, DMat) {
-        let half = 0.5 * (element.to - element.from);
-        let middle = 0.5 * (element.to + element.from);
-        let degree = element.degree + BEYOND;
-        // Two slopes have degree 2p − 2; C takes its own share of the rule.
-        let rule = legendre::gauss(degree + 8);
-        let mut slopes = DMat::zeros(degree + 1, rule.len());
-        let parts = 2 * D - 1;
-        let mut weights = vec![vec![0.0; rule.len()]; parts];
-        for (q, (xi, weight)) in rule.iter().enumerate() {
-            let mut column = slopes.column_mut(q);
-            column[0] = -0.5;
-            column[1] = 0.5;
-            for (j, p) in legendre::orthonormal(*xi, degree - 1).iter().enumerate().skip(1) {
-                column[j + 1] = *p;
-            }
-            let (in_plane, across) = self.tangent_at(middle + half * xi);
-            for (part, weights) in weights.iter_mut().enumerate() {
-                weights[q] = weight / half * if D == 1 { across } else { in_plane[part] };
-            }
-        }
-        let stiffness = weights
-            .iter()
-            .map(|weights| {
-                let mut weighted = slopes.clone();
-                for (mut column, w) in weighted.column_iter_mut().zip(weights) {
-                    column *= *w;
-                }
-                weighted * slopes.transpose()
-            })
-            .collect();
-        (stiffness, bubble_mass(degree) * (half * self.mass_per_length))
-    }
-}
-
-/// Smallest Bernstein ellipse of an element. Cutting in two costs a node; at 1.3 a single element still converges, with
-/// twice the degree, and below 2 every slack cable would be cut.
-const SMOOTH_ENOUGH: f64 = 1.5;
-
-/// ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
-fn bubble_mass(degree: usize) -> DMat {
-    let mut m = DMat::zeros(degree + 1, degree + 1);
-    let mut set = |a: usize, b: usize, value: f64| {
-        m[(a, b)] = value;
-        m[(b, a)] = value;
-    };
-    set(0, 0, 2.0 / 3.0);
-    set(1, 1, 2.0 / 3.0);
-    set(0, 1, 1.0 / 3.0);
-    // Index j of N_j is its place, since the hats take 0 and 1.
-    if degree >= 2 {
-        let value = -1.0 / 6f64.sqrt();
-        set(0, 2, value);
-        set(1, 2, value);
-    }
-    if degree >= 3 {
-        let value = 1.0 / (3.0 * 10f64.sqrt());
-        set(0, 3, value);
-        set(1, 3, -value);
-    }
-    for j in 2..=degree {
-        let n = j as f64;
-        set(j, j, 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)));
-        if j + 2 <= degree {
-            set(j, j + 2, -1.0 / ((2.0 * n + 1.0) * ((2.0 * n - 1.0) * (2.0 * n + 3.0)).sqrt()));
-        }
-    }
-    m
-}

@@ -58,11 +58,11 @@ mod tests {
 
     #[test]
     fn rules_integrate_powers_exactly() {
-        for n in [1, 2, 3, 8, 31, 64] {
-            let rule = gauss(n);
-            for power in 0..2 * n {
-                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(power as i32)).sum();
-                let exact = if power % 2 == 1 { 0.0 } else { 2.0 / (power as f64 + 1.0) };
+        for n in [1_u8, 2, 3, 8, 31, 64] {
+            let rule = gauss(n.into());
+            for power in 0..2 * i32::from(n) {
+                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(power)).sum();
+                let exact = if power % 2 == 1 { 0.0 } else { 2.0 / (f64::from(power) + 1.0) };
                 assert!((sum - exact).abs() < 1e-14, "{n} points, power {power}: {sum}");
             }
         }

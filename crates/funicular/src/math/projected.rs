@@ -94,7 +94,9 @@ fn solve_rows(l: &[f64], n: usize, vectors: &mut [f64], count: usize) {
     for j in 0..n {
         let (done, rest) = vectors.split_at_mut((j + 1) * count);
         let row = &mut done[j * count..];
-        row.iter_mut().for_each(|x| *x /= l[j * n + j]);
+        for x in row.iter_mut() {
+            *x /= l[j * n + j];
+        }
         for (i, other) in rest.chunks_exact_mut(count).enumerate() {
             add_scaled(other, -l[j * n + j + 1 + i], row);
         }
@@ -112,7 +114,9 @@ fn congruence(l: &[f64], a: &mut [f64], n: usize) {
         column[k] /= pivot * pivot;
         let half = -0.5 * column[k];
         let (column, factor) = (&mut column[k + 1..], &factor[k + 1..]);
-        column.iter_mut().for_each(|x| *x /= pivot);
+        for x in column.iter_mut() {
+            *x /= pivot;
+        }
         add_scaled(column, half, factor);
         for (j, other) in right.chunks_exact_mut(n).enumerate() {
             let (c, f) = (column[j], factor[j]);
@@ -160,7 +164,9 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
             w[j] += column[0] * v[j] + dot(&column[1..], &v[j + 1..]);
             add_scaled(&mut w[j + 1..], v[j], &column[1..]);
         }
-        w.iter_mut().for_each(|x| *x *= beta);
+        for x in w.iter_mut() {
+            *x *= beta;
+        }
         let half = -0.5 * beta * dot(v, w);
         add_scaled(w, half, v);
         for j in 0..rest {
