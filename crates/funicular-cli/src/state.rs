@@ -77,8 +77,8 @@ impl Models {
 pub(crate) fn linearisation(args: &ModelArgs) -> Linearisation {
     Linearisation {
         cable_model: args.cable_model.unwrap_or_default().into(),
-        assembly: args.assembly.into(),
-        in_plane_only: args.in_plane_only,
+        assembly: args.terms.assembly.into(),
+        in_plane_only: args.terms.in_plane_only,
     }
 }
 

@@ -1,8 +1,10 @@
 //! The report's tables and bars.
 
 use super::{Part, parts_of};
+use crate::commands::modes;
 use crate::page::figure::{Figure, axis, colour, model_name, plain, rounded};
 use crate::page::table::{Table, fixed, listed, significant};
+use crate::table::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison};
 use funicular::dynamics::Linearisation;
@@ -11,8 +13,6 @@ use funicular::robot::{Freedoms, Robot};
 use funicular::statics::{Equilibrium, StaticModel, tangent_stiffness};
 use serde_json::{Value, json};
 
-/// Share of a mode's energy from which on a cable is named.
-const NAMED_SHARE: f64 = 0.1;
 /// Frequencies that a row of the table of models lists at most.
 const LISTED: usize = 16;
 /// Correlation of motion above which two models' modes stand in one row.
@@ -201,18 +201,14 @@ fn class_of(kind: Kind) -> &'static str {
     }
 }
 
-/// Names of the cables with most of a mode's energy, up to three.
-pub(crate) fn strongest(robot: &Robot, mode: &Mode) -> String {
-    let mut order: Vec<usize> = (0..robot.cables.len()).collect();
-    let share = |i: usize| mode.cable_energy_fractions[i];
-    order.sort_by(|&a, &b| share(b).total_cmp(&share(a)));
-    let named: Vec<String> = order
+/// Names of the cables with most of a mode's energy.
+fn strongest(robot: &Robot, mode: &Mode) -> String {
+    let names = robot.cables.iter().map(|cable| cable.name.as_str());
+    let named: Vec<String> = modes::strongest(names, &mode.cable_energy_fractions)
         .iter()
-        .filter(|&&i| share(i) >= NAMED_SHARE)
-        .take(3)
-        .map(|&i| format!("{} ({} %)", robot.cables[i].name, fixed(100.0 * share(i), 0)))
+        .map(|(name, share)| format!("{name} ({} %)", fixed(100.0 * share, 0)))
         .collect();
-    if named.is_empty() { "–".to_owned() } else { named.join(", ") }
+    if named.is_empty() { NONE.to_owned() } else { named.join(", ") }
 }
 
 /// The comparison of the cable models.
