@@ -231,14 +231,10 @@ fn cables_are_warned_about_outside_the_models_range() {
     let (robot, lengths) = load(include_str!("../../../../robots/yuan2014-8mm.toml"));
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
     let warnings = validity::of_dynamics(&robot, &rest, CableModel::ClosedForm, 20.0);
-    let deep: Vec<&str> = warnings
-        .iter()
-        .filter_map(|w| match w {
-            Warning::DeepSag { cable, ratio, .. } if *ratio > 0.05 => Some(cable.as_str()),
-            _ => None,
-        })
-        .collect();
-    assert_eq!(deep, ["5", "6"], "the long cables sag by 6.6 % of the chord");
+    let [Warning::DeepSag { cables, .. }] = &warnings[..] else { panic!("{warnings:?}") };
+    assert!(cables.iter().all(|(_, ratio)| *ratio > 0.05 && *ratio < 0.07));
+    let names: Vec<&str> = cables.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["5", "6"], "the long cables sag by some 6 % of the chord");
     assert!(warnings[0].to_string().contains("more than 1/20"));
     assert!(validity::of_dynamics(&robot, &rest, CableModel::CatenaryTangent, 20.0).is_empty());
     let axial = validity::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);

@@ -16,7 +16,6 @@ use serde_json::{Value, json};
 /// Frequencies that a row of the table of models lists at most.
 const LISTED: usize = 16;
 /// Correlation of motion above which two models' modes stand in one row.
-const SAME_MOTION: f64 = 0.5;
 
 fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
     equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect()
@@ -298,7 +297,7 @@ fn side_by_side(comparison: &Comparison) -> Table {
     for (index, mode) in modes.iter().enumerate() {
         let pairs: Vec<_> = others
             .iter()
-            .map(|m| m.matches.iter().find(|m| m.reference_index == index && m.correlation >= SAME_MOTION))
+            .map(|m| m.matches.iter().find(|m| m.reference_index == index))
             .collect();
         if mode.kind == Kind::Cable && pairs.iter().all(Option::is_none) {
             continue;
