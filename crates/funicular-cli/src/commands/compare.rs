@@ -151,7 +151,7 @@ impl Results for Compared {
             table.row(row);
         }
         let head = format!(
-            "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n{table}\n",
+            "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n",
             self.robot,
             self.below_hz,
             self.reference,
@@ -163,6 +163,7 @@ impl Results for Compared {
         for model in others {
             let line = match (&model.error, model.first_wrong_hz) {
                 (Some(error), _) => error.clone(),
+                (None, None) if reference.is_empty() => "no modes, as the reference".to_owned(),
                 (None, None) => format!("all {} modes within {} %", reference.len(), 100.0 * self.tolerance),
                 (None, Some(first)) => format!(
                     "{} of {} modes, misses {}, first wrong at {} Hz",
@@ -174,7 +175,8 @@ impl Results for Compared {
             };
             lines.push(format!("  {:<17} {line}", model.cable_model));
         }
-        format!("{head}{}\n\n{}\n", lines.join("\n"), self.advice.text)
+        let table = if reference.is_empty() { String::new() } else { format!("{table}\n") };
+        format!("{head}{table}{}\n\n{}\n", lines.join("\n"), self.advice.text)
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {

@@ -6,10 +6,10 @@ use crate::commands::frf;
 use crate::errors;
 use crate::output::Target;
 use crate::page::report::{ReportInput, report};
+use crate::page::table::listed;
 use crate::progress::Waiting;
 use crate::robot_file::{self, RobotFile};
 use crate::state;
-use crate::table::vector;
 use anyhow::{Context, Result};
 use funicular::math::Vec3;
 use funicular::response::Quantity;
@@ -86,13 +86,13 @@ fn axis_in_words(direction_w: Vec3) -> String {
     let axes = [(Vec3::x(), "x"), (Vec3::y(), "y"), (Vec3::z(), "z")];
     match axes.iter().find(|(axis, _)| *axis == direction_w) {
         Some((_, name)) => (*name).to_owned(),
-        None => format!("({})", vector(direction_w.as_slice(), 3)),
+        None => format!("({})", listed(direction_w.as_slice(), 3)),
     }
 }
 
 fn at(preposition: &str, point: Option<Vec3>) -> String {
     match point {
         None => format!("{preposition} the platform origin"),
-        Some(point) => format!("{preposition} the platform's point ({}) m", vector(point.as_slice(), 3)),
+        Some(point) => format!("{preposition} the platform's point ({}) m", listed(point.as_slice(), 3)),
     }
 }

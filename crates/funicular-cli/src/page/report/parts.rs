@@ -15,7 +15,6 @@ use serde_json::{Value, json};
 
 /// Frequencies that a row of the table of models lists at most.
 const LISTED: usize = 16;
-/// Correlation of motion above which two models' modes stand in one row.
 
 fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
     equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect()
@@ -295,10 +294,7 @@ fn side_by_side(comparison: &Comparison) -> Table {
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
     let modes = reference.and_then(|m| m.modes.as_ref().ok()).map_or(&[][..], |m| &m.modes);
     for (index, mode) in modes.iter().enumerate() {
-        let pairs: Vec<_> = others
-            .iter()
-            .map(|m| m.matches.iter().find(|m| m.reference_index == index))
-            .collect();
+        let pairs: Vec<_> = others.iter().map(|m| m.matches.iter().find(|m| m.reference_index == index)).collect();
         if mode.kind == Kind::Cable && pairs.iter().all(Option::is_none) {
             continue;
         }
