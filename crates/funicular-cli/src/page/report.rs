@@ -66,7 +66,7 @@ struct ReportPage<'a> {
     peaks_table: Table,
     response_notes: Vec<String>,
     comparison: Result<parts::ComparisonPart, String>,
-    warnings: Vec<Vec<Part>>,
+    warnings: Vec<String>,
     command_line: &'a str,
     file_label: &'a str,
     robot_text: &'a str,
@@ -122,7 +122,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         peaks_table,
         response_notes,
         comparison: parts::comparison(robot, equilibrium, below_hz, linearisation),
-        warnings: warnings.iter().map(|warning| parts_of(&sentence(warning))).collect(),
+        warnings: warnings.iter().map(|warning| prose(&sentence(warning))).collect(),
         command_line: &input.command_line,
         file_label: input.file_label,
         robot_text: input.robot_text,
@@ -131,15 +131,19 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     Ok(Report { html, warnings })
 }
 
-/// A stretch of text, or of what one types.
-struct Part {
-    code: bool,
-    text: String,
+/// Text of the core, which quotes what one types in backticks.
+#[derive(Template)]
+#[template(
+    source = "{% for (code, text) in parts %}{% if *code %}<code>{{ text }}</code>{% else %}{{ text }}{% endif %}{% endfor %}",
+    ext = "html"
+)]
+struct Prose<'a> {
+    parts: Vec<(bool, &'a str)>,
 }
 
-/// The core quotes what one types in backticks.
-fn parts_of(text: &str) -> Vec<Part> {
-    text.split('`').enumerate().map(|(i, text)| Part { code: i % 2 == 1, text: text.to_owned() }).collect()
+/// Rendered as HTML.
+fn prose(text: &str) -> String {
+    Prose { parts: text.split('`').enumerate().map(|(i, text)| (i % 2 == 1, text)).collect() }.to_string()
 }
 
 /// First letter large, full stop at the end: the core speaks in lower case.
@@ -245,7 +249,9 @@ fn respond(
             draw(&other, &found).map_err(|e| e.to_string())
         }) {
             Ok(curve) => curves.push(curve),
-            Err(reason) => notes.push(format!("Without the model {}: {reason}.", model_name(cable_model))),
+            Err(reason) => {
+                notes.push(prose(&format!("Without the model {}: {reason}.", model_name(cable_model))));
+            }
         }
     }
     let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);

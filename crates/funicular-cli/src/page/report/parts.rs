@@ -1,6 +1,6 @@
 //! The report's tables and bars.
 
-use super::{Part, parts_of};
+use super::prose;
 use crate::commands::modes;
 use crate::page::figure::{Figure, axis, colour, model_name, plain, rounded};
 use crate::page::table::{Table, fixed, listed, significant};
@@ -212,7 +212,7 @@ fn strongest(robot: &Robot, mode: &Mode) -> String {
 /// The comparison of the cable models.
 pub(crate) struct ComparisonPart {
     /// Advice of the core.
-    pub(crate) advice: Vec<Part>,
+    pub(crate) advice: String,
     /// One row a model.
     pub(crate) models: Table,
     /// One row a mode.
@@ -226,9 +226,10 @@ pub(crate) fn comparison(
     below_hz: f64,
     linearisation: Linearisation,
 ) -> Result<ComparisonPart, String> {
-    let comparison = compare::compare(robot, equilibrium, below_hz, linearisation).map_err(|e| e.to_string())?;
+    let comparison = compare::compare(robot, equilibrium, below_hz, linearisation)
+        .map_err(|error| prose(&format!("The models cannot be compared at this state: {error}.")))?;
     let (models, modes) = (models_table(&comparison), side_by_side(&comparison));
-    Ok(ComparisonPart { advice: parts_of(&comparison.advice.text), models, modes })
+    Ok(ComparisonPart { advice: prose(&comparison.advice.text), models, modes })
 }
 
 fn models_table(comparison: &Comparison) -> Table {
@@ -262,7 +263,8 @@ fn models_table(comparison: &Comparison) -> Table {
                 };
                 format!("{}{free}", listed(&all, 3))
             }
-            Err(reason) => reason.to_string(),
+            // A cell is plain text; the core quotes what one types in backticks.
+            Err(reason) => reason.to_string().replace('`', ""),
         };
         let count = modes.map_or_else(|| "–".to_owned(), |m| m.modes.len().to_string());
         let (missed, first) = if is_reference || modes.is_none() {
