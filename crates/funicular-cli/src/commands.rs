@@ -5,6 +5,8 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod frf;
 pub(crate) mod modes;
+pub(crate) mod paper;
 pub(crate) mod pose_error;
+pub(crate) mod report;
 pub(crate) mod statics;
 pub(crate) mod stiffness;
