@@ -57,6 +57,18 @@ pub enum DynamicsError {
     Rigid,
 }
 
+impl DynamicsError {
+    /// Why the cable of this name has no stiffness in a model.
+    pub fn of_cable(name: &str, model: CableModel, reason: NoStiffness) -> Self {
+        let cable = name.to_owned();
+        match reason {
+            NoStiffness::Rigid => Self::Rigid,
+            NoStiffness::NoTension => Self::NoTension { cable, model },
+            NoStiffness::Exact(source) => Self::Exact { cable, source },
+        }
+    }
+}
+
 /// A robot linearised about an equilibrium.
 ///
 /// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all are in N/m and kg.
@@ -105,14 +117,8 @@ impl Dynamics {
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let cable = || robot.cables[i].name.clone();
-            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only, up_to_hz).map_err(
-                |reason| match reason {
-                    NoStiffness::Rigid => DynamicsError::Rigid,
-                    NoStiffness::NoTension => DynamicsError::NoTension { cable: cable(), model: cable_model },
-                    NoStiffness::Exact(source) => DynamicsError::Exact { cable: cable(), source },
-                },
-            )?;
+            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only, up_to_hz)
+                .map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
             match stiffness {
                 EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
                 EndStiffness::Dynamic(form) => {
