@@ -18,6 +18,9 @@ pub const SAME_MOTION: f64 = 0.5;
 /// moves: with 20 cable resonances in between, some shape always fits.
 const SAME_RANGE: f64 = 2.0;
 
+/// Relative difference of frequency up to which modes of two models with vibrating cables can be the same.
+const SAME_FREQUENCY: f64 = 0.2;
+
 /// All models at one equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
@@ -38,8 +41,9 @@ pub struct ModelResult {
     pub model: CableModel,
     /// Its modes below the limit, or why there are none.
     pub modes: Result<Modes, DynamicsError>,
-    /// Its modes that have a counterpart in the reference: the one that moves the platform most alike, with a
-    /// correlation of at least [`SAME_MOTION`] and a frequency within a factor of two. None for the reference.
+    /// Its modes that have a counterpart in the reference. Of constant stiffnesses: the mode that moves the platform most
+    /// alike, with a correlation of at least [`SAME_MOTION`] and a frequency within a factor of two. Of vibrating
+    /// cables, most of whose modes hardly move the platform: the nearest in frequency. None for the reference.
     pub matches: Vec<Match>,
     /// Modes of the reference that it has no counterpart of.
     pub missed: usize,
@@ -96,7 +100,7 @@ pub fn compare(
             }
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
             let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
-            let matches = match_modes(found, &truth.modes, &dynamics.mass());
+            let matches = match_modes(found, &truth.modes, &dynamics.mass(), model.is_dynamic());
             let mut hit = vec![false; truth.modes.len()];
             let mut right = hit.clone();
             for m in &matches {
@@ -132,8 +136,8 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
 }
 
 /// Pairs every mode with the reference mode of the most similar platform motion, weighed by how much of that mode is
-/// the platform's; each reference mode serves once.
-fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
+/// the platform's; or, `by_frequency`, with the nearest. Each reference mode serves once.
+fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) -> Vec<Match> {
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
     let mut candidates = Vec::new();
@@ -144,17 +148,31 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
             let (own, other) = (inner(&x, &x), inner(&y, &y));
             // Two vibrations of cables beside a platform at rest are alike if their frequencies are.
             let both_at_rest = own == 0.0 && other == 0.0;
-            if !both_at_rest && own * other == 0.0 {
+            if !(both_at_rest || own * other > 0.0 || by_frequency) {
                 continue;
             }
-            let correlation = if both_at_rest { 1.0 } else { inner(&x, &y).powi(2) / (own * other) };
+            let correlation = if both_at_rest {
+                1.0
+            } else if own * other > 0.0 {
+                inner(&x, &y).powi(2) / (own * other)
+            } else {
+                0.0
+            };
             let ratio = ours.frequency_hz / theirs.frequency_hz;
-            if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
-                continue;
-            }
-            // Among equals the nearer frequency.
-            let nearness = 1e-6 * (1.0 - ratio).abs();
-            candidates.push((correlation * theirs.platform_energy_fraction - nearness, correlation, i, j));
+            let distance = (1.0 - ratio).abs();
+            let score = if by_frequency {
+                if distance > SAME_FREQUENCY {
+                    continue;
+                }
+                // Two of nearly the same frequency: the more alike.
+                -distance + 0.1 * TOLERANCE * correlation
+            } else {
+                if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
+                    continue;
+                }
+                correlation * theirs.platform_energy_fraction - 1e-6 * distance
+            };
+            candidates.push((score, correlation, i, j));
         }
     }
     candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
