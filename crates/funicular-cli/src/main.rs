@@ -1,2 +1,56 @@
-//! The program.
-fn main() {}
+//! The program `funicular`: a robot file and options in, one result out.
+
+mod args;
+mod commands;
+mod errors;
+mod grid;
+mod json;
+mod output;
+mod progress;
+mod robot_file;
+mod set;
+mod state;
+mod table;
+
+use anyhow::Result;
+use args::{Cli, Command, OutputArgs, RobotArgs};
+use clap::Parser;
+use funicular::robot::Robot;
+use output::{Results, Sink};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match Cli::try_parse() {
+        Ok(cli) => match run(&cli.command) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => errors::report(&error),
+        },
+        Err(usage) => {
+            // Help for a closed pipe is help for nobody.
+            let _ = usage.print();
+            ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2))
+        }
+    }
+}
+
+fn run(command: &Command) -> Result<()> {
+    match command {
+        Command::Check(args) => steps(&args.robot, &args.output, |robot| Ok(commands::check::run(robot))),
+        Command::Statics(args) => steps(&args.robot, &args.output, |robot| commands::statics::run(robot, &args.state)),
+        Command::Stiffness(args) => steps(&args.robot, &args.output, |robot| commands::stiffness::run(robot, args)),
+        Command::Modes(args) => steps(&args.robot, &args.output, |robot| commands::modes::run(robot, args)),
+        Command::Frf(args) => steps(&args.robot, &args.sink, |robot| commands::frf::run(robot, args)),
+        Command::Compare(args) => steps(&args.robot, &args.output, |robot| commands::compare::run(robot, args)),
+        Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),
+        Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
+    }
+}
+
+/// What every command does.
+fn steps<R: Results>(robot: &RobotArgs, output: &OutputArgs, analyse: impl FnOnce(Robot) -> Result<R>) -> Result<()> {
+    let robot_file = robot;
+    let robot = robot_file::read(robot_file)?;
+    let sink = Sink::open(output, robot_file)?;
+    let results = analyse(robot)?;
+    sink.write(&results)
+}

@@ -1,0 +1,381 @@
+//! What the user can ask for.
+
+pub(crate) mod values;
+
+use crate::set::Assignment;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use funicular::cable::CableModel;
+use funicular::dynamics::Assembly;
+use funicular::math::Vec3;
+use funicular::statics::StaticModel;
+use std::path::PathBuf;
+use values::{Input, Lengths, MassRange, Output, PoseNumbers};
+
+/// Statics and vibration of cable-driven parallel robots whose cables sag.
+///
+/// Every command reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
+/// unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
+#[derive(Debug, Parser)]
+#[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
+#[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Read a robot file, check it, and say what the robot is
+    #[command(after_help = "Examples:\n  funicular check robots/yuan2014-4mm.toml\n  \
+        funicular check robots/cogiro.toml --set platform.mass_kg=300 --format json")]
+    Check(CheckArgs),
+    /// Equilibrium: pose, tensions, sag
+    #[command(after_help = "Examples:\n  funicular statics robots/yuan2014-4mm.toml\n  \
+        funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \
+        funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6")]
+    Statics(StaticsArgs),
+    /// The 6×6 stiffness at one frequency, static at 0 Hz
+    #[command(after_help = "Examples:\n  funicular stiffness robots/yuan2014-4mm.toml\n  \
+        funicular stiffness robots/yuan2014-4mm.toml --at-hz 3.5 --format json")]
+    Stiffness(StiffnessArgs),
+    /// Every natural frequency below a limit, counted: none missed
+    #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
+        funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv")]
+    Modes(ModesArgs),
+    /// Frequency response of the platform, and its peaks
+    #[command(after_help = "Examples:\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
+        --input fz --output ay\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    \
+        --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv")]
+    Frf(FrfArgs),
+    /// Every cable model side by side, and the simplest that is good enough
+    #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
+    Compare(CompareArgs),
+    /// Poses of spring and catenary cables against ideal ones over platform mass
+    #[command(after_help = "Examples:\n  funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100\n  \
+        funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv")]
+    PoseError(PoseErrorArgs),
+    /// Dynamic stiffness of one cable over frequency
+    #[command(after_help = "Example:\n  \
+        funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
+    Cable(CableArgs),
+}
+
+/// The robot.
+#[derive(Debug, Args)]
+pub(crate) struct RobotArgs {
+    /// Robot file (TOML), or - for standard input
+    #[arg(value_name = "ROBOT")]
+    pub(crate) robot: PathBuf,
+
+    /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by their name; repeatable)
+    #[arg(long, value_name = "PATH=VALUE", value_parser = crate::set::assignment)]
+    pub(crate) set: Vec<Assignment>,
+}
+
+/// The state: as the robot file says, or as these options say.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "State")]
+pub(crate) struct StateArgs {
+    /// Unstrained lengths [m], one a cable in file order; the pose follows
+    #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true, conflicts_with = "pose")]
+    pub(crate) lengths_m: Option<Lengths>,
+
+    /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow
+    #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
+    pub(crate) pose: Option<PoseNumbers>,
+
+    /// Mass of the platform [kg]; inertia and centre of mass stay
+    #[arg(long, value_name = "KG", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) mass_kg: Option<f64>,
+
+    /// How cables carry their static load
+    #[arg(long, value_name = "MODEL", value_enum, default_value_t)]
+    pub(crate) static_model: StaticModelName,
+}
+
+/// How the robot is linearised.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Model")]
+pub(crate) struct ModelArgs {
+    /// How cables answer motion of the platform [default: closed-form]
+    #[arg(long, value_name = "MODEL", value_enum)]
+    pub(crate) cable_model: Option<CableModelName>,
+
+    /// Terms of the stiffness: all (consistent), or the cables' end stiffness only, as Yuan et al. 2014 (paper)
+    #[arg(long, value_name = "TERMS", value_enum, default_value_t)]
+    pub(crate) assembly: AssemblyName,
+
+    /// Leave out the stiffness of cables out of their planes, as Yuan et al. 2014
+    #[arg(long)]
+    pub(crate) in_plane_only: bool,
+}
+
+/// What the result looks like and where it goes.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct OutputArgs {
+    /// Format of the result [default: by the ending of FILE, else text]
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    pub(crate) format: Option<Format>,
+
+    /// Write the result to FILE, as a whole or not at all, instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output_file: Option<PathBuf>,
+}
+
+/// A range of frequencies.
+#[derive(Debug, Args)]
+pub(crate) struct RangeArgs {
+    /// First frequency [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) from_hz: f64,
+
+    /// Last frequency [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) to_hz: f64,
+
+    /// Number of frequencies, 2 to 1000000
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000), allow_hyphen_values = true)]
+    pub(crate) points: u64,
+
+    /// Equal ratios between frequencies instead of equal steps
+    #[arg(long)]
+    pub(crate) log: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StaticsArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StiffnessArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Frequency [Hz]. At 0 the exact tangent of the static model, above 0 the closed form, unless --cable-model says otherwise
+    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0")]
+    pub(crate) at_hz: f64,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ModesArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Limit of the frequencies [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) below_hz: f64,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FrfArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    #[command(flatten)]
+    pub(crate) range: RangeArgs,
+
+    /// Force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction; world axes
+    #[arg(long, value_name = "INPUT", value_parser = values::input)]
+    pub(crate) input: Input,
+
+    /// Displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…, a:… along a direction; world axes
+    #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
+    pub(crate) output: Output,
+
+    /// Point where the force acts, platform frame [m] [default: the origin]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) input_point_m: Option<Vec3>,
+
+    /// Point whose motion is measured, platform frame [m] [default: the origin]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) output_point_m: Option<Vec3>,
+
+    /// Least height of a peak above the valleys beside it [dB]
+    #[arg(long, value_name = "DB", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "1")]
+    pub(crate) prominence_db: f64,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Limit of the frequencies [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) below_hz: f64,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+
+    /// Terms of the stiffness: all (consistent), or the cables' end stiffness only, as Yuan et al. 2014 (paper)
+    #[arg(long, value_name = "TERMS", value_enum, default_value_t)]
+    pub(crate) assembly: AssemblyName,
+
+    /// Leave out the stiffness of cables out of their planes, as Yuan et al. 2014
+    #[arg(long)]
+    pub(crate) in_plane_only: bool,
+
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PoseErrorArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Platform masses [kg] from A to B, N of them in equal steps, as in 10:90:81
+    #[arg(long, value_name = "A:B:N", value_parser = values::mass_range, allow_hyphen_values = true)]
+    pub(crate) mass_kg: MassRange,
+
+    /// Unstrained lengths [m], one a cable in file order [default: as the robot file says]
+    #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true)]
+    pub(crate) lengths_m: Option<Lengths>,
+
+    /// Name the mass from which on the spring pose is this near to the catenary pose [mm]
+    #[arg(long, value_name = "MM", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) tolerance_mm: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CableArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Name of the cable in the robot file
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    pub(crate) name: String,
+
+    #[command(flatten)]
+    pub(crate) range: RangeArgs,
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+
+    /// How the cable answers motion of its platform end
+    #[arg(long, value_name = "MODEL", value_enum, default_value_t)]
+    pub(crate) cable_model: CableModelName,
+
+    /// Leave out the stiffness out of the cable's plane, as Yuan et al. 2014
+    #[arg(long)]
+    pub(crate) in_plane_only: bool,
+
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+/// Format of a result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Tables to read, rounded
+    Text,
+    /// One object, every digit
+    Json,
+    /// One table with a header, every digit
+    Csv,
+}
+
+/// Names of [`StaticModel`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum StaticModelName {
+    /// Straight, massless, rigid
+    Ideal,
+    /// Straight, massless, elastic
+    Spring,
+    /// Elastic, sagging under its own weight
+    #[default]
+    Catenary,
+}
+
+impl From<StaticModelName> for StaticModel {
+    fn from(name: StaticModelName) -> Self {
+        match name {
+            StaticModelName::Ideal => Self::Ideal,
+            StaticModelName::Spring => Self::Spring,
+            StaticModelName::Catenary => Self::Catenary,
+        }
+    }
+}
+
+/// Names of [`CableModel`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum CableModelName {
+    /// Dynamic stiffness of a shallow sagging cable (Starossek 1991)
+    #[default]
+    ClosedForm,
+    /// Static stiffness of a shallow sagging cable (Irvine 1981)
+    StaticSag,
+    /// Exact static stiffness of the elastic catenary
+    CatenaryTangent,
+    /// Massless spring along the chord
+    Spring,
+}
+
+impl From<CableModelName> for CableModel {
+    fn from(name: CableModelName) -> Self {
+        match name {
+            CableModelName::ClosedForm => Self::ClosedForm,
+            CableModelName::StaticSag => Self::StaticSag,
+            CableModelName::CatenaryTangent => Self::CatenaryTangent,
+            CableModelName::Spring => Self::Spring,
+        }
+    }
+}
+
+/// Names of [`Assembly`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum AssemblyName {
+    /// The whole tangent: end stiffness and the turning of forces on their lever arms
+    #[default]
+    Consistent,
+    /// End stiffness only
+    Paper,
+}
+
+impl From<AssemblyName> for Assembly {
+    fn from(name: AssemblyName) -> Self {
+        match name {
+            AssemblyName::Consistent => Self::Consistent,
+            AssemblyName::Paper => Self::Paper,
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! One file a verb: options and a robot in, a result out.
+
+pub(crate) mod cable;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod frf;
+pub(crate) mod modes;
+pub(crate) mod pose_error;
+pub(crate) mod statics;
+pub(crate) mod stiffness;

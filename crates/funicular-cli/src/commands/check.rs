@@ -1,0 +1,257 @@
+//! `check`: what the robot file says.
+
+use crate::output::Results;
+use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
+use funicular::math::rotation;
+use funicular::robot::{Damping, Freedoms, Robot, State};
+use serde::Serialize;
+use std::cmp::Ordering;
+use std::fmt::Write;
+
+/// The robot as it was read.
+#[derive(Serialize)]
+pub(crate) struct Checked {
+    #[serde(skip)]
+    name: String,
+    source: String,
+    gravity_m_s2: [f64; 3],
+    freedoms: usize,
+    platform: PlatformRow,
+    materials: Vec<MaterialRow>,
+    cables: Vec<CableRow>,
+    /// `lengths`, `pose` or `none`.
+    state: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose: Option<PoseRow>,
+    #[serde(skip)]
+    warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct PlatformRow {
+    mass_kg: f64,
+    inertia_kg_m2: [[f64; 3]; 3],
+    center_of_mass_m: [f64; 3],
+}
+
+#[derive(Serialize, PartialEq)]
+struct MaterialRow {
+    name: String,
+    axial_stiffness_n: f64,
+    mass_kg_per_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    damping_ratio: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    viscous_damping_n_s_m2: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct CableRow {
+    name: String,
+    material: String,
+    anchor_m: [f64; 3],
+    attachment_m: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unstrained_length_m: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct PoseRow {
+    position_m: [f64; 3],
+    roll_pitch_yaw_deg: [f64; 3],
+}
+
+pub(crate) fn run(robot: Robot) -> Checked {
+    let mut materials: Vec<MaterialRow> = Vec::new();
+    for cable in &robot.cables {
+        let rope = &cable.material;
+        let (damping_ratio, viscous_damping_n_s_m2) = match rope.damping {
+            Damping::Ratio(ratio) => (Some(ratio), None),
+            Damping::Viscous(coefficient) => (None, Some(coefficient)),
+        };
+        let row = MaterialRow {
+            name: rope.name.clone(),
+            axial_stiffness_n: rope.axial_stiffness,
+            mass_kg_per_m: rope.mass_per_length,
+            damping_ratio,
+            viscous_damping_n_s_m2,
+        };
+        if !materials.contains(&row) {
+            materials.push(row);
+        }
+    }
+    let lengths = match &robot.state {
+        State::Lengths(lengths) => Some(lengths),
+        State::Pose(_) | State::Unknown => None,
+    };
+    let cables = robot
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, cable)| CableRow {
+            name: cable.name.clone(),
+            material: cable.material.name.clone(),
+            anchor_m: cable.anchor_w.into(),
+            attachment_m: cable.attachment_p.into(),
+            unstrained_length_m: lengths.map(|lengths| lengths[i]),
+        })
+        .collect();
+    let (state, pose) = match &robot.state {
+        State::Lengths(_) => ("lengths", None),
+        State::Pose(pose) => {
+            let row = PoseRow {
+                position_m: pose.position_w.into(),
+                roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
+            };
+            ("pose", Some(row))
+        }
+        State::Unknown => ("none", None),
+    };
+    let inertia = robot.platform.inertia_p;
+    let freedoms = robot.platform.freedoms.count();
+    Checked {
+        warnings: warnings(&robot),
+        name: robot.name,
+        source: robot.source,
+        gravity_m_s2: robot.gravity_w.into(),
+        freedoms,
+        platform: PlatformRow {
+            mass_kg: robot.platform.mass,
+            inertia_kg_m2: std::array::from_fn(|i| std::array::from_fn(|j| inertia[(i, j)])),
+            center_of_mass_m: robot.platform.center_of_mass_p.into(),
+        },
+        materials,
+        cables,
+        state,
+        pose,
+    }
+}
+
+fn warnings(robot: &Robot) -> Vec<String> {
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    let mut warnings = Vec::new();
+    if cables < freedoms {
+        warnings.push(format!(
+            "{cables} cables cannot hold {freedoms} freedoms: statics needs at least as many cables as the platform has \
+             freedoms ({freedoms}; a point mass has 3)"
+        ));
+    } else if cables > freedoms && matches!(robot.state, State::Pose(_)) {
+        warnings.push(format!(
+            "the state is a pose, and {cables} cables for {freedoms} freedoms leave the tensions undetermined: give \
+             unstrained lengths instead"
+        ));
+    }
+    warnings
+}
+
+impl Results for Checked {
+    const COMMAND: &'static str = "check";
+
+    fn robot(&self) -> &str {
+        &self.name
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn text(&self) -> String {
+        let mut out = format!("{}\n", self.name);
+        let mut say = |line: String| out.push_str(&(line + "\n"));
+        if !self.source.is_empty() {
+            say(format!("  source      {}", self.source));
+        }
+        let (cables, freedoms) = (self.cables.len(), self.freedoms);
+        let redundancy = match cables.cmp(&freedoms) {
+            Ordering::Less => format!("{} fewer than freedoms", freedoms - cables),
+            Ordering::Equal => "as many as freedoms".to_owned(),
+            Ordering::Greater => format!("{} more than freedoms", cables - freedoms),
+        };
+        say(format!("  cables      {}, {redundancy}", self.cables.len()));
+        let platform = &self.platform;
+        let kind = if self.freedoms == Freedoms::PointMass.count() { "point mass" } else { "rigid platform" };
+        say(format!("  platform    {kind}, {} kg", short(platform.mass_kg, 6)));
+        if self.freedoms == Freedoms::Rigid.count() {
+            let rows = platform.inertia_kg_m2;
+            let cell = |i: usize, j: usize| short(rows[i][j], 5);
+            say(format!(
+                "  inertia     xx {}, yy {}, zz {}, xy {}, xz {}, yz {} kg m² about the centre of mass",
+                cell(0, 0),
+                cell(1, 1),
+                cell(2, 2),
+                cell(0, 1),
+                cell(0, 2),
+                cell(1, 2)
+            ));
+            say(format!("  mass centre ({}) m in the platform frame", vector(&platform.center_of_mass_m, 4)));
+        }
+        say(format!("  gravity     ({}) m/s²", vector(&self.gravity_m_s2, 4)));
+        let state = match &self.pose {
+            Some(pose) => format!(
+                "pose ({}) m, roll, pitch, yaw ({})°",
+                vector(&pose.position_m, 4),
+                vector(&pose.roll_pitch_yaw_deg, 3)
+            ),
+            None if self.state == "lengths" => "unstrained lengths".to_owned(),
+            None => "none: analyses need --lengths-m or --pose".to_owned(),
+        };
+        say(format!("  state       {state}"));
+        out + "\n" + &self.rope_table() + "\n" + &self.cable_table()
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        out.write_record([
+            "name",
+            "material",
+            "anchor_x_m",
+            "anchor_y_m",
+            "anchor_z_m",
+            "attachment_x_m",
+            "attachment_y_m",
+            "attachment_z_m",
+            "unstrained_length_m",
+        ])?;
+        for c in &self.cables {
+            out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m))?;
+        }
+        Ok(())
+    }
+}
+
+impl Checked {
+    fn rope_table(&self) -> String {
+        let mut ropes = Table::new(&["rope", "EA [N]", "mass [kg/m]", "damping ratio", "viscous damping [N s/m²]"]);
+        let or_none = |value: Option<f64>| value.map_or_else(|| table::NONE.to_owned(), |v| short(v, 4));
+        for rope in &self.materials {
+            ropes.row(vec![
+                rope.name.clone(),
+                short(rope.axial_stiffness_n, 6),
+                short(rope.mass_kg_per_m, 5),
+                or_none(rope.damping_ratio),
+                or_none(rope.viscous_damping_n_s_m2),
+            ]);
+        }
+        ropes.to_string()
+    }
+
+    fn cable_table(&self) -> String {
+        let mut cables =
+            Table::new(&["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]"]).text_columns(&[1]);
+        for cable in &self.cables {
+            let point = |values: &[f64; 3]| {
+                values.iter().fold(String::new(), |mut text, value| {
+                    let _ = write!(text, "{:>10}", decimals(*value, 4));
+                    text
+                })
+            };
+            cables.row(vec![
+                cable.name.clone(),
+                cable.material.clone(),
+                point(&cable.anchor_m),
+                point(&cable.attachment_m),
+                decimals_or_none(cable.unstrained_length_m, 4),
+            ]);
+        }
+        cables.to_string()
+    }
+}

@@ -1,0 +1,87 @@
+//! What the user sees when there is no result: one message on stderr, and the exit code.
+
+use funicular::dynamics::DynamicsError;
+use funicular::response::ResponseError;
+use funicular::statics::StaticsError;
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+/// The input is fine, the robot has no such solution.
+const NO_SOLUTION: u8 = 1;
+/// The input has to change.
+const BAD_INPUT: u8 = 2;
+
+/// A message that already says `error:` and shows its place.
+#[derive(Debug)]
+pub(crate) struct Rendered(pub(crate) String);
+
+impl fmt::Display for Rendered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Rendered {}
+
+/// A result that cannot be given, though nothing is wrong with the input.
+#[derive(Debug)]
+pub(crate) struct NoSolution(pub(crate) String);
+
+impl fmt::Display for NoSolution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for NoSolution {}
+
+/// Prints the error and chooses the exit code.
+pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+    if is_broken_pipe(error) {
+        // `| head` has seen enough.
+        return ExitCode::SUCCESS;
+    }
+    let message = match error.downcast_ref::<Rendered>() {
+        Some(rendered) => rendered.to_string(),
+        None => format!("{} {error:#}", styled("error:", "31")),
+    };
+    to_stderr(&message);
+    ExitCode::from(code(error))
+}
+
+/// Prints what the user should know before trusting a result.
+pub(crate) fn warn(warning: &str) {
+    to_stderr(&format!("{} {warning}", styled("warning:", "33")));
+}
+
+/// Colours are for terminals whose user has not refused them (no-color.org).
+pub(crate) fn stderr_has_colour() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+fn styled(text: &str, colour: &str) -> String {
+    if stderr_has_colour() { format!("\u{1b}[1;{colour}m{text}\u{1b}[0m") } else { text.to_owned() }
+}
+
+/// Nobody may be listening on stderr either; then there is nobody to tell.
+fn to_stderr(message: &str) {
+    let _ = writeln!(io::stderr().lock(), "{message}");
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+fn code(error: &anyhow::Error) -> u8 {
+    let no_solution = match error.downcast_ref::<StaticsError>() {
+        Some(StaticsError::Singular | StaticsError::WouldPush { .. } | StaticsError::NotConverged { .. }) => true,
+        Some(_) => false,
+        None => {
+            matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
+                || error.is::<ResponseError>()
+                || error.is::<NoSolution>()
+        }
+    };
+    if no_solution { NO_SOLUTION } else { BAD_INPUT }
+}

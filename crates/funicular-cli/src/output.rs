@@ -1,0 +1,159 @@
+//! Where a result goes: standard output, or a file that is written as a whole or not at all.
+
+use crate::args::{Format, OutputArgs, RobotArgs};
+use crate::errors::NoSolution;
+use crate::json;
+use anyhow::{Context, Result, anyhow, bail};
+use serde::Serialize;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// What a command found. Its serialisation is the JSON, without the keys that all results have.
+pub(crate) trait Results: Serialize {
+    /// The verb.
+    const COMMAND: &'static str;
+
+    /// Name of the robot.
+    fn robot(&self) -> &str;
+
+    /// What the user should know before trusting it.
+    fn warnings(&self) -> &[String];
+
+    /// Tables to read, rounded.
+    fn text(&self) -> String;
+
+    /// One rectangular table with a header.
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
+}
+
+/// Where the result goes, in which format.
+pub(crate) struct Sink {
+    format: Format,
+    file: Option<PathBuf>,
+}
+
+impl Sink {
+    /// Checks that the result can be written, before work begins that may take long.
+    pub(crate) fn open(args: &OutputArgs, robot: &RobotArgs) -> Result<Self> {
+        let Some(path) = &args.output_file else {
+            return Ok(Self { format: args.format.unwrap_or(Format::Text), file: None });
+        };
+        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+        let format = args.format.unwrap_or(match ending.as_deref() {
+            Some("json") => Format::Json,
+            Some("csv") => Format::Csv,
+            _ => Format::Text,
+        });
+        let shown = path.display();
+        // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
+        let target = path.canonicalize().unwrap_or_else(|_| path.clone());
+        if target.is_dir() {
+            bail!("cannot write to {shown}: it is a directory; add a file name");
+        }
+        if robot.robot.canonicalize().is_ok_and(|source| source == target) {
+            bail!("refusing to write the result over the robot file {shown}; choose another name for -o");
+        }
+        if is_regular_or_new(&target) {
+            if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
+                bail!("cannot write to {shown}: it is read-only");
+            }
+            temporary(&target).with_context(|| format!("cannot write to {shown}"))?;
+        }
+        Ok(Self { format, file: Some(target) })
+    }
+
+    /// Writes the result; its warnings go to stderr, too.
+    pub(crate) fn write<R: Results>(&self, results: &R) -> Result<()> {
+        let bytes = self.render(results)?;
+        match &self.file {
+            None => to_stdout(&bytes)?,
+            Some(path) => to_file(path, &bytes).with_context(|| format!("cannot write to {}", path.display()))?,
+        }
+        results.warnings().iter().for_each(|warning| crate::errors::warn(warning));
+        Ok(())
+    }
+
+    fn render<R: Results>(&self, results: &R) -> Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        match self.format {
+            Format::Json => as_json(&mut bytes, results)?,
+            Format::Text | Format::Csv => {
+                // The same check for every format: nothing that is not finite is printed.
+                as_json(&mut io::sink(), results)?;
+                if self.format == Format::Text {
+                    bytes = results.text().into_bytes();
+                    if self.file.is_some() {
+                        for warning in results.warnings() {
+                            writeln!(bytes, "\nwarning: {warning}")?;
+                        }
+                    }
+                } else {
+                    let mut table = csv::Writer::from_writer(bytes);
+                    results.csv(&mut table)?;
+                    bytes = table.into_inner().map_err(|error| anyhow!("{}", error.error()))?;
+                }
+            }
+        }
+        Ok(bytes)
+    }
+}
+
+fn as_json<R: Results>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
+    json::write(out, R::COMMAND, results.robot(), results, results.warnings()).map_err(|error| {
+        NoSolution(format!(
+            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the frequency or check the units"
+        ))
+    })
+}
+
+fn to_stdout(bytes: &[u8]) -> Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        // Kept bare: whoever reads has seen enough, and that is no error.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(error.into()),
+        other => other.context("cannot write to standard output"),
+    }
+}
+
+/// Not a device or a pipe: those are written as they are.
+fn is_regular_or_new(path: &Path) -> bool {
+    fs::metadata(path).map_or(true, |metadata| metadata.is_file())
+}
+
+fn to_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if !is_regular_or_new(path) {
+        return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
+    }
+    let mut file = temporary(path)?;
+    file.write_all(bytes)?;
+    if let Ok(metadata) = fs::metadata(path) {
+        file.as_file().set_permissions(metadata.permissions())?;
+    }
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// A file beside `path` that takes its name when it is complete, and vanishes if it never is.
+fn temporary(path: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let directory = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if path.file_name().is_none() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it names no file"));
+    }
+    if !directory.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no directory {}", directory.display())));
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".funicular-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As any new file; tempfile's own choice keeps others from reading it. The umask applies.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    // Without the path that the error would carry: it is not the one the user gave.
+    builder.tempfile_in(directory).map_err(|error| error.kind().into())
+}

@@ -1,0 +1,219 @@
+//! `--set PATH=VALUE`: changes the text of the robot file before it is read, so that every check of the reader holds
+//! and its errors point at the changed line.
+
+use anyhow::{Result, anyhow, bail};
+use std::str::FromStr;
+use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
+
+/// One `--set`.
+#[derive(Debug, Clone)]
+pub(crate) struct Assignment {
+    /// As the user wrote it.
+    text: String,
+    path: Vec<String>,
+    value: Value,
+}
+
+/// Likeness (Jaro-Winkler) from which a known name is suggested, as in the robot file's reader.
+const ALIKE: f64 = 0.8;
+
+/// Parses `path.to.key=value`; the value is TOML, and a bare word is text.
+pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
+    let (path, value) = split(text).ok_or("it has no `=`: write PATH=VALUE, as in platform.mass_kg=20")?;
+    let path: Vec<String> = Key::parse(path)
+        .map_err(|_| format!("`{path}` is not a path: keys separated by dots, quoted if they hold anything but letters, digits, _ and -"))?
+        .iter()
+        .map(|key| key.get().to_owned())
+        .collect();
+    let value = value.trim();
+    let value = match Value::from_str(value) {
+        Ok(value) => value,
+        // A shell takes the quotes off `"point-mass"`; nobody means anything but text by such a word.
+        Err(_) if is_word(value) => Value::from(value),
+        Err(_) => return Err(format!("`{value}` is not a TOML value: a number, \"text\" or an [array]")),
+    };
+    Ok(Assignment { text: text.to_owned(), path, value })
+}
+
+/// At the first `=` outside quotes.
+fn split(text: &str) -> Option<(&str, &str)> {
+    let mut quote = None;
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (None, '=') => return Some((&text[..at], &text[at + 1..])),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), _) if c == open => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn is_word(value: &str) -> bool {
+    value.starts_with(|c: char| c.is_alphabetic()) && value.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_')
+}
+
+/// The text with all assignments made, in order.
+pub(crate) fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
+    // The reader explains a file that is no TOML better than this parser would.
+    let Ok(mut document) = text.trim_start_matches('\u{feff}').parse::<DocumentMut>() else {
+        return Ok(text.to_owned());
+    };
+    for assignment in assignments {
+        assign(&mut document, assignment).map_err(|reason| anyhow!("--set {}: {reason}", assignment.text))?;
+    }
+    Ok(document.to_string())
+}
+
+fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
+    let Some((key, parents)) = assignment.path.split_last() else { bail!("the path is empty") };
+    let mut table: &mut dyn TableLike = document.as_table_mut();
+    let mut parents = parents.iter();
+    let mut walked: Vec<&str> = Vec::new();
+    // A comment can follow a value that has a line of its own.
+    let mut in_lines = true;
+    while let Some(parent) = parents.next() {
+        walked.push(parent);
+        let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
+        let Some(item) = table.get_mut(parent) else {
+            bail!("the robot file has no `{}`{}", walked.join("."), suggestion(parent, &names))
+        };
+        in_lines &= !item.is_value();
+        table = if walked == ["cables"] {
+            let Some(name) = parents.next() else { bail!("name a cable and a key, as in cables.1.anchor_m=[0,0,4]") };
+            walked.push(name);
+            cable(item, name)?
+        } else {
+            match item.as_table_like_mut() {
+                Some(inner) => inner,
+                None => bail!("`{}` is a value, it has no keys", walked.join(".")),
+            }
+        };
+    }
+    put(table, key, in_lines, assignment)
+}
+
+/// The cable of that name, in `[[cables]]` or `cables = [{ … }]`.
+fn cable<'d>(item: &'d mut Item, name: &str) -> Result<&'d mut dyn TableLike> {
+    let mut names = Vec::new();
+    let tables: Vec<&mut dyn TableLike> = match item {
+        Item::ArrayOfTables(tables) => tables.iter_mut().map(|table| table as &mut dyn TableLike).collect(),
+        Item::Value(Value::Array(values)) => values
+            .iter_mut()
+            .filter_map(|value| value.as_inline_table_mut().map(|table| table as &mut dyn TableLike))
+            .collect(),
+        _ => bail!("`cables` is no list of tables in the robot file"),
+    };
+    for table in tables {
+        match table.get("name").and_then(Item::as_str) {
+            Some(found) if found == name => return Ok(table),
+            Some(other) => names.push(other.to_owned()),
+            None => {}
+        }
+    }
+    bail!("the robot file has no cable \"{name}\"{}", suggestion(name, &names))
+}
+
+fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assignment) -> Result<()> {
+    let mut value = assignment.value.clone();
+    if in_lines {
+        // An error shows the line, and so where it comes from.
+        let origin: String = assignment.text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        *value.decor_mut() = Decor::new(" ", format!(" # from --set {origin}"));
+    }
+    match table.get_mut(key) {
+        Some(item @ (Item::Table(_) | Item::ArrayOfTables(_))) => {
+            let keys: Vec<String> = match item.as_table_like() {
+                Some(inner) => inner.iter().map(|(name, _)| name.to_owned()).collect(),
+                None => Vec::new(),
+            };
+            bail!("it names a table; set one of its values{}", listed(&keys))
+        }
+        Some(item) => *item = Item::Value(value),
+        // A key that the reader does not know is refused there, with the nearest that it knows.
+        None => drop(table.insert(key, Item::Value(value))),
+    }
+    Ok(())
+}
+
+/// `, did you mean …` or the names there are.
+pub(crate) fn suggestion(word: &str, names: &[String]) -> String {
+    let nearest = names
+        .iter()
+        .map(|name| (strsim::jaro_winkler(word, name), name))
+        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    match nearest {
+        Some((_, name)) => format!("; did you mean `{name}`?"),
+        None => listed(names),
+    }
+}
+
+/// The names there are, the first of many.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 12;
+    if names.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    format!(
+        "; there {} {}{}",
+        if names.len() == 1 { "is" } else { "are" },
+        shown.join(", "),
+        if names.len() > SHOWN { ", …" } else { "" }
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "name = \"r\"\n[platform]\nmass_kg = 1 # light\n[[cables]]\nname = \"a.b\"\nx = 1\n";
+
+    fn set(text: &str) -> Result<String> {
+        apply(FILE, &[assignment(text).map_err(anyhow::Error::msg)?])
+    }
+
+    #[test]
+    fn a_changed_value_says_where_it_comes_from() {
+        let changed = set("platform.mass_kg=20").unwrap();
+        assert!(changed.contains("mass_kg = 20 # from --set platform.mass_kg=20\n"), "{changed}");
+    }
+
+    #[test]
+    fn cables_are_found_by_name_quoted_where_needed() {
+        assert!(set("cables.\"a.b\".x=[1, 2]").unwrap().contains("x = [1, 2] # from"));
+        let error = set("cables.a.x=1").unwrap_err().to_string();
+        assert!(error.contains("no cable \"a\"") && error.contains("a.b"), "{error}");
+    }
+
+    #[test]
+    fn inline_cables_are_found_too() {
+        let text = "cables = [{ name = \"1\", x = 1 }]";
+        let changed = apply(text, &[assignment("cables.1.x=-2").unwrap()]).unwrap();
+        assert_eq!(changed.trim_end(), "cables = [{ name = \"1\", x =-2 }]".replace("=-", "= -"));
+    }
+
+    #[test]
+    fn a_bare_word_is_text_and_a_new_key_is_left_to_the_reader() {
+        assert!(set("platform.freedoms=point-mass").unwrap().contains("freedoms = \"point-mass\""));
+    }
+
+    #[test]
+    fn what_cannot_be_set_is_refused() {
+        for (text, reason) in [
+            ("platform", "no `=`"),
+            ("platform.=1", "not a path"),
+            ("platform.mass_kg=", "not a TOML value"),
+            ("platform.mass_kg=[1", "not a TOML value"),
+            ("platfrom.mass_kg=1", "did you mean `platform`"),
+            ("platform=1", "names a table"),
+            ("cables=1", "names a table"),
+            ("cables.x=1", "as in cables.1.anchor_m"),
+            ("name.x=1", "is a value"),
+        ] {
+            let error = set(text).unwrap_err().to_string();
+            assert!(error.contains(reason), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The static state that an analysis starts from: as the robot file says, or as the options say.
+
+use crate::args::{ModelArgs, StateArgs};
+use anyhow::{Result, bail};
+use funicular::cable::CableModel;
+use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::robot::{Freedoms, Pose, Robot, State};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use funicular::validity;
+use serde::Serialize;
+
+/// A robot at rest.
+pub(crate) struct AtRest {
+    pub(crate) robot: Robot,
+    pub(crate) equilibrium: Equilibrium,
+}
+
+/// Finds the equilibrium that the options ask for.
+pub(crate) fn equilibrium(robot: Robot, args: &StateArgs) -> Result<AtRest> {
+    let robot = with_options(robot, args)?;
+    let model = args.static_model.into();
+    let equilibrium = match &robot.state {
+        State::Lengths(lengths) => statics::forward(&robot, lengths, model, None)?,
+        State::Pose(pose) => statics::inverse(&robot, pose, model)?,
+        State::Unknown => bail!(
+            "the robot has no state: give --lengths-m or --pose, or give every cable of the robot file an \
+             `unstrained_length_m`, or the file a [state] with `position_m`"
+        ),
+    };
+    Ok(AtRest { robot, equilibrium })
+}
+
+/// The robot with the state and the mass that the options give.
+pub(crate) fn with_options(mut robot: Robot, args: &StateArgs) -> Result<Robot> {
+    if let Some(lengths) = &args.lengths_m {
+        robot.state = State::Lengths(lengths.0.clone());
+    }
+    if let Some(pose) = &args.pose {
+        if robot.platform.freedoms == Freedoms::PointMass && pose.roll_pitch_yaw_deg.iter().any(|angle| *angle != 0.0) {
+            bail!("a point mass has no orientation: give --pose x,y,z");
+        }
+        robot.state = State::Pose(Pose::new(pose.position, pose.roll_pitch_yaw_deg));
+    }
+    if let Some(mass) = args.mass_kg {
+        robot.platform.mass = mass;
+    }
+    Ok(robot)
+}
+
+/// The models behind a result, as JSON has them.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Models {
+    pub(crate) static_model: &'static str,
+    pub(crate) cable_model: &'static str,
+    pub(crate) assembly: &'static str,
+    pub(crate) in_plane_only: bool,
+}
+
+impl Models {
+    pub(crate) fn of(equilibrium: &Equilibrium, linearisation: Linearisation) -> Self {
+        Self {
+            static_model: static_model_name(equilibrium.model),
+            cable_model: linearisation.cable_model.name(),
+            assembly: assembly_name(linearisation.assembly),
+            in_plane_only: linearisation.in_plane_only,
+        }
+    }
+
+    /// One line for people.
+    pub(crate) fn line(&self) -> String {
+        let plane = if self.in_plane_only { ", in plane only" } else { "" };
+        format!("{} statics, {} cables, {} assembly{plane}", self.static_model, self.cable_model, self.assembly)
+    }
+}
+
+/// The linearisation that the options ask for, the closed form without a word on it.
+pub(crate) fn linearisation(args: &ModelArgs) -> Linearisation {
+    Linearisation {
+        cable_model: args.cable_model.unwrap_or_default().into(),
+        assembly: args.assembly.into(),
+        in_plane_only: args.in_plane_only,
+    }
+}
+
+impl AtRest {
+    /// Linearises, with what there is to warn of for frequencies up to a limit [Hz].
+    pub(crate) fn dynamics(&self, linearisation: Linearisation, up_to_hz: f64) -> Result<(Dynamics, Vec<String>)> {
+        let dynamics = Dynamics::about(&self.robot, &self.equilibrium, linearisation)?;
+        Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
+    }
+
+    /// What there is to warn of the statics and, if asked, of a cable model up to a frequency [Hz].
+    pub(crate) fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
+        let mut warnings = validity::of_statics(&self.robot, &self.equilibrium);
+        if let Some((model, up_to_hz)) = dynamics {
+            warnings.extend(validity::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
+        }
+        warnings.iter().map(ToString::to_string).collect()
+    }
+}
+
+/// Name of a static model on the command line and in files.
+pub(crate) fn static_model_name(model: StaticModel) -> &'static str {
+    match model {
+        StaticModel::Ideal => "ideal",
+        StaticModel::Spring => "spring",
+        StaticModel::Catenary => "catenary",
+    }
+}
+
+/// Name of an assembly on the command line and in files.
+pub(crate) fn assembly_name(assembly: Assembly) -> &'static str {
+    match assembly {
+        Assembly::Consistent => "consistent",
+        Assembly::Paper => "paper",
+    }
+}

@@ -1,0 +1,216 @@
+//! Broken command lines and robot files: one message each, what is wrong in it, exit code 2 (1 where the input is fine
+//! and there is no solution), nothing on stdout, and no panic.
+
+use super::{run, run_with, stderr, yuan};
+use std::process::Output;
+
+fn assert_refused(output: &Output, code: i32, expected: &str, what: &str) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(code), "{what}: {message}");
+    assert_eq!(message.matches("error:").count(), 1, "{what}: one message, not: {message}");
+    assert!(!message.contains("panicked") && !message.contains("RUST_BACKTRACE"), "{what}: {message}");
+    assert!(message.contains(expected), "{what}: expected `{expected}` in: {message}");
+    assert!(output.stdout.is_empty(), "{what}: nothing on stdout");
+    assert!(!message.contains('\u{1b}'), "{what}: no colours in a pipe");
+}
+
+#[test]
+fn broken_command_lines_are_refused() {
+    const FRF: &str = "frf ROBOT --from-hz 1 --to-hz 2 --points 9 --input fz --output z";
+    let cases: &[(&str, &str)] = &[
+        // Verbs and robots.
+        ("mods ROBOT --below-hz 20", "unrecognized subcommand"),
+        ("statics", "<ROBOT>"),
+        ("statics ROBOT ROBOT", "unexpected argument"),
+        ("statics no-such-file.toml", "cannot read the robot file no-such-file.toml"),
+        ("statics /", "it is a directory"),
+        ("check /dev/zero", "it is no robot file"),
+        ("check /dev/null", "describes no robot"),
+        // Options.
+        ("statics ROBOT --pose-m 0,0,1", "unexpected argument"),
+        ("statics ROBOT --format xml", "[possible values: text, json, csv]"),
+        ("statics ROBOT --static-model rigid", "[possible values: ideal, spring, catenary]"),
+        ("modes ROBOT --below-hz 9 --cable-model exact", "closed-form, static-sag, catenary-tangent, spring"),
+        ("modes ROBOT --below-hz 9 --assembly full", "[possible values: consistent, paper]"),
+        // The state.
+        ("statics ROBOT --pose 0,0", "2 numbers where x,y,z"),
+        ("statics ROBOT --pose 0,0,1,2", "4 numbers where"),
+        ("statics ROBOT --pose 0,0,nan", "nan is not a finite number"),
+        ("statics ROBOT --pose 0,0,1e999", "not a finite number"),
+        ("statics ROBOT --pose 0,0,1e13", "beyond 1e12"),
+        ("statics ROBOT --pose 0,0,1m", "`1m` is not a number"),
+        ("statics ROBOT --pose 0;0;1", "is not a number"),
+        ("statics ROBOT --pose 0,,1", "a number is missing"),
+        ("statics ROBOT --pose", "a value is required"),
+        ("statics ROBOT --pose --mass-kg 3", "error:"),
+        ("statics ROBOT --pose 5.352,-2.124,4.193", "coinciding ends"),
+        ("statics ROBOT --lengths-m 1,2,3", "3 unstrained lengths for 6 cables"),
+        ("statics ROBOT --lengths-m 1,2,3,4,5,0", "0 is not positive"),
+        ("statics ROBOT --lengths-m 1,2,3,4,5,-6", "-6 is not positive"),
+        ("statics ROBOT --lengths-m 1,2,3,4,5,inf", "not a finite number"),
+        ("statics ROBOT --lengths-m 1,2,3,4,5,1e-13", "at least 1e-12"),
+        ("statics ROBOT --lengths-m 7,7,7,7,7,7 --pose 0,0,1", "cannot be used with"),
+        ("statics ROBOT --mass-kg -3", "-3 is not positive"),
+        ("statics ROBOT --mass-kg 0", "0 is not positive"),
+        ("statics ROBOT --mass-kg ten", "`ten` is not a number"),
+        ("statics ROBOT --mass-kg inf", "not a finite number"),
+        ("statics ROBOT --mass-kg 1 --mass-kg 2", "cannot be used multiple times"),
+        // Changes of the robot file.
+        ("statics ROBOT --set platform.mass_kg", "has no `=`"),
+        ("statics ROBOT --set =3", "is not a path"),
+        ("statics ROBOT --set platform..mass_kg=3", "is not a path"),
+        ("statics ROBOT --set platform.mass_kg=", "is not a TOML value"),
+        ("statics ROBOT --set platform.mass_kg=[1,", "is not a TOML value"),
+        ("statics ROBOT --set platform.mass_kg=-3", "# from --set platform.mass_kg=-3"),
+        ("statics ROBOT --set platform.mass_kg=nan", "it must be finite"),
+        ("statics ROBOT --set platform.mass=3", "mass_kg"),
+        ("statics ROBOT --set platfrom.mass_kg=3", "did you mean `platform`"),
+        ("statics ROBOT --set platform=3", "it names a table"),
+        ("statics ROBOT --set cables.7.unstrained_length_m=3", "no cable \"7\"; there are `1`, `2`"),
+        ("statics ROBOT --set cables=3", "it names a table"),
+        ("statics ROBOT --set cables.1=3", "error:"),
+        ("statics ROBOT --set materials.rope-5mm.diameter_m=3", "did you mean `rope-4mm`"),
+        ("statics ROBOT --set name.x=3", "`name` is a value"),
+        ("statics ROBOT --set cables.1.material=rope-5mm", "rope-5mm"),
+        // Stiffness.
+        ("stiffness ROBOT --at-hz -1", "-1 is negative"),
+        ("stiffness ROBOT --at-hz nan", "not a finite number"),
+        ("stiffness ROBOT --static-model ideal", "use the static model `catenary` or `spring`"),
+        ("stiffness ROBOT --static-model ideal --assembly paper", "use the static model"),
+        // Modes.
+        ("modes ROBOT", "--below-hz"),
+        ("modes ROBOT --below-hz 0", "0 is not positive"),
+        ("modes ROBOT --below-hz -5", "-5 is not positive"),
+        ("modes ROBOT --below-hz 20Hz", "without its unit"),
+        ("modes ROBOT --below-hz 1e9", "lower --below-hz"),
+        ("compare ROBOT --below-hz 1e9", "lower --below-hz"),
+        ("compare ROBOT --below-hz 5 --cable-model spring", "unexpected argument"),
+        // Frequency responses.
+        ("frf ROBOT --from-hz 1 --to-hz 2 --points 9 --input fz", "--output"),
+        ("frf ROBOT --from-hz 2 --to-hz 1 --points 9 --input fz --output z", "the range has to ascend"),
+        ("frf ROBOT --from-hz 1 --to-hz 1 --points 9 --input fz --output z", "the range has to ascend"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --log --input fz --output z", "--log needs"),
+        ("frf ROBOT --from-hz -1 --to-hz 1 --points 9 --input fz --output z", "-1 is negative"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 1 --input fz --output z", "2..=1000000"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 1000001 --input fz --output z", "2..=1000000"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points -9 --input fz --output z", "error:"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 2.5 --input fz --output z", "invalid digit"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input f --output z", "not an input"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input f:0,0,0 --output z", "a direction cannot be zero"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input fz --output az2", "not an output"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input fz --output a:1,2", "2 numbers where x,y,z"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input mz --output z --input-point-m 0,0,1", "has no effect"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input fz --output rz --output-point-m 0,0,1", "has no effect"),
+        (&format!("{FRF} --prominence-db -1"), "-1 is negative"),
+        // Masses and cables.
+        ("pose-error ROBOT", "--mass-kg"),
+        ("pose-error ROBOT --mass-kg 10", "write from:to:count"),
+        ("pose-error ROBOT --mass-kg 90:10:5", "it must end above its start"),
+        ("pose-error ROBOT --mass-kg 10:90:1", "not a count of masses"),
+        ("pose-error ROBOT --mass-kg 0:90:5", "0 is not positive"),
+        ("pose-error ROBOT --mass-kg 10:90:5 --tolerance-mm 0", "0 is not positive"),
+        ("pose-error ROBOT --mass-kg 10:90:5 --lengths-m 1,2", "2 unstrained lengths for 6 cables"),
+        ("cable ROBOT --name 9 --from-hz 1 --to-hz 2 --points 9", "no cable \"9\"; there are `1`"),
+        ("cable ROBOT --name 1 --from-hz 1 --to-hz 1e9 --points 9", "lower --to-hz"),
+        // Where the result goes.
+        ("statics ROBOT -o ROBOT", "refusing to write the result over the robot file"),
+        ("statics ROBOT -o /", "it is a directory"),
+        ("statics ROBOT -o /no/such/place.json", "there is no directory /no/such"),
+        ("statics ROBOT -o", "a value is required"),
+    ];
+    assert!(cases.len() >= 60);
+    for (line, expected) in cases {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        assert_refused(&run(&arguments), 2, expected, line);
+    }
+}
+
+#[test]
+fn broken_robot_files_are_refused_at_their_place() {
+    let cases: &[(&str, &str, &str)] = &[
+        ("mass_kg = 10.55", "mass_kg = -1", "it must be positive"),
+        ("mass_kg = 10.55", "mass_kg = 0", "it must be positive"),
+        ("mass_kg = 10.55", "mass_kg = \"10\"", "it must be a number"),
+        ("mass_kg = 10.55", "mas_kg = 10.55", "mass_kg"),
+        ("mass_kg = 10.55", "mass_kg = 10.55 kg", "not valid TOML"),
+        ("[platform]", "[platfrom]", "platform"),
+        ("[platform]", "[platform", "not valid TOML"),
+        ("inertia_kg_m2 = [0.15, 0.15, 0.25]", "inertia_kg_m2 = [0.1, 0.1, 0.9]", "inertia"),
+        ("inertia_kg_m2 = [0.15, 0.15, 0.25]", "", "inertia_kg_m2"),
+        ("diameter_m = 0.004", "diameter_m = inf", "it must be finite"),
+        ("youngs_modulus_pa = 20e9", "", "youngs_modulus_pa"),
+        ("name = \"2\"", "name = \"1\"", "1"),
+        ("material = \"rope-4mm\"", "material = \"rope-9mm\"", "rope-9mm"),
+        ("anchor_m = [5.327, -2.267, 4.193]", "anchor_m = [5.327, -2.267]", "anchor_m"),
+        ("unstrained_length_m = 6.863\n", "", "unstrained_length_m"),
+        ("[platform]", "gravity = 3\n[platform]", "gravity"),
+    ];
+    let text = yuan();
+    for (old, new, expected) in cases {
+        assert!(text.contains(old), "{old}");
+        let output = run_with(&["check", "-"], &text.replacen(old, new, 1));
+        assert_refused(&output, 2, expected, new);
+        assert!(stderr(&output).contains("--> <stdin>:"), "{new}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_robot_without_a_state_is_told_which_options_give_one() {
+    let text: String =
+        yuan().lines().filter(|line| !line.starts_with("unstrained")).map(|l| l.to_owned() + "\n").collect();
+    for line in ["statics -", "modes - --below-hz 5", "compare - --below-hz 5", "stiffness -"] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        assert_refused(&run_with(&arguments, &text), 2, "give --lengths-m or --pose", line);
+    }
+    assert_refused(&run_with(&["pose-error", "-", "--mass-kg", "10:20:3"], &text), 2, "give --lengths-m", "pose-error");
+    assert_eq!(run_with(&["statics", "-", "--pose", "0,0,0.5"], &text).status.code(), Some(0));
+}
+
+#[test]
+fn bytes_that_are_no_text_are_refused() {
+    let output = super::command(&["check", "-"]).write_stdin(vec![b'a', 0xff]).output().unwrap();
+    assert_refused(&output, 2, "byte 2 is not UTF-8", "bytes");
+}
+
+#[test]
+fn a_pose_of_more_cables_than_freedoms_asks_for_lengths() {
+    let output = run(&["statics", &super::robot("cogiro.toml"), "--pose", "0,0,1.5"]);
+    assert_refused(&output, 2, "give unstrained lengths", "cogiro");
+}
+
+#[test]
+fn a_point_mass_neither_turns_nor_extends() {
+    let robot = super::robot("sap2000-8-cable-point-mass.toml");
+    for (line, expected) in [
+        ("--input mz --output z", "a point mass does not turn"),
+        ("--input fz --output rz", "a point mass does not turn"),
+        ("--input fz --output z --input-point-m 0,0,1", "remove --input-point-m"),
+    ] {
+        let arguments: Vec<&str> = ["frf", &robot, "--from-hz", "1", "--to-hz", "2", "--points", "5"]
+            .into_iter()
+            .chain(line.split(' '))
+            .collect();
+        assert_refused(&run(&arguments), 2, expected, line);
+    }
+    assert_refused(&run(&["statics", &robot, "--pose", "1,1,1,10,0,0"]), 2, "no orientation", "pose");
+}
+
+#[test]
+fn no_solution_has_its_own_exit_code() {
+    let output = run(&["statics", "ROBOT", "--pose", "0,0,8", "--static-model", "spring"]);
+    assert_refused(&output, 1, "no equilibrium", "above the anchors");
+    let output = run(&["statics", "ROBOT", "--pose", "30,0,1"]);
+    assert_refused(&output, 1, "no equilibrium", "outside");
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    for verb in ["check", "statics", "stiffness", "modes", "frf", "compare", "pose-error", "cable"] {
+        let help = super::succeed(&[verb, "--help"]);
+        assert!(help.contains("Example") && help.contains(&format!("funicular {verb} ")), "{verb}: {help}");
+        assert!(help.contains("--set") && help.contains("--format"), "{verb}");
+    }
+    assert!(super::succeed(&["--version"]).starts_with("funicular "));
+    let bare = run(&[]);
+    assert_eq!(bare.status.code(), Some(2));
+}

@@ -1,0 +1,58 @@
+//! The program as a user meets it: command line in; output, messages and exit code out.
+
+mod bad_input;
+mod files;
+mod results;
+
+use assert_cmd::Command;
+use std::path::PathBuf;
+use std::process::Output;
+
+/// Path of a robot of the library.
+fn robot(name: &str) -> String {
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", "robots", name].iter().collect();
+    path.to_str().expect("the path is text").to_owned()
+}
+
+/// Text of the robot most tests use.
+fn yuan() -> String {
+    std::fs::read_to_string(robot("yuan2014-4mm.toml")).expect("the robot file is there")
+}
+
+/// Runs the program with arguments; `ROBOT` among them stands for the robot most tests use.
+fn run(arguments: &[&str]) -> Output {
+    command(arguments).output().expect("the program starts")
+}
+
+/// As [`run`], with a robot file on standard input.
+fn run_with(arguments: &[&str], robot: &str) -> Output {
+    command(arguments).write_stdin(robot).output().expect("the program starts")
+}
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_funicular"));
+    let path = robot("yuan2014-4mm.toml");
+    command.args(arguments.iter().map(|argument| if *argument == "ROBOT" { path.as_str() } else { argument }));
+    command
+}
+
+fn stdout(output: &Output) -> &str {
+    std::str::from_utf8(&output.stdout).expect("stdout is UTF-8")
+}
+
+fn stderr(output: &Output) -> &str {
+    std::str::from_utf8(&output.stderr).expect("stderr is UTF-8")
+}
+
+/// Stdout of a command that succeeds.
+fn succeed(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output).to_owned()
+}
+
+/// JSON of a command that succeeds.
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let text = succeed(&[arguments, &["--format", "json"]].concat());
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}"))
+}
