@@ -13,7 +13,7 @@ use values::{Input, Lengths, MassRange, Output, PoseNumbers};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// Every command reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
+/// Every command but `validate` reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
 /// unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
@@ -60,6 +60,10 @@ pub(crate) enum Command {
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
+    /// Compare the program with numbers that others published or computed; exit code 1 if one is not within tolerance
+    #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
+        funicular validate --format json")]
+    Validate(ValidateArgs),
 }
 
 /// The robot.
@@ -299,6 +303,12 @@ pub(crate) struct CableArgs {
     #[arg(long)]
     pub(crate) in_plane_only: bool,
 
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ValidateArgs {
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

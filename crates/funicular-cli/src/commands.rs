@@ -8,3 +8,4 @@ pub(crate) mod modes;
 pub(crate) mod pose_error;
 pub(crate) mod statics;
 pub(crate) mod stiffness;
+pub(crate) mod validate;

@@ -11,9 +11,10 @@ mod robot_file;
 mod set;
 mod state;
 mod table;
+mod validation;
 
 use anyhow::Result;
-use args::{Cli, Command, OutputArgs, RobotArgs};
+use args::{Cli, Command, OutputArgs, RobotArgs, ValidateArgs};
 use clap::Parser;
 use funicular::robot::Robot;
 use output::{Results, Sink};
@@ -43,6 +44,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Compare(args) => steps(&args.robot, &args.output, |robot| commands::compare::run(robot, args)),
         Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
+        Command::Validate(args) => validate(args),
     }
 }
 
@@ -50,7 +52,15 @@ fn run(command: &Command) -> Result<()> {
 fn steps<R: Results>(robot: &RobotArgs, output: &OutputArgs, analyse: impl FnOnce(Robot) -> Result<R>) -> Result<()> {
     let robot_file = robot;
     let robot = robot_file::read(robot_file)?;
-    let sink = Sink::open(output, robot_file)?;
+    let sink = Sink::open(output, Some(robot_file))?;
     let results = analyse(robot)?;
     sink.write(&results)
+}
+
+/// The command without a robot.
+fn validate(args: &ValidateArgs) -> Result<()> {
+    let sink = Sink::open(&args.output, None)?;
+    let results = commands::validate::run()?;
+    sink.write(&results)?;
+    results.verdict()
 }

@@ -14,7 +14,7 @@ pub(crate) trait Results: Serialize {
     /// The verb.
     const COMMAND: &'static str;
 
-    /// Name of the robot.
+    /// Name of the robot; empty where the result is of no single one.
     fn robot(&self) -> &str;
 
     /// What the user should know before trusting it.
@@ -35,7 +35,7 @@ pub(crate) struct Sink {
 
 impl Sink {
     /// Checks that the result can be written, before work begins that may take long.
-    pub(crate) fn open(args: &OutputArgs, robot: &RobotArgs) -> Result<Self> {
+    pub(crate) fn open(args: &OutputArgs, robot: Option<&RobotArgs>) -> Result<Self> {
         let Some(path) = &args.output_file else {
             return Ok(Self { format: args.format.unwrap_or(Format::Text), file: None });
         };
@@ -51,7 +51,7 @@ impl Sink {
         if target.is_dir() {
             bail!("cannot write to {shown}: it is a directory; add a file name");
         }
-        if robot.robot.canonicalize().is_ok_and(|source| source == target) {
+        if robot.is_some_and(|robot| robot.robot.canonicalize().is_ok_and(|source| source == target)) {
             bail!("refusing to write the result over the robot file {shown}; choose another name for -o");
         }
         if is_regular_or_new(&target) {

@@ -119,9 +119,6 @@ mod tests {
         let mut table = Table::new(&["cable", "tension [N]"]);
         table.row(vec!["é".to_owned(), "1.0".to_owned()]);
         table.row(vec!["long name".to_owned(), "100.0".to_owned()]);
-        assert_eq!(
-            table.to_string(),
-            "  cable      tension [N]\n  é                  1.0\n  long name        100.0\n"
-        );
+        assert_eq!(table.to_string(), "  cable      tension [N]\n  é                  1.0\n  long name        100.0\n");
     }
 }

@@ -274,3 +274,22 @@ fn output_is_the_same_every_time() {
     let once = || command(&["modes", "ROBOT", "--below-hz", "10"]).output().unwrap().stdout;
     assert_eq!(once(), once());
 }
+
+#[test]
+fn validate_passes_every_comparison_and_needs_no_robot() {
+    let value = json(&["validate"]);
+    assert_eq!((&value["schema"], &value["command"]), (&Value::from("funicular/1"), &Value::from("validate")));
+    assert!(value.get("robot").is_none());
+    assert_eq!(value["passed"], value["comparisons"]);
+    let sections = value["sections"].as_array().unwrap();
+    let rows: Vec<&Value> = sections.iter().flat_map(|section| section["rows"].as_array().unwrap()).collect();
+    assert_eq!((sections.len(), rows.len() as u64), (6, value["comparisons"].as_u64().unwrap()));
+    for row in &rows {
+        assert!(number(&row["difference"]) <= number(&row["tolerance"]), "{row}");
+        assert!(row["source"].as_str().is_some_and(|source| !source.is_empty()), "{row}");
+        assert!(numbers(&row["theirs"]).len() == numbers(&row["ours"]).len(), "{row}");
+    }
+    let (header, table) = csv(&["validate"]);
+    assert_eq!((header[0].as_str(), table.len()), ("section", rows.len()));
+    assert!(succeed(&["validate"]).starts_with("# Validation\n"));
+}
