@@ -82,3 +82,24 @@ impl Results for Validated {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comparison_that_fails_is_named_and_is_no_success() {
+        let mut found = run().unwrap();
+        assert!(found.verdict().is_ok());
+        let row = &mut found.sections[1].rows[0];
+        (row.pass, row.difference) = (false, 0.5);
+        found.passed -= 1;
+        let error = found.verdict().unwrap_err();
+        let text = error.to_string();
+        assert!(error.is::<NoSolution>(), "exit code 1");
+        assert!(
+            text.starts_with("1 comparison of ") && text.contains(", first: yuan2014-4mm, 10.55 kg, position [m]"),
+            "{text}"
+        );
+    }
+}

@@ -103,7 +103,7 @@ fn closed_form(published: &Published, source: &str, row: &ClosedFormRow) -> Row 
     let theirs = [row.axial_n_per_m, row.coupling_n_per_m, row.normal_n_per_m, row.out_of_plane_n_per_m].map(complex);
     let ours = [k.axial, -k.coupling, k.normal, k.out_of_plane];
     let difference = worst(theirs.iter().zip(ours).map(|(a, b)| over((a - b).norm(), a.norm())));
-    let moduli = |of: [Complex; 4]| of.map(|z| z.norm());
+    let moduli = |of: [Complex; 4]| of.map(Complex::norm);
     let shown = (&moduli(theirs)[..], &moduli(ours)[..]);
     // Fourteen digits are printed, of the larger of both parts.
     case.row("moduli of k_a, k_b, k_c, k_o [N/m]", shown, (difference, Kind::Relative), 2e-11, Bound::Rounding)

@@ -1,7 +1,7 @@
 //! Fourteen robots against a separate program.
 
 use super::reference::{ComplexMatrix, Independent, IndependentCase, Matrix, ModeList, Response, robot};
-use super::{Bound, Case, Kind, Row, Section, largest, worst};
+use super::{Bound, Case, Kind, Row, Section, largest, over, worst};
 use anyhow::{Result, ensure};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
@@ -82,7 +82,7 @@ impl Compared<'_> {
 
     /// Pairs (theirs, ours), each with its own relative difference; the one with the largest of theirs is shown.
     fn each(&self, quantity: &str, pairs: &[[f64; 2]], tolerance: f64) -> Row {
-        let difference = worst(pairs.iter().map(|[a, b]| if a == b { 0.0 } else { ((a - b) / a).abs() }));
+        let difference = worst(pairs.iter().map(|[a, b]| over((a - b).abs(), a.abs())));
         let [a, b] = pairs.iter().copied().max_by(|x, y| x[0].total_cmp(&y[0])).unwrap_or_default();
         self.case.row(quantity, (&[a], &[b]), (difference, Kind::Relative), tolerance, Bound::Rounding)
     }
