@@ -3,9 +3,9 @@
 use funicular::dynamics::DynamicsError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
-use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
+use thiserror::Error;
 
 /// The input is fine, the robot has no such solution.
 const NO_SOLUTION: u8 = 1;
@@ -13,28 +13,14 @@ const NO_SOLUTION: u8 = 1;
 const BAD_INPUT: u8 = 2;
 
 /// A message that already says `error:` and shows its place.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error("{0}")]
 pub(crate) struct Rendered(pub(crate) String);
 
-impl fmt::Display for Rendered {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Rendered {}
-
 /// A result that cannot be given, though nothing is wrong with the input.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error("{0}")]
 pub(crate) struct NoSolution(pub(crate) String);
-
-impl fmt::Display for NoSolution {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for NoSolution {}
 
 /// Prints the error and chooses the exit code.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {

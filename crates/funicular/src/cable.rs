@@ -122,7 +122,7 @@ pub struct Sag {
     pub lambda2: f64,
 }
 
-/// Sag over chord above which the shallow-sag models leave their range (theory, section 4).
+/// Sag over chord above which the shallow-sag models leave their range (docs/theory.md, section 6).
 pub const SHALLOW_SAG_LIMIT: f64 = 1.0 / 20.0;
 
 impl Sag {

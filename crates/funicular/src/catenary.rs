@@ -341,7 +341,7 @@ impl Catenary {
         h * self.span + vertical_end * self.rise - tension_integral - square_integral / (2.0 * ea)
     }
 
-    /// `k = w L0/(2 EA)`: the strain at mid-length of a cable that hangs from its two ends side by side.
+    /// `k = w L0/(2 EA)`: the strain at mid-length of a cable that hangs freely from one end.
     #[inline]
     fn half_strain_of_weight(&self) -> f64 {
         self.weight() / (2.0 * self.rope.axial_stiffness)

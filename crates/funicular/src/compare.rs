@@ -12,7 +12,11 @@ use std::f64::consts::TAU;
 pub const TOLERANCE: f64 = 0.01;
 
 /// Correlation of platform shapes from which on two modes count as the same motion.
-const SAME_MOTION: f64 = 0.5;
+pub const SAME_MOTION: f64 = 0.5;
+
+/// Two modes whose frequencies differ by more than this factor are not the same motion, however alike the platform
+/// moves: with 20 cable resonances in between, some shape always fits.
+const SAME_RANGE: f64 = 2.0;
 
 /// All models at one equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +38,8 @@ pub struct ModelResult {
     pub model: CableModel,
     /// Its modes below the limit, or why there are none.
     pub modes: Result<Modes, DynamicsError>,
-    /// For each of its modes the mode of the reference that moves the platform most alike; none for the reference.
+    /// Its modes that have a counterpart in the reference: the one that moves the platform most alike, with a
+    /// correlation of at least [`SAME_MOTION`] and a frequency within a factor of two. None for the reference.
     pub matches: Vec<Match>,
     /// Modes of the reference that it has no counterpart of.
     pub missed: usize,
@@ -91,10 +96,9 @@ pub fn compare(
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
             let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
             let matches = match_modes(found, &truth.modes, &dynamics.mass());
-            let same: Vec<&Match> = matches.iter().filter(|m| m.correlation >= SAME_MOTION).collect();
             let mut hit = vec![false; truth.modes.len()];
             let mut right = hit.clone();
-            for m in same {
+            for m in &matches {
                 hit[m.reference_index] = true;
                 right[m.reference_index] |= m.relative_difference.abs() <= TOLERANCE;
             }
@@ -120,6 +124,10 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
             let size = inner(&x, &x) * inner(&y, &y);
             if size > 0.0 {
                 let correlation = inner(&x, &y).powi(2) / size;
+                let ratio = ours.frequency_hz / theirs.frequency_hz;
+                if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
+                    continue;
+                }
                 candidates.push((correlation * theirs.platform_energy_fraction, correlation, i, j));
             }
         }
@@ -192,6 +200,6 @@ fn advise(
     };
     let cable = &robot.cables[deepest].name;
     let text =
-        format!("{choice} (largest sag d/l = {ratio:.4} at cable \"{cable}\", largest λ² = {lambda2:.3}).{range}");
+        format!("{choice} (largest sag d/l = {ratio:.4} at cable \"{cable}\", largest λ² = {lambda2:.1}).{range}");
     Advice { model: simplest, text }
 }

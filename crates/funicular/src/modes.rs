@@ -61,7 +61,8 @@ pub struct Mode {
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1 (or
     /// −1). Zero if the platform is at rest.
     pub shape: [f64; 6],
-    /// ‖D x‖/(‖D‖‖x‖), scaled; zero for a platform at rest.
+    /// |xᵀ D x| over ω² times the moving mass, dimensionless: twice the relative change of the frequency that another
+    /// Newton step on the Rayleigh quotient would make. Zero for a platform at rest.
     pub residual: f64,
 }
 
@@ -109,7 +110,7 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     let count_below = dynamics.modes_below(limit);
     let poles = dynamics.clamped_frequencies_below(limit);
     let first = poles.first().map_or(limit, |p| p.0);
-    // Low enough that no frequency lies below: a millionth of the least pole, or of the limit.
+    // Low enough that no frequency lies below: a billionth of the least pole, or of the limit.
     let lowest = 1e-9 * first.min(limit);
     let unstable_directions = dynamics.modes_below(lowest);
 
@@ -203,7 +204,6 @@ impl List<'_> {
     fn multiple(&mut self, omega: f64, several: usize) {
         let d = self.dynamics.dynamic_stiffness(omega);
         let (values, vectors) = null_vectors(&d, self.dynamics.freedoms, several);
-        let size = d.amax();
         for (value, x) in values.into_iter().zip(vectors) {
             let (platform, cables) = self.dynamics.moving_masses(omega, &x);
             let total = platform + cables.iter().sum::<f64>();
@@ -222,7 +222,7 @@ impl List<'_> {
                 platform_energy_fraction,
                 cable_energy_fractions,
                 shape: self.shape(&x),
-                residual: value.abs() / size,
+                residual: value.abs() / (omega * omega * total),
             });
         }
     }

@@ -57,10 +57,10 @@ impl CableState {
         self.hanging.as_ref().map(HangingCable::tangent_w)
     }
 
-    /// No force to speak of: a massless cable longer than its chord, or one that hangs straight down as a loop.
+    /// No force between the ends: a massless cable longer than its chord, or one that hangs straight down as a loop.
     pub fn is_slack(&self) -> bool {
-        self.hanging.as_ref().is_some_and(|h| h.catenary.horizontal_force() == 0.0 && h.catenary.span() > 0.0)
-            || self.tension_platform == 0.0
+        let no_force = |h: &HangingCable| h.catenary.parallel_tension() <= 0.0;
+        self.hanging.as_ref().map_or(self.tension_platform == 0.0, no_force)
     }
 }
 

@@ -197,7 +197,7 @@ fn warnings(state: &CableState, sag: &Sag, model: CableModel, args: &CableArgs) 
     }
     let shallow = matches!(model, CableModel::StaticSag | CableModel::ClosedForm);
     if shallow && sag.ratio() > SHALLOW_SAG_LIMIT {
-        warnings.push(Warning::DeepSag { cable: cable.clone(), ratio: sag.ratio(), model });
+        warnings.push(Warning::DeepSag { cables: vec![(cable.clone(), sag.ratio())], model });
     }
     let (axial_hz, below_hz) = (sag.axial_frequency_hz(), args.range.to_hz);
     if below_hz > AXIAL_PART * axial_hz {

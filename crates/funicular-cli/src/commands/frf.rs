@@ -169,7 +169,7 @@ impl Results for Frf {
             .unwrap_or(0);
         format!(
             "{}: response of {} at ({}) m to {} at ({}) m\n{}\n\n\
-             {points} frequencies from {} to {} Hz; largest magnitude {} {} at {} Hz\n\n{peaks}\n\
+             {points} frequencies from {} to {} Hz; largest magnitude {} {} at {} Hz\n\n{}\
              {} of at least {} dB. The whole curve: --format csv or --format json.\n",
             self.robot,
             self.output,
@@ -182,6 +182,7 @@ impl Results for Frf {
             magnitude(largest),
             self.unit,
             significant(self.frequency_hz[largest], 6),
+            if self.peaks.is_empty() { String::new() } else { format!("{peaks}\n") },
             counted(self.peaks.len(), "peak"),
             self.prominence_db,
         )

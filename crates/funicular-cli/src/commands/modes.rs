@@ -71,17 +71,24 @@ pub(crate) fn check_count(dynamics: &Dynamics, below_hz: f64) -> Result<()> {
     Ok(())
 }
 
-/// What to say of a list that the count does not confirm.
+/// What to say of a list that is not certified.
 pub(crate) fn uncertified(found: &modes::Modes) -> Option<String> {
-    (!found.certified).then(|| {
-        format!(
-            "the list of {} is not certified: the count says {} below {} Hz ({} of them unstable directions); modes may \
-             be missing, listed twice or inexact",
-            counted(found.modes.len(), "mode"),
-            found.count_below,
-            found.below_hz,
-            found.unstable_directions
-        )
+    if found.certified {
+        return None;
+    }
+    let modes::Modes { modes, count_below, unstable_directions, below_hz, .. } = found;
+    let listed = counted(modes.len(), "mode");
+    let inexact = modes.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));
+    Some(match inexact {
+        Some(mode) if modes.len() + unstable_directions == *count_below => format!(
+            "the list of {listed} is not certified, though the count confirms its number: the largest residual is \
+             {:.1e}, of the mode at {:.4} Hz",
+            mode.residual, mode.frequency_hz
+        ),
+        _ => format!(
+            "the list of {listed} is not certified: the count says {count_below} below {below_hz} Hz \
+             ({unstable_directions} of them unstable directions); modes may be missing or listed twice"
+        ),
     })
 }
 
@@ -182,10 +189,11 @@ impl Results for Modes {
             table.row(row);
         }
         format!(
-            "{}: natural frequencies below {} Hz\n{}\n\n{table}\n{}\n",
+            "{}: natural frequencies below {} Hz\n{}\n\n{}{}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
+            if self.modes.is_empty() { String::new() } else { format!("{table}\n") },
             self.certificate()
         )
     }

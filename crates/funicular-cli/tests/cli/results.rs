@@ -293,3 +293,24 @@ fn validate_passes_every_comparison_and_needs_no_robot() {
     assert_eq!((header[0].as_str(), table.len()), ("section", rows.len()));
     assert!(succeed(&["validate"]).starts_with("# Validation\n"));
 }
+
+#[test]
+fn a_list_without_modes_says_so_without_an_empty_table() {
+    let text = succeed(&["modes", "ROBOT", "--below-hz", "0.5"]);
+    assert!(text.contains("count below 0.5 Hz is 0, the list has 0 modes") && !text.contains("f [Hz]"), "{text}");
+    let text = succeed(&[
+        "frf",
+        "ROBOT",
+        "--from-hz",
+        "0",
+        "--to-hz",
+        "0.2",
+        "--points",
+        "9",
+        "--input",
+        "fz",
+        "--output",
+        "z",
+    ]);
+    assert!(text.contains("0 peaks") && !text.contains("peak [Hz]"), "{text}");
+}

@@ -54,7 +54,7 @@ impl<T> Number for T where
 }
 
 /// Below this |γ| the quotient (σ − c)/γ comes from its series: there it loses two digits, and at the limit the first
-/// term left out of the series is 2e-18.
+/// term left out of the series is 3e-18.
 pub(crate) const SERIES_BELOW: f64 = 0.25;
 
 /// Coefficients of q(γ) = Σ (−γ)^n (2n+2)/(2n+3)!.

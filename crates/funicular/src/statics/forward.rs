@@ -56,8 +56,14 @@ struct Trial {
     /// Wrench on the platform, moments divided by ℓ.
     wrench: Vec6,
     residual: f64,
+    /// What `residual` has to fall below: [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables
+    /// under very small loads.
+    limit: f64,
     energy: f64,
 }
+
+/// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of some chords' length, a few operations.
+const CHORD_ROUNDING: f64 = 8.0;
 
 struct Search<'a> {
     robot: &'a Robot,
@@ -83,10 +89,13 @@ impl Search<'_> {
             force_scale += force.norm();
         }
         let residual = scaled_residual(self.robot, &wrench, force_scale);
+        let stiffest: f64 = self.ropes.iter().map(|rope| rope.axial_stiffness).sum();
+        let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
+        let limit = RESIDUAL_LIMIT.max(rounding);
         for row in 3..6 {
             wrench[row] = if self.freedoms > row { wrench[row] / self.ell } else { 0.0 };
         }
-        Trial { pose, cables, wrench, residual, energy }
+        Trial { pose, cables, wrench, residual, limit, energy }
     }
 
     /// Symmetric part of the tangent stiffness, scaled; freedoms the platform lacks get a unit diagonal.
@@ -130,7 +139,7 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
     while iterations < MOST_ITERATIONS {
         iterations += 1;
         let stiffness = search.stiffness(&here);
-        if here.residual < 1e-13 || (here.residual < RESIDUAL_LIMIT && shift > 0.0) {
+        if here.residual < 1e-13 || (here.residual < here.limit && shift > 0.0) {
             // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
             if escapes < 3
                 && inertia::negative_eigenvalues(&stiffness, search.freedoms) > 0
@@ -157,7 +166,7 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
                 shift = 0.0;
             }
             here = next;
-        } else if here.residual < RESIDUAL_LIMIT {
+        } else if here.residual < here.limit {
             // Rounding: nothing better is to be had. Mark, so that the saddle test above runs.
             shift = f64::MIN_POSITIVE;
             if inertia::negative_eigenvalues(&stiffness, search.freedoms) == 0 || escapes >= 3 {
@@ -170,9 +179,9 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
             }
         }
     }
-    if here.residual > RESIDUAL_LIMIT || here.residual.is_nan() {
+    if here.residual > here.limit || here.residual.is_nan() {
         let p = here.pose.position_w;
-        let (residual, limit) = (here.residual, RESIDUAL_LIMIT);
+        let (residual, limit) = (here.residual, here.limit);
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
     Ok(collect(robot, here.pose, model, here.cables, lengths, iterations))

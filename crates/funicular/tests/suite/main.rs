@@ -6,6 +6,7 @@ mod cable;
 mod catenary;
 mod independent;
 mod modes;
+mod random;
 mod reference;
 mod response;
 mod robot_files;

@@ -119,6 +119,7 @@ fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
         let mut state = rest.clone();
         for cable in &mut state.cables {
             cable.tension_platform = 0.0;
+            cable.hanging = None;
         }
         state
     };

@@ -1,0 +1,152 @@
+//! Figures: plotly's description of a figure as JSON, in one style.
+//!
+//! The descriptions are written as JSON and not through the crate's builders, which lack parts that are used here (empty
+//! values in a line, several legends) and would be three times as long; the crate brings the library itself.
+
+pub(crate) mod response;
+pub(crate) mod robot;
+
+use askama::Template;
+use funicular::cable::CableModel;
+use funicular::modes::Kind;
+use serde_json::{Value, json};
+
+/// Okabe and Ito's colours, told apart by readers of every colour vision.
+pub(crate) mod colour {
+    /// Black.
+    pub(crate) const BLACK: &str = "#000000";
+    /// Orange.
+    pub(crate) const ORANGE: &str = "#e69f00";
+    /// Sky blue.
+    pub(crate) const SKY: &str = "#56b4e9";
+    /// Bluish green.
+    pub(crate) const GREEN: &str = "#009e73";
+    /// Blue.
+    pub(crate) const BLUE: &str = "#0072b2";
+    /// Vermilion.
+    pub(crate) const VERMILION: &str = "#d55e00";
+    /// Reddish purple.
+    pub(crate) const PURPLE: &str = "#cc79a7";
+    /// Grey, for what is not data.
+    pub(crate) const GREY: &str = "#8a8a8a";
+}
+
+/// A figure with caption.
+#[derive(Template)]
+#[template(path = "figure.html")]
+pub(crate) struct Figure {
+    id: &'static str,
+    height: usize,
+    caption: String,
+    json: String,
+    /// A view in space.
+    scene: bool,
+}
+
+impl Figure {
+    /// From plotly's traces and layout; `layout` is completed by the common style.
+    pub(crate) fn new(
+        id: &'static str,
+        height: usize,
+        caption: impl Into<String>,
+        data: &[Value],
+        layout: Value,
+    ) -> Self {
+        let mut full = json!({
+            "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", "size": 13, "color": "#1b1b1b"},
+            "paper_bgcolor": "#ffffff",
+            "plot_bgcolor": "#ffffff",
+            "margin": {"l": 64, "r": 16, "t": 34, "b": 52},
+            "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.01, "yanchor": "bottom", "font": {"size": 12}},
+            "hovermode": "closest",
+            "autosize": true,
+        });
+        let scene = layout.get("scene").is_some();
+        merge(&mut full, layout);
+        // Inside a script element only `<` can end it or open a comment; it occurs in strings alone.
+        let json = json!({"data": data, "layout": full}).to_string().replace('<', "\\u003c");
+        Self { id, height, caption: caption.into(), json, scene }
+    }
+}
+
+/// Lays `over` on `base`, object by object.
+fn merge(base: &mut Value, over: Value) {
+    match (base, over) {
+        (Value::Object(base), Value::Object(over)) => {
+            for (key, value) in over {
+                merge(base.entry(key).or_insert(Value::Null), value);
+            }
+        }
+        (base, over) => *base = over,
+    }
+}
+
+/// `base` with `over` laid on it.
+pub(crate) fn with(mut base: Value, over: Value) -> Value {
+    merge(&mut base, over);
+    base
+}
+
+/// A Cartesian axis with a title.
+pub(crate) fn axis(title: &str, more: Value) -> Value {
+    let base = json!({
+        "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
+        "gridcolor": "#ebebeb", "zeroline": false, "mirror": true,
+    });
+    with(base, more)
+}
+
+/// A line through points.
+pub(crate) fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -> Value {
+    json!({
+        "type": "scatter", "mode": "lines", "name": name, "x": rounded(x), "y": rounded(y),
+        "line": {"color": colour, "width": 1.8, "dash": dash},
+    })
+}
+
+/// Points with a symbol.
+pub(crate) fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &str) -> Value {
+    json!({
+        "type": "scatter", "mode": "markers", "name": name, "x": rounded(x), "y": rounded(y),
+        "marker": {"color": colour, "symbol": symbol, "size": 8, "line": {"color": colour, "width": 1.4}},
+    })
+}
+
+/// Six significant digits: finer than any pixel, half the size of the page.
+pub(crate) fn rounded(values: &[f64]) -> Vec<Option<f64>> {
+    values.iter().map(|v| if v.is_finite() { format!("{v:.5e}").parse().ok() } else { None }).collect()
+}
+
+/// Text for plotly, which reads a small set of tags in every text.
+pub(crate) fn plain(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Colour and dash of a cable model, the same in every figure.
+pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
+    match model {
+        CableModel::ClosedForm => (colour::BLUE, "solid"),
+        CableModel::StaticSag => (colour::ORANGE, "dash"),
+        CableModel::Spring => (colour::GREEN, "dot"),
+        CableModel::CatenaryTangent => (colour::PURPLE, "dashdot"),
+    }
+}
+
+/// A cable model in words.
+pub(crate) fn model_name(model: CableModel) -> &'static str {
+    match model {
+        CableModel::ClosedForm => "closed form (dynamic)",
+        CableModel::StaticSag => "static sag",
+        CableModel::Spring => "spring",
+        CableModel::CatenaryTangent => "catenary tangent",
+    }
+}
+
+/// Colour of a kind of mode.
+pub(crate) fn kind_colour(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Platform => colour::VERMILION,
+        Kind::Mixed => colour::PURPLE,
+        Kind::Cable => colour::SKY,
+    }
+}

@@ -1,0 +1,262 @@
+//! Figures over frequency: responses with their phase, the modes as ticks, the kinds of modes.
+
+use super::{Figure, axis, colour, kind_colour, line, rounded, with};
+use funicular::dynamics::Dynamics;
+use funicular::math::{Complex, Vec6};
+use funicular::modes::{Kind, Mode, Modes};
+use funicular::response::{Peak, Quantity, ResponseError, frf};
+use serde_json::{Value, json};
+
+/// Evenly spaced points of a response.
+const EVEN_POINTS: u32 = 1600;
+/// Distances from a natural frequency at which a response is sampled too, in half widths of its resonance.
+const AROUND: [f64; 5] = [0.25, 0.6, 1.2, 3.0, 8.0];
+/// Half width, relative, where a mode has next to no damping: it draws as a line, and nothing is infinite.
+const LEAST_HALF_WIDTH: f64 = 2e-4;
+
+/// Frequencies that show a response up to a limit [Hz]: even ones and a cluster at each mode, without which lightly
+/// damped resonances would fall between the points.
+pub(crate) fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
+    let step = below_hz / f64::from(EVEN_POINTS);
+    let mut all: Vec<f64> = (1..=EVEN_POINTS).map(|k| step * f64::from(k)).collect();
+    for mode in modes {
+        let half = mode.damping_ratio.max(LEAST_HALF_WIDTH);
+        if mode.damping_ratio > LEAST_HALF_WIDTH {
+            all.push(mode.frequency_hz);
+        }
+        for k in AROUND {
+            all.extend([1.0 - k * half, 1.0 + k * half].map(|factor| mode.frequency_hz * factor));
+        }
+    }
+    all.retain(|f| *f > 0.0 && *f <= below_hz);
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|b, a| (*b - *a).abs() < 1e-9 * below_hz);
+    all
+}
+
+/// One response as it is drawn.
+pub(crate) struct Curve {
+    /// Name in the legend.
+    pub(crate) name: String,
+    /// Colour and dash.
+    pub(crate) style: (&'static str, &'static str),
+    /// Frequencies [Hz].
+    pub(crate) frequencies_hz: Vec<f64>,
+    /// Response; several outputs added by magnitude have no phase and are real.
+    pub(crate) values: Vec<Complex>,
+}
+
+impl Curve {
+    /// The response of the sum of magnitudes of several outputs to one input; of one output the response itself.
+    ///
+    /// # Errors
+    /// An undamped resonance at a sampled frequency.
+    pub(crate) fn of(
+        name: impl Into<String>,
+        style: (&'static str, &'static str),
+        (dynamics, frequencies_hz): (&Dynamics, Vec<f64>),
+        input: &Vec6,
+        outputs: &[Vec6],
+        quantity: Quantity,
+    ) -> Result<Self, ResponseError> {
+        let responses: Vec<Vec<Complex>> = outputs
+            .iter()
+            .map(|output| frf(dynamics, &frequencies_hz, input, output, quantity))
+            .collect::<Result<_, _>>()?;
+        let values = match responses.as_slice() {
+            [one] => one.clone(),
+            several => (0..frequencies_hz.len())
+                .map(|k| Complex::new(several.iter().map(|r| r[k].norm()).sum(), 0.0))
+                .collect(),
+        };
+        Ok(Self { name: name.into(), style, frequencies_hz, values })
+    }
+
+    fn magnitude(&self) -> Vec<f64> {
+        self.values.iter().map(|v| v.norm()).collect()
+    }
+
+    /// Phase [°] in (−180, 180], broken where it wraps so that no line crosses the figure.
+    fn phase(&self) -> (Vec<f64>, Vec<f64>) {
+        let (mut x, mut y) = (Vec::new(), Vec::<f64>::new());
+        for (frequency, value) in self.frequencies_hz.iter().zip(&self.values) {
+            let degrees = value.arg().to_degrees();
+            // An undamped response is real; the sign of its zero imaginary part means nothing.
+            let degrees = if degrees <= -179.99 { 180.0 } else { degrees };
+            if y.last().is_some_and(|last: &f64| (degrees - last).abs() > 270.0) {
+                x.push(*frequency);
+                y.push(f64::NAN);
+            }
+            x.push(*frequency);
+            y.push(degrees);
+        }
+        (x, y)
+    }
+}
+
+/// What a response figure shows besides its curves.
+pub(crate) struct Marks<'a> {
+    /// Natural frequencies of the first curve's model, as ticks below.
+    pub(crate) modes: &'a [Mode],
+    /// Peaks to label.
+    pub(crate) peaks: &'a [Peak],
+    /// Published frequencies, as dashed lines; name and values [Hz].
+    pub(crate) published: Option<(&'a str, &'a [f64])>,
+    /// Whether the phase is shown.
+    pub(crate) phase: bool,
+}
+
+/// Responses on one frequency axis, logarithmic magnitude, with phase and modes below. The first curve sets the range of
+/// the magnitude: undamped ones leave it at their resonances.
+pub(crate) fn figure(
+    id: &'static str,
+    caption: String,
+    unit: &str,
+    below_hz: f64,
+    curves: &[Curve],
+    marks: &Marks<'_>,
+) -> Figure {
+    // The first twentieth is left out: an accelerance falls to zero there and would press the rest together.
+    let shown = curves[0].frequencies_hz.iter().zip(curves[0].magnitude()).filter(|(f, _)| **f > 0.05 * below_hz);
+    let levels: Vec<f64> = shown.map(|(_, m)| m.log10()).filter(|l| l.is_finite()).collect();
+    let (low, high) = (least(&levels), -least(&levels.iter().map(|l| -l).collect::<Vec<_>>()));
+    let room = 0.22 * (high - low).max(0.5);
+    let mut data = Vec::new();
+    for curve in curves {
+        let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.0, curve.style.1);
+        let hover = format!("%{{x:.3f}} Hz<br>%{{y:.3e}} {unit}");
+        data.push(with(trace, json!({"hovertemplate": hover, "legendgroup": curve.name})));
+        if marks.phase {
+            let (x, y) = curve.phase();
+            let trace = line(&curve.name, &x, &y, curve.style.0, curve.style.1);
+            data.push(with(
+                trace,
+                json!({"yaxis": "y2", "showlegend": false, "legendgroup": curve.name, "hovertemplate": "%{x:.3f} Hz<br>%{y:.0f}°"}),
+            ));
+        }
+    }
+    data.extend(ticks(marks.modes));
+    let labels: Vec<Value> = spaced(marks.peaks, 0.03 * below_hz)
+        .iter()
+        .map(|peak| {
+            json!({
+                "x": peak.frequency_hz, "y": peak.magnitude.log10(), "text": format!("{:.2}", peak.frequency_hz), "textangle": -90,
+                "showarrow": false, "yanchor": "bottom", "yshift": 3, "bgcolor": "rgba(255,255,255,0.75)", "borderpad": 0, "font": {"size": 11, "color": curves[0].style.0},
+            })
+        })
+        .collect();
+    let mut shapes = Vec::new();
+    if let Some((name, frequencies)) = marks.published {
+        for frequency in frequencies {
+            shapes.push(json!({
+                "type": "line", "x0": frequency, "x1": frequency, "yref": "y domain", "y0": 0, "y1": 1, "layer": "below",
+                "line": {"color": colour::GREY, "width": 1, "dash": "dash"},
+            }));
+        }
+        // A line that is off the figure, for the legend: shapes have none that goes with the traces.
+        data.push(with(line(name, &[f64::NAN], &[f64::NAN], colour::GREY, "dash"), json!({"line": {"width": 1}})));
+    }
+    let (magnitude, phase, strip) =
+        if marks.phase { ([0.45, 1.0], [0.13, 0.4], [0.0, 0.07]) } else { ([0.16, 1.0], [0.0, 0.1], [0.0, 0.09]) };
+    let mut layout = json!({
+        "xaxis": axis("frequency [Hz]", json!({"range": [0, below_hz], "anchor": "y3", "mirror": "all"})),
+        "yaxis": axis(&format!("magnitude [{unit}]"), json!({
+            "type": "log", "domain": magnitude, "exponentformat": "power", "dtick": 1, "range": [low - 0.2 * room, high + room],
+        })),
+        "yaxis3": axis("", json!({
+            "domain": strip, "range": [-1, 1], "showticklabels": false, "ticks": "", "showgrid": false, "fixedrange": true,
+        })),
+        "annotations": labels,
+        "shapes": shapes,
+    });
+    if marks.phase {
+        layout["yaxis2"] =
+            axis("phase [°]", json!({"domain": phase, "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]}));
+    }
+    layout["margin"] = json!({"l": 78});
+    Figure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
+}
+
+fn least(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+/// The most prominent peaks that keep a distance [Hz], so that their labels do not lie on each other.
+fn spaced(peaks: &[Peak], distance: f64) -> Vec<Peak> {
+    let mut order: Vec<&Peak> = peaks.iter().collect();
+    order.sort_by(|a, b| b.prominence_db.total_cmp(&a.prominence_db));
+    let mut kept: Vec<Peak> = Vec::new();
+    for peak in order {
+        if kept.iter().all(|k| (k.frequency_hz - peak.frequency_hz).abs() >= distance) {
+            kept.push(*peak);
+        }
+    }
+    kept
+}
+
+/// The three kinds in the order in which they are drawn and listed.
+pub(crate) const KINDS: [Kind; 3] = [Kind::Cable, Kind::Mixed, Kind::Platform];
+
+/// Modes as ticks on the strip below a response, one trace a kind.
+fn ticks(modes: &[Mode]) -> Vec<Value> {
+    of_kinds(modes)
+        .map(|(kind, found)| {
+            let x: Vec<f64> = found.iter().map(|m| m.frequency_hz).collect();
+            json!({
+                "type": "scatter", "mode": "markers", "name": format!("{} mode", kind.name()), "x": rounded(&x), "y": vec![0; x.len()],
+                "yaxis": "y3", "hovertemplate": "%{x:.4f} Hz",
+                "marker": {"symbol": "line-ns-open", "size": 26, "color": kind_colour(kind), "line": {"width": 1.5, "color": kind_colour(kind)}},
+            })
+        })
+        .collect()
+}
+
+fn of_kinds(modes: &[Mode]) -> impl Iterator<Item = (Kind, Vec<&Mode>)> {
+    KINDS
+        .into_iter()
+        .map(move |kind| (kind, modes.iter().filter(|m| m.kind == kind).collect::<Vec<_>>()))
+        .filter(|(_, found)| !found.is_empty())
+}
+
+/// Every mode over its frequency: how much of its kinetic energy the platform has.
+pub(crate) fn strip(modes: &Modes) -> Figure {
+    let mut data = Vec::new();
+    for (kind, found) in of_kinds(&modes.modes) {
+        let (mut stem_x, mut stem_y) = (Vec::new(), Vec::new());
+        for mode in &found {
+            stem_x.extend([mode.frequency_hz, mode.frequency_hz, f64::NAN]);
+            stem_y.extend([0.0, 100.0 * mode.platform_energy_fraction, f64::NAN]);
+        }
+        let colour = kind_colour(kind);
+        data.push(with(
+            line("", &stem_x, &stem_y, colour, "solid"),
+            json!({"showlegend": false, "hoverinfo": "skip", "line": {"width": 1.2}, "legendgroup": kind.name()}),
+        ));
+        let symbol = match kind {
+            Kind::Platform => "circle",
+            Kind::Mixed => "diamond",
+            Kind::Cable => "line-ns-open",
+        };
+        let x: Vec<f64> = found.iter().map(|m| m.frequency_hz).collect();
+        let y: Vec<f64> = found.iter().map(|m| 100.0 * m.platform_energy_fraction).collect();
+        data.push(json!({
+            "type": "scatter", "mode": "markers", "name": format!("{} ({})", kind.name(), found.len()), "x": rounded(&x), "y": rounded(&y),
+            "legendgroup": kind.name(), "hovertemplate": "%{x:.4f} Hz<br>platform %{y:.1f} % of the energy",
+            "marker": {"symbol": symbol, "size": if kind == Kind::Cable { 10 } else { 8 }, "color": colour, "line": {"color": colour, "width": 1.4}},
+        }));
+    }
+    Figure::new(
+        "figure-modes",
+        300,
+        format!(
+            "The natural frequencies below {} Hz. Height: the platform's share of the mode's kinetic energy; platform modes \
+             have at least 75 % there, cable modes at most 25 %.",
+            modes.below_hz
+        ),
+        &data,
+        json!({
+            "xaxis": axis("natural frequency [Hz]", json!({"range": [0, modes.below_hz]})),
+            "yaxis": axis("platform's share [%]", json!({"range": [-7, 107], "tickvals": [0, 25, 50, 75, 100]})),
+        }),
+    )
+}

@@ -1,0 +1,272 @@
+//! The robot in space: cables as they hang, to scale.
+
+use super::{Figure, colour, plain, rounded};
+use funicular::math::Vec3;
+use funicular::robot::Robot;
+use funicular::statics::{CableState, Equilibrium};
+use serde_json::{Value, json};
+
+/// Points drawn along a cable; its curve is smooth, and a straight cable needs two.
+const SAMPLES: u32 = 48;
+/// Cables of one colour each; further ones begin again.
+const CABLE_COLOURS: [&str; 7] =
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
+
+/// The whole robot.
+pub(crate) fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+    let mut data: Vec<Value> = equilibrium
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, state)| {
+            let hover = format!(
+                "cable {}<br>{:.4} m unstrained<br>{:.2} N at the platform<extra></extra>",
+                plain(&robot.cables[i].name),
+                state.unstrained_length,
+                state.tension_platform
+            );
+            cable_line(i, &curve(state, state.unstrained_length), &hover)
+        })
+        .collect();
+    let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
+    let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
+    let reach = extent(&anchors);
+    let places = sides(&anchors, reach);
+    let mut trace = labelled(&anchors, &names, &places, colour::BLACK, "square", "anchor");
+    trace["text"] = json!(joined(&anchors, &names, &places, reach));
+    data.push(trace);
+    data.extend(platform(robot, equilibrium, false));
+    let mut points = anchors.clone();
+    for state in &equilibrium.cables {
+        points.extend(curve(state, state.unstrained_length));
+    }
+    let scene = scene(&points, true, WIDE);
+    Figure::new(
+        "figure-robot",
+        400,
+        "The robot at its equilibrium, all three axes to one scale. Lines are the cables as they hang, squares the anchors \
+         with the cables' names, the dark body the attachments. Drag to turn, scroll to come nearer, point at a cable for \
+         its length and tension.",
+        &data,
+        json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+    )
+}
+
+/// The platform and the beginnings of its cables.
+pub(crate) fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+    let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
+    let reach = extent(&attachments).max(0.2);
+    let mut points = attachments.clone();
+    let mut data = Vec::new();
+    for (i, state) in equilibrium.cables.iter().enumerate() {
+        let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
+        let part = (0.6 * reach / state.chord()).min(1.0);
+        let stub = curve(state, part * state.unstrained_length);
+        data.push(cable_line(i, &stub, &hover));
+        points.extend(stub);
+    }
+    data.extend(platform(robot, equilibrium, true));
+    let origin = equilibrium.pose.position_w;
+    for (k, (name, colour)) in
+        [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
+    {
+        let mut unit = Vec3::zeros();
+        unit[k] = 0.22 * reach;
+        let tip = origin + equilibrium.pose.rot_wp * unit;
+        points.push(tip);
+        data.push(json!({
+            "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]), "y": rounded(&[origin.y, tip.y]),
+            "z": rounded(&[origin.z, tip.z]), "line": {"color": colour, "width": 5}, "text": ["", name],
+            "textfont": {"color": colour, "size": 13}, "hoverinfo": "skip",
+        }));
+    }
+    Figure::new(
+        "figure-platform",
+        400,
+        "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
+         first stretch of each cable.",
+        &data,
+        json!({"scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+    )
+}
+
+/// Width of a drawn volume over the height that fills its view: a wide view, and one a third of the page.
+const WIDE: f64 = 1.85;
+const SQUARE: f64 = 1.2;
+/// Height of the drawn volume in plotly's units: it fills a view with parallel lines of sight, less the labels.
+const FILL: f64 = 1.35;
+/// Where the eye is: to the side and a little above, so that the sag shows in the vertical.
+const EYE: [f64; 3] = [0.7, -1.65, 0.5];
+
+/// Axes of one scale around points, as large as fits a view of some width over height. `floor`: down to z = 0 if the
+/// points are above it.
+fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
+    let bounds = |k: usize| {
+        let values = || points.iter().map(|p| p[k]);
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let mut ranges = [0, 1, 2].map(bounds);
+    // A margin, and some room where a robot is flat.
+    let size = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+    for (low, high) in &mut ranges {
+        let more = 0.04 * size + (0.06 * size - 0.5 * (*high - *low)).max(0.0);
+        (*low, *high) = (*low - more, *high + more);
+    }
+    if floor && bounds(2).0 >= 0.0 {
+        ranges[2].0 = 0.0;
+    }
+    let span = ranges.map(|(low, high)| high - low);
+    let [x, y, z] = EYE;
+    let (level, far) = (x.hypot(y), x.hypot(y).hypot(z));
+    let across = (span[0] * y.abs() + span[1] * x.abs()) / level;
+    let upright = (span[2] * level + (span[0] * x.abs() + span[1] * y.abs()) / level * z) / far;
+    let scale = FILL * (width / across).min(1.0 / upright);
+    let axis = |k: usize, title: &str| {
+        json!({
+            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6, "showbackground": k == 2,
+            "range": rounded(&[ranges[k].0, ranges[k].1]), "backgroundcolor": "#f3f4f5", "gridcolor": "#d9d9d9",
+            "zeroline": false, "showspikes": false,
+        })
+    };
+    let ratio = rounded(&span.map(|s| s * scale));
+    json!({
+        "aspectmode": "manual", "aspectratio": {"x": ratio[0], "y": ratio[1], "z": ratio[2]},
+        "camera": {
+            "eye": {"x": x, "y": y, "z": z}, "center": {"x": 0.0, "y": 0.0, "z": -0.06}, "projection": {"type": "orthographic"},
+        },
+        "xaxis": axis(0, "x [m]"), "yaxis": axis(1, "y [m]"), "zaxis": axis(2, "z [m]"),
+    })
+}
+
+/// Points of a cable from the attachment up to an unstrained arc length.
+fn curve(state: &CableState, up_to: f64) -> Vec<Vec3> {
+    if let Some(hanging) = &state.hanging {
+        return (0..=SAMPLES).map(|k| hanging.point_w(up_to * f64::from(k) / f64::from(SAMPLES))).collect();
+    }
+    let part = up_to / state.unstrained_length;
+    vec![state.attachment_w, state.attachment_w + (state.anchor_w - state.attachment_w) * part]
+}
+
+fn coordinates(points: &[Vec3]) -> [Vec<Option<f64>>; 3] {
+    [0, 1, 2].map(|k| rounded(&points.iter().map(|p| p[k]).collect::<Vec<_>>()))
+}
+
+fn cable_line(i: usize, points: &[Vec3], hover: &str) -> Value {
+    let [x, y, z] = coordinates(points);
+    json!({
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "hovertemplate": hover,
+        "line": {"color": CABLE_COLOURS[i % CABLE_COLOURS.len()], "width": 4},
+    })
+}
+
+fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, symbol: &str, what: &str) -> Value {
+    let [x, y, z] = coordinates(points);
+    let hover: Vec<String> = names.iter().map(|name| format!("{what} of cable {name}")).collect();
+    json!({
+        "type": "scatter3d", "mode": "markers+text", "x": x, "y": y, "z": z, "text": names, "textposition": sides,
+        "textfont": {"size": 12}, "marker": {"color": colour, "symbol": symbol, "size": 4}, "hovertext": hover,
+        "hovertemplate": "%{hovertext}<br>(%{x:.4f}, %{y:.4f}, %{z:.4f}) m<extra></extra>",
+    })
+}
+
+/// One name for neighbours whose names would lie on each other, at the first of them.
+fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
+    let same = |i: usize, j: usize| places[i] == places[j] && (points[i] - points[j]).norm() < 0.06 * reach;
+    (0..points.len())
+        .map(|i| {
+            let others = if (0..i).any(|j| same(i, j)) { 0..0 } else { i..points.len() };
+            others.filter(|&j| same(i, j)).map(|j| names[j].as_str()).collect::<Vec<_>>().join(", ")
+        })
+        .collect()
+}
+
+/// Where each point's name goes: below the point when another one is close above it, else above. Points that coincide
+/// take turns, so that their names stand side by side.
+fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
+    const COINCIDING: [&str; 4] = ["middle left", "middle right", "top center", "bottom center"];
+    points
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let same = points[..i].iter().filter(|q| (*q - p).norm() < 0.01 * reach).count();
+            let crowded = points.iter().any(|q| q.z - p.z > 0.5 * (q - p).norm() && (q - p).norm() < 0.12 * reach);
+            match (same, crowded) {
+                (0, false) => "top center",
+                (0, true) => "bottom center",
+                _ => COINCIDING[same % COINCIDING.len()],
+            }
+        })
+        .collect()
+}
+
+/// The body between the attachments and its centre of mass; `names` adds those of the attachments.
+fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value> {
+    let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
+    let com = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
+    let reach = extent(&attachments);
+    let mut data = Vec::new();
+    if reach > 0.0 {
+        data.push(body(&attachments, reach));
+        if names {
+            let labels: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
+            let places = sides(&attachments, reach);
+            data.push(labelled(&attachments, &labels, &places, "#333333", "circle", "attachment"));
+        }
+    }
+    let hover = format!(
+        "centre of mass, {:.2} kg<br>(%{{x:.4f}}, %{{y:.4f}}, %{{z:.4f}}) m<extra></extra>",
+        robot.platform.mass
+    );
+    data.push(json!({
+        "type": "scatter3d", "mode": "markers", "x": [com.x], "y": [com.y], "z": [com.z],
+        "marker": {"color": colour::BLACK, "symbol": "diamond", "size": if names { 5 } else { 3 }}, "hovertemplate": hover,
+    }));
+    data
+}
+
+/// The attachments as a body: a polygon if they lie in a plane, else their convex hull.
+fn body(points: &[Vec3], reach: f64) -> Value {
+    let [x, y, z] = coordinates(points);
+    let mut mesh = json!({
+        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true, "hoverinfo": "skip",
+    });
+    match polygon(points, reach) {
+        Some(order) => {
+            let (first, rest) = (order[0], &order[1..]);
+            mesh["i"] = json!(vec![first; rest.len().saturating_sub(1)]);
+            mesh["j"] = json!(&rest[..rest.len().saturating_sub(1)]);
+            mesh["k"] = json!(&rest[1.min(rest.len())..]);
+        }
+        None => mesh["alphahull"] = json!(0),
+    }
+    mesh
+}
+
+/// The order of points in a plane around their centre; none if they lie in no plane.
+fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
+    let centre = points.iter().sum::<Vec3>() / points.len() as f64;
+    let spokes: Vec<Vec3> = points.iter().map(|p| p - centre).collect();
+    let along = spokes.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?.normalize();
+    let normal = spokes.iter().map(|s| along.cross(s)).max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+    if normal.norm() < 1e-6 * reach {
+        return Some((0..points.len()).collect());
+    }
+    let normal = normal.normalize();
+    if spokes.iter().any(|s| s.dot(&normal).abs() > 1e-3 * reach) {
+        return None;
+    }
+    let across = normal.cross(&along);
+    let angle = |i: usize| spokes[i].dot(&across).atan2(spokes[i].dot(&along));
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+    Some(order)
+}
+
+/// Diagonal of the box around points [m].
+fn extent(points: &[Vec3]) -> f64 {
+    let span = |k: usize| {
+        let values = || points.iter().map(|p| p[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    Vec3::new(span(0), span(1), span(2)).norm()
+}

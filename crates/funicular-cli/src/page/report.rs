@@ -1,0 +1,301 @@
+//! The report of one robot at one state: everything the program knows about it, on one page.
+
+mod parts;
+
+use super::Shell;
+use super::figure::response::{Curve, Marks, sampled};
+use super::figure::{Figure, model_name, model_style, response, robot as drawing};
+use super::table::{Table, fixed, significant};
+use anyhow::Context as _;
+use askama::Template;
+use funicular::cable::CableModel;
+use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::math::{Vec6, rotation};
+use funicular::modes::{self, Kind, Modes};
+use funicular::response::{Peak, Quantity, peaks};
+use funicular::robot::{Freedoms, Robot};
+use funicular::statics::{Equilibrium, Stability, StaticModel};
+use funicular::validity;
+
+/// Prominence from which on a peak is named [dB].
+const PEAK_PROMINENCE_DB: f64 = 3.0;
+
+/// What a report is about.
+pub(crate) struct ReportInput<'a> {
+    /// The robot.
+    pub(crate) robot: &'a Robot,
+    /// Where its file is, or what stands for it.
+    pub(crate) file_label: &'a str,
+    /// The file itself.
+    pub(crate) robot_text: &'a str,
+    /// The state.
+    pub(crate) equilibrium: &'a Equilibrium,
+    /// How the robot is linearised about it.
+    pub(crate) linearisation: Linearisation,
+    /// Upper limit of the frequencies [Hz].
+    pub(crate) below_hz: f64,
+    /// Name and 6-vector of the force or moment that excites.
+    pub(crate) frf_input: (String, Vec6),
+    /// Name, 6-vector and kind of the motion that is measured.
+    pub(crate) frf_output: (String, Vec6, Quantity),
+    /// The command that writes this page again.
+    pub(crate) command_line: String,
+}
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct ReportPage<'a> {
+    shell: Shell,
+    source: &'a str,
+    key: Vec<(&'static str, String)>,
+    state: String,
+    robot_figure: Figure,
+    platform_figure: Figure,
+    tension_table: Table,
+    tension_figure: Figure,
+    sag_figure: Figure,
+    stiffness_table: Option<Table>,
+    modes_text: String,
+    modes_figure: Figure,
+    modes_table: Table,
+    response_figure: Figure,
+    peaks_table: Table,
+    response_notes: Vec<String>,
+    comparison: Result<parts::ComparisonPart, String>,
+    warnings: Vec<Vec<Part>>,
+    command_line: &'a str,
+    file_label: &'a str,
+    robot_text: &'a str,
+}
+
+/// Sections: id and name.
+pub(crate) const CONTENTS: &[(&str, &str)] = &[
+    ("robot", "Robot"),
+    ("tensions", "Tensions and sag"),
+    ("stiffness", "Static stiffness"),
+    ("modes", "Natural frequencies"),
+    ("response", "Frequency response"),
+    ("comparison", "Cable models"),
+    ("warnings", "Warnings"),
+    ("repeat", "How to repeat"),
+];
+
+/// The page, as HTML.
+///
+/// # Errors
+/// If the robot cannot be linearised at this state with the model asked, or has no finite response there.
+pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<String> {
+    let ReportInput { robot, equilibrium, linearisation, below_hz, .. } = *input;
+    let dynamics = Dynamics::about(robot, equilibrium, linearisation)?;
+    let found = modes::below(&dynamics, below_hz);
+    let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
+    let warnings = validity::of_statics(robot, equilibrium).into_iter().chain(validity::of_dynamics(
+        robot,
+        equilibrium,
+        linearisation.cable_model,
+        below_hz,
+    ));
+    let page = ReportPage {
+        shell: Shell::new(robot.name.clone(), CONTENTS),
+        source: robot.source.trim_end_matches('.'),
+        key: key_numbers(robot, equilibrium, &found),
+        state: state_text(equilibrium),
+        robot_figure: drawing::whole(robot, equilibrium),
+        platform_figure: drawing::near(robot, equilibrium),
+        tension_table: parts::tension_table(robot, equilibrium),
+        tension_figure: parts::tension_figure(robot, equilibrium),
+        sag_figure: parts::sag_figure(robot, equilibrium),
+        stiffness_table: parts::stiffness_table(robot, equilibrium),
+        modes_text: modes_text(linearisation, &found),
+        modes_figure: response::strip(&found),
+        modes_table: parts::modes_table(robot, &found),
+        response_figure,
+        peaks_table,
+        response_notes,
+        comparison: parts::comparison(robot, equilibrium, below_hz, linearisation),
+        warnings: warnings.map(|w| parts_of(&sentence(&w.to_string()))).collect(),
+        command_line: &input.command_line,
+        file_label: input.file_label,
+        robot_text: input.robot_text,
+    };
+    page.render().context("the report could not be written as HTML")
+}
+
+/// A stretch of text, or of what one types.
+struct Part {
+    code: bool,
+    text: String,
+}
+
+/// The core quotes what one types in backticks.
+fn parts_of(text: &str) -> Vec<Part> {
+    text.split('`').enumerate().map(|(i, text)| Part { code: i % 2 == 1, text: text.to_owned() }).collect()
+}
+
+/// First letter large, full stop at the end: the core speaks in lower case.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}.", letters.as_str())
+}
+
+fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(&'static str, String)> {
+    let p = equilibrium.pose.position_w;
+    let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
+    let (least, most) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
+    let mut key = vec![
+        ("platform mass", format!("{} kg", significant(robot.platform.mass, 4))),
+        ("position x, y, z", format!("{}, {}, {} m", fixed(p.x, 4), fixed(p.y, 4), fixed(p.z, 4))),
+    ];
+    if robot.platform.freedoms == Freedoms::Rigid {
+        let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&equilibrium.pose.rot_wp);
+        key.push(("roll, pitch, yaw", format!("{}, {}, {} °", fixed(roll, 2), fixed(pitch, 2), fixed(yaw, 2))));
+    }
+    key.push(("tensions at the platform", format!("{} to {} N", significant(least, 4), significant(most, 4))));
+    if let Some(first) = found.modes.first() {
+        key.push(("first natural frequency", format!("{} Hz", significant(first.frequency_hz, 4))));
+    }
+    let count = found.modes.len();
+    let certified = if found.certified { "certified complete" } else { "not certified" };
+    key.push(("natural frequencies", format!("{count} below {} Hz, {certified}", found.below_hz)));
+    key
+}
+
+fn state_text(equilibrium: &Equilibrium) -> String {
+    let model = match equilibrium.model {
+        StaticModel::Ideal => "ideal cables (straight, massless, rigid in length)",
+        StaticModel::Spring => "straight elastic cables without weight",
+        StaticModel::Catenary => "elastic catenaries",
+    };
+    let stability = match equilibrium.stability {
+        Stability::Stable { least_stiffness } => {
+            format!("stable (least eigenvalue of the scaled stiffness {} N/m)", significant(least_stiffness, 3))
+        }
+        Stability::Unstable { directions, .. } => format!("unstable in {directions} of its directions"),
+        Stability::Rigid => "rigid".to_owned(),
+    };
+    format!(
+        "Static equilibrium with {model}, found to a scaled residual of {}; it is {stability}.",
+        significant(equilibrium.residual, 1)
+    )
+}
+
+fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
+    let of = |kind: Kind| found.modes.iter().filter(|m| m.kind == kind).count();
+    let assembly = match linearisation.assembly {
+        Assembly::Consistent => "consistent assembly",
+        Assembly::Paper => "assembly without the turning of static forces, as in Yuan et al. 2014",
+    };
+    let plane = if linearisation.in_plane_only { ", cables stiff in their planes only" } else { "" };
+    let certified = if found.certified {
+        format!(
+            "The Wittrick–Williams count gives {} below {} Hz, and all of them are listed: none is missing",
+            found.count_below, found.below_hz
+        )
+    } else {
+        format!(
+            "The Wittrick–Williams count gives {} below {} Hz, {} are listed: the list is not certified",
+            found.count_below,
+            found.below_hz,
+            found.modes.len()
+        )
+    };
+    format!(
+        "Cable model: {}; {assembly}{plane}. {certified}. {} are vibrations of the platform, {} of cables, {} of both.",
+        model_name(linearisation.cable_model),
+        of(Kind::Platform),
+        of(Kind::Cable),
+        of(Kind::Mixed)
+    )
+}
+
+/// The response with the model asked, and with the other ones that there are at this state.
+fn respond(
+    input: &ReportInput<'_>,
+    dynamics: &Dynamics,
+    found: &Modes,
+) -> anyhow::Result<(Figure, Table, Vec<String>)> {
+    let ReportInput { robot, equilibrium, linearisation, below_hz, .. } = *input;
+    let (force, u) = &input.frf_input;
+    let (motion, v, quantity) = &input.frf_output;
+    let draw = |dynamics: &Dynamics, found: &Modes| {
+        let model = dynamics.linearisation.cable_model;
+        let at = (dynamics, sampled(below_hz, &found.modes));
+        Curve::of(model_name(model), model_style(model), at, u, &[*v], *quantity)
+    };
+    let mut curves = vec![draw(dynamics, found)?];
+    let mut notes = Vec::new();
+    for cable_model in [CableModel::ClosedForm, CableModel::StaticSag, CableModel::Spring] {
+        if cable_model == linearisation.cable_model {
+            continue;
+        }
+        let other = Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation });
+        match other.map_err(|e| e.to_string()).and_then(|other| {
+            let found = modes::below(&other, below_hz);
+            draw(&other, &found).map_err(|e| e.to_string())
+        }) {
+            Ok(curve) => curves.push(curve),
+            Err(reason) => notes.push(format!("Without the model {}: {reason}.", model_name(cable_model))),
+        }
+    }
+    let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);
+    let unit = unit_of(u, v, *quantity);
+    let caption = format!(
+        "Response of {motion} to {force}, magnitude and phase. Ticks are the natural frequencies with the {} model, \
+         numbers the frequencies [Hz] of its most prominent peaks. Models without frequency-dependent cables have no \
+         damping; their resonances leave the figure.",
+        model_name(linearisation.cable_model)
+    );
+    let marks = Marks { modes: &found.modes, peaks: &tops, published: None, phase: true };
+    let figure = response::figure("figure-response", caption, unit, below_hz, &curves, &marks);
+    Ok((figure, peaks_table(&tops, found, unit), notes))
+}
+
+fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> Table {
+    let mut table = Table::new(
+        "table-peaks",
+        format!(
+            "Peaks of the response with a prominence of at least {PEAK_PROMINENCE_DB} dB. They are fewer than the natural \
+             frequencies: a mode shows only where force and sensor reach it and damping leaves it apart from its neighbours.",
+        ),
+        &[
+            "frequency|Hz",
+            "prominence|dB",
+            &format!("magnitude|{unit}"),
+            "nearest natural frequency|Hz",
+            "<kind of that mode",
+        ],
+    );
+    for peak in tops {
+        let distance = |f: f64| (f - peak.frequency_hz).abs();
+        let nearest = found.modes.iter().min_by(|a, b| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz)));
+        table.row(vec![
+            fixed(peak.frequency_hz, 3),
+            fixed(peak.prominence_db, 1),
+            significant(peak.magnitude, 3),
+            nearest.map_or_else(|| "–".to_owned(), |m| fixed(m.frequency_hz, 3)),
+            nearest.map_or("–", |m| m.kind.name()).to_owned(),
+        ]);
+    }
+    table
+}
+
+/// Unit of motion over excitation.
+fn unit_of(input: &Vec6, output: &Vec6, quantity: Quantity) -> &'static str {
+    // A vector without a translation part is a moment or a rotation.
+    let turns = |u: &Vec6| u.fixed_rows::<3>(0).amax() <= 0.0;
+    match (turns(output), quantity, turns(input)) {
+        (false, Quantity::Displacement, false) => "m/N",
+        (false, Quantity::Velocity, false) => "(m/s)/N",
+        (false, Quantity::Acceleration, false) => "(m/s²)/N",
+        (true, Quantity::Displacement, false) => "rad/N",
+        (true, Quantity::Velocity, false) => "(rad/s)/N",
+        (true, Quantity::Acceleration, false) => "(rad/s²)/N",
+        (false, Quantity::Displacement, true) => "m/(N·m)",
+        (false, Quantity::Velocity, true) => "(m/s)/(N·m)",
+        (false, Quantity::Acceleration, true) => "(m/s²)/(N·m)",
+        (true, Quantity::Displacement, true) => "rad/(N·m)",
+        (true, Quantity::Velocity, true) => "(rad/s)/(N·m)",
+        (true, Quantity::Acceleration, true) => "(rad/s²)/(N·m)",
+    }
+}

@@ -1,0 +1,43 @@
+//! Random robots for property tests.
+
+use funicular::math::Vec3;
+use funicular::robot::{Robot, State};
+use proptest::prelude::*;
+
+/// A robot of 6 to 9 cables around and above (or also below) a platform, with lengths near those of a random pose.
+pub(crate) fn any_robot() -> impl Strategy<Value = (Robot, Vec<f64>)> {
+    let cable = (0.0f64..1.0, 0.6f64..1.4, 0.0f64..1.0, 0.05f64..0.5, -0.3f64..0.3, 0.985f64..1.02);
+    let rope = (2.0f64..6.0, -3.0f64..0.0);
+    (prop::collection::vec(cable, 6..=9), rope, 0.3f64..3.0, 0.0f64..0.4, any::<bool>()).prop_map(
+        |(cables, (ea, m), mass, com, below)| {
+            let mut text = format!(
+                "name = \"random\"\n[platform]\nmass_kg = {}\ninertia_kg_m2 = [0.9, 1.0, 1.1]\n\
+                 center_of_mass_m = [{}, {}, {}]\n[materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\n",
+                10f64.powf(mass),
+                0.3 * com,
+                -0.2 * com,
+                -com,
+                10f64.powf(ea),
+                10f64.powf(m),
+            );
+            let n = cables.len() as f64;
+            for (i, (turn, out, height, radius, z, slack)) in cables.into_iter().enumerate() {
+                let around = std::f64::consts::TAU * (i as f64 + 0.6 * turn) / n;
+                let up = if below && i % 3 == 2 { -1.0 - 3.0 * height } else { 3.0 + 2.0 * height };
+                let anchor = [6.0 * out * around.cos(), 5.0 * out * around.sin(), up];
+                let inner = 2.7 * around;
+                let attachment = [radius * inner.cos(), radius * inner.sin(), z];
+                let chord = (Vec3::from(anchor) - Vec3::from(attachment)).norm();
+                let cable = format!(
+                    "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = \
+                     {attachment:?}\nunstrained_length_m = {}\n",
+                    chord * slack
+                );
+                text.push_str(&cable);
+            }
+            let robot = Robot::from_toml(&text).unwrap();
+            let State::Lengths(lengths) = robot.state.clone() else { unreachable!() };
+            (robot, lengths)
+        },
+    )
+}
