@@ -13,7 +13,7 @@ use values::{Input, Lengths, MassRange, Output, PoseNumbers};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// Every command reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
+/// Every command but `paper` and `validate` reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
 /// unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
@@ -68,6 +68,10 @@ pub(crate) enum Command {
     /// Every figure and table of Yuan et al. 2014, theirs beside ours, on one page
     #[command(after_help = "Example:\n  funicular paper -o paper.html")]
     Paper(PaperArgs),
+    /// Compare the program with numbers that others published or computed; exit code 1 if one is not within tolerance
+    #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
+        funicular validate --format json")]
+    Validate(ValidateArgs),
 }
 
 /// The robot.
@@ -360,6 +364,12 @@ pub(crate) struct PaperArgs {
     /// Write the page to FILE, as a whole or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-paper.html")]
     pub(crate) output_file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ValidateArgs {
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
 }
 
 /// Format of a result.

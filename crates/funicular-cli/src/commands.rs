@@ -10,3 +10,4 @@ pub(crate) mod pose_error;
 pub(crate) mod report;
 pub(crate) mod statics;
 pub(crate) mod stiffness;
+pub(crate) mod validate;

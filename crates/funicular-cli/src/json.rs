@@ -9,6 +9,7 @@ use std::io::{self, Write};
 struct Envelope<'a, R> {
     schema: &'static str,
     command: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
     robot: &'a str,
     #[serde(flatten)]
     results: &'a R,

@@ -12,9 +12,10 @@ mod robot_file;
 mod set;
 mod state;
 mod table;
+mod validation;
 
 use anyhow::Result;
-use args::{Cli, Command, OutputArgs, RobotArgs};
+use args::{Cli, Command, OutputArgs, RobotArgs, ValidateArgs};
 use clap::Parser;
 use funicular::robot::Robot;
 use output::{Results, Sink};
@@ -46,13 +47,22 @@ fn run(command: &Command) -> Result<()> {
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
+        Command::Validate(args) => validate(args),
     }
 }
 
 /// What every command does that prints a result.
 fn steps<R: Results>(robot: &RobotArgs, output: &OutputArgs, analyse: impl FnOnce(Robot) -> Result<R>) -> Result<()> {
     let file = robot_file::read(Some(&robot.robot), &robot.changes)?;
-    let sink = Sink::open(output, &robot.robot)?;
+    let sink = Sink::open(output, Some(&robot.robot))?;
     let results = analyse(file.robot)?;
     sink.write(&results)
+}
+
+/// The command without a robot.
+fn validate(args: &ValidateArgs) -> Result<()> {
+    let sink = Sink::open(&args.output, None)?;
+    let results = commands::validate::run()?;
+    sink.write(&results)?;
+    results.verdict()
 }

@@ -14,7 +14,7 @@ pub(crate) trait Results: Serialize {
     /// The verb.
     const COMMAND: &'static str;
 
-    /// Name of the robot.
+    /// Name of the robot; empty where the result is of no single one.
     fn robot(&self) -> &str;
 
     /// What the user should know before trusting it.
@@ -76,7 +76,7 @@ pub(crate) struct Sink {
 
 impl Sink {
     /// Of a command that reads a robot file; it is never written over.
-    pub(crate) fn open(args: &OutputArgs, robot: &Path) -> Result<Self> {
+    pub(crate) fn open(args: &OutputArgs, robot: Option<&Path>) -> Result<Self> {
         let path = args.output_file.as_deref();
         let ending = path.and_then(Path::extension).and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
         let format = args.format.unwrap_or(match ending.as_deref() {
@@ -84,7 +84,7 @@ impl Sink {
             Some("csv") => Format::Csv,
             _ => Format::Text,
         });
-        Ok(Self { format, target: Target::open(path, Some(robot))? })
+        Ok(Self { format, target: Target::open(path, robot)? })
     }
 
     /// Writes the result; its warnings go to stderr, too.

@@ -277,6 +277,25 @@ fn output_is_the_same_every_time() {
 }
 
 #[test]
+fn validate_passes_every_comparison_and_needs_no_robot() {
+    let value = json(&["validate"]);
+    assert_eq!((&value["schema"], &value["command"]), (&Value::from("funicular/1"), &Value::from("validate")));
+    assert!(value.get("robot").is_none());
+    assert_eq!(value["passed"], value["comparisons"]);
+    let sections = value["sections"].as_array().unwrap();
+    let rows: Vec<&Value> = sections.iter().flat_map(|section| section["rows"].as_array().unwrap()).collect();
+    assert_eq!((sections.len(), rows.len() as u64), (7, value["comparisons"].as_u64().unwrap()));
+    for row in &rows {
+        assert!(number(&row["difference"]) <= number(&row["tolerance"]), "{row}");
+        assert!(row["source"].as_str().is_some_and(|source| !source.is_empty()), "{row}");
+        assert!(numbers(&row["theirs"]).len() == numbers(&row["ours"]).len(), "{row}");
+    }
+    let (header, table) = csv(&["validate"]);
+    assert_eq!((header[0].as_str(), table.len()), ("section", rows.len()));
+    assert!(succeed(&["validate"]).starts_with("# Validation\n"));
+}
+
+#[test]
 fn a_list_without_modes_says_so_without_an_empty_table() {
     let text = succeed(&["modes", "ROBOT", "--below-hz", "0.5"]);
     assert!(text.contains("count below 0.5 Hz is 0, the list has 0 modes") && !text.contains("f [Hz]"), "{text}");

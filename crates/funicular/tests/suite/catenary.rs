@@ -3,34 +3,32 @@
 use funicular::catenary::space::HangingCable;
 use funicular::catenary::{Catenary, CatenaryError, Rope};
 use proptest::prelude::*;
+use serde_json::Value;
+
+use crate::reference::{number, numbers, rows, table};
 
 fn solve(span: f64, rise: f64, unstrained_length: f64, axial_stiffness: f64, weight_per_length: f64) -> Catenary {
     Catenary::between(span, rise, Rope { unstrained_length, weight_per_length, axial_stiffness }).unwrap()
+}
+
+/// The cable that a row describes.
+fn solve_row(row: &Value) -> Catenary {
+    let of = |key| number(row, key);
+    solve(of("span_m"), of("rise_m"), of("unstrained_length_m"), of("axial_stiffness_n"), of("weight_n_per_m"))
 }
 
 fn assert_close(ours: f64, theirs: f64, relative: f64, what: &str) {
     assert!((ours - theirs).abs() <= relative * theirs.abs(), "{what}: {ours:e} for {theirs:e}");
 }
 
-/// Nine cables computed with mpmath, 40 digits: (dx, dz, L0, EA, w), H, V at the end, K = [xx, xz, zz] of the end.
-#[rustfmt::skip]
-const GRID: [([f64; 5], f64, f64, [f64; 3]); 9] = [
-    ([100.0, 0.0, 105.0, 1e7, 10.0], 918.634_473_646_241_4, 525.0, [103.949_767_446_749_71, 0.0, 10.075_800_823_491_979]),
-    ([100.0, 0.0, 100.0, 1e7, 10.0], 7_463.990_429_563_481, 500.0, [33_378.119_186_577_87, 0.0, 74.751_268_256_080_88]),
-    ([100.0, 0.0, 99.9, 1e7, 10.0], 12_619.388_595_989_494, 499.5, [70_829.243_321_758_75, 0.0, 126.259_665_566_132_21]),
-    ([100.0, 50.0, 120.0, 5e6, 20.0], 1_368.650_085_844_660_5, 2_001.854_851_450_725_8, [93.141_539_923_641_49, 33.353_383_596_312_41, 30.038_074_316_433_247]),
-    ([5.54, 4.025, 6.9, 251_327.412_287_183_46, 0.657_27], 6.889_647_568_860_437, 7.389_111_813_247_903, [54.801_295_675_270_435, 38.018_247_435_906_026, 28.259_917_392_548_393]),
-    ([10.0, -8.0, 15.0, 2e5, 3.0], 12.254_619_883_417_32, 8.229_879_788_737_504, [3.914_038_949_530_472, -1.335_439_407_097_129, 2.447_089_318_690_452]),
-    ([1.0, 30.0, 33.0, 1e6, 50.0], 5.091_541_761_391_54, 1_574.463_277_939_209_4, [6.393_512_310_869_302, 0.204_714_724_953_319_6, 25.014_297_487_814_43]),
-    ([0.001, 10.0, 12.0, 1e6, 5.0], 0.000_208_750_833_144_050_99, 54.999_250_024_479_705, [0.227_769_677_085_133_33, 4.321_615_911_119_703e-6, 2.499_925_003_429_963]),
-    ([1000.0, 300.0, 1050.0, 1e8, 700.0], 1_044_436.191_372_133_8, 692_091.287_865_038_5, [22_460.576_563_214_81, 6_189.732_692_785_734, 2_870.939_006_216_141]),
-];
-
 #[test]
 fn end_forces_and_stiffness_agree_with_forty_digit_values() {
-    for ([dx, dz, length, ea, w], h, v, [xx, xz, zz]) in GRID {
-        let cable = solve(dx, dz, length, ea, w);
-        let what = format!("dx {dx}, dz {dz}, L0 {length}");
+    assert_eq!(rows("catenary_grid").len(), 9);
+    for row in rows("catenary_grid") {
+        let [h, v] = ["horizontal_force_n", "vertical_force_at_end_n"].map(|key| number(row, key));
+        let [xx, xz, zz] = numbers(row, "end_stiffness_xx_xz_zz_n_per_m");
+        let cable = solve_row(row);
+        let what = format!("dx {}, dz {}, L0 {}", row["span_m"], row["rise_m"], row["unstrained_length_m"]);
         assert_close(cable.horizontal_force(), h, 1e-12, &what);
         assert_close(cable.vertical_force_at_end(), v, 1e-12, &what);
         let [[k_xx, k_xz], [k_zx, k_zz]] = cable.tangent();
@@ -40,21 +38,13 @@ fn end_forces_and_stiffness_agree_with_forty_digit_values() {
     }
 }
 
-/// MoorPy's own test rows, recomputed with mpmath (its row 8 is wrong by 3.6 % and not used): (dx, dz, L0, EA, w), H,
-/// V at start, V at end.
-#[rustfmt::skip]
-const MOORPY: [([f64; 5], f64, f64, f64); 5] = [
-    ([400.0, 200.0, 500.0, 7.51e12, 200.0], 43_694.604_622_068_7, -22_365.589_454_192, 77_634.410_545_808),
-    ([89.9, 59.2, 130.0, 7.51e8, 881.05], 31_373.234_876_305_675, -26_650.338_700_035_084, 87_886.161_299_964_92),
-    ([246.224_209_400_329_47, 263.557_663_308_431_64, 360.625_662_623_969_27, 7e8, 3.087_35], 71_116.817_198_612_98, 75_567.265_824_623_5, 76_680.643_464_125_61),
-    ([246.224_209_400_329_47, 263.557_663_308_431_64, 360.645_662_623_969_27, 7e8, 3.087_35], 46_077.271_172_417_89, 48_765.373_042_054_225, 49_878.812_428_556_34),
-    ([119.323_738_300_205_8, 52.496_688_491_781_13, 130.361_403_551_773_18, 7e8, 34.910_604_699_912_27], 72_694.649_894_215_43, 29_715.389_528_137_67, 34_266.384_955_659_36),
-];
-
 #[test]
 fn the_rows_of_moorpys_tests_agree() {
-    for ([dx, dz, length, ea, w], h, start, end) in MOORPY {
-        let cable = solve(dx, dz, length, ea, w);
+    assert_eq!(rows("catenary_moorpy").len(), 5);
+    for row in rows("catenary_moorpy") {
+        let [h, start, end] =
+            ["horizontal_force_n", "vertical_force_at_start_n", "vertical_force_at_end_n"].map(|key| number(row, key));
+        let cable = solve_row(row);
         // The taut rows have strains of 1e-4: the twelfth digit of the force is the sixteenth of the length.
         assert_close(cable.horizontal_force(), h, 2e-11, "H");
         assert_close(cable.vertical_force_at_start(), start, 2e-11, "V start");
@@ -64,35 +54,35 @@ fn the_rows_of_moorpys_tests_agree() {
 
 #[test]
 fn sags_of_code_aster_and_the_hanging_line_of_frydom_agree() {
-    // SSNL114 (V6.02.114): 325 m, own weight; sag 6.352 m stated to 1e-3, 6.35216146971447 m with mpmath.
-    let ea = 57e9 * 2.2783e-4;
-    let w = 2844.23 * 2.2783e-4 * 9.81;
-    let cable = solve(325.0, 0.0, 325.0, ea, w);
-    assert_close(cable.horizontal_force(), 13_206.239_149_360_694, 1e-11, "SSNL114 H");
-    assert_close(-cable.point_at(162.5)[1], 6.352_161_469_714_472, 1e-11, "SSNL114 sag");
-    // SSNL100: 13.93 m published; 13.9391933516305289 m with mpmath.
-    let cable = solve(100.0, 0.0, 105.0, 5e7, 30.0);
-    assert_close(-cable.point_at(52.5)[1], 13.939_193_351_630_53, 1e-12, "SSNL100 sag");
-    // FRyDoM's bench_hanging_cable, in water: H 11.47, tensions 47.14 and 26.63 kN as OrcaFlex's catenary prints.
-    let cable = solve(100.0, 50.0, 170.0, 5e8, 410.280_831_825_621_94);
-    assert_close(cable.horizontal_force() / 1e3, 11.471_869_498_836_605, 1e-12, "H");
-    assert_close(cable.tension_at_end() / 1e3, 47.137_846_595_090_5, 1e-12, "top");
-    assert_close(cable.tension_at_start() / 1e3, 26.625_318_072_828_543, 1e-12, "bottom");
-    // FRyDoM's bench_cables, strained by 18 %.
-    let cable = solve(20.0, 20.0, 24.041_630_560_342_616, 636_620_000.0 * 0.007_854, 616.538 * 9.81);
-    assert_close(cable.horizontal_force(), 625_312.577_046_026_5, 1e-12, "strained");
+    let line = |case: &str| {
+        let row = rows("hanging_lines").iter().find(|row| row["case"] == case).expect(case);
+        (solve_row(row), move |key| number(row, key))
+    };
+    // Sag 6.352 m stated to 1e-3.
+    let (cable, theirs) = line("SSNL114");
+    assert_close(cable.horizontal_force(), theirs("horizontal_force_n"), 1e-11, "SSNL114 H");
+    assert_close(-cable.point_at(162.5)[1], theirs("sag_at_mid_m"), 1e-11, "SSNL114 sag");
+    let (cable, theirs) = line("SSNL100");
+    assert_close(-cable.point_at(52.5)[1], theirs("sag_at_mid_m"), 1e-12, "SSNL100 sag");
+    let (cable, theirs) = line("bench_hanging_cable");
+    assert_close(cable.horizontal_force() / 1e3, theirs("horizontal_force_kn"), 1e-12, "H");
+    assert_close(cable.tension_at_end() / 1e3, theirs("tension_at_end_kn"), 1e-12, "top");
+    assert_close(cable.tension_at_start() / 1e3, theirs("tension_at_start_kn"), 1e-12, "bottom");
+    let (cable, theirs) = line("bench_cables");
+    assert_close(cable.horizontal_force(), theirs("horizontal_force_n"), 1e-12, "strained");
 }
 
-/// Michalos and Birnstiel's isolated cable: a load at a node between two cables; (A, E, w, span, lengths, load, g).
+/// A load at a node between two cables.
 #[test]
 fn the_isolated_cable_of_michalos_and_birnstiel_moves_as_published() {
-    const FOOT: f64 = 0.3048;
-    let (ea, w) = (0.85 * 19_000.0, 0.003_16);
-    let (left, right) = (412.883_7, 613.042_2);
+    let case = table("isolated_cable");
+    let of = |key| number(case, key);
+    let (ea, w) = (of("area_in2") * of("youngs_modulus_kip_per_in2"), of("weight_kip_per_ft"));
+    let ([left, right], span) = (numbers(case, "unstrained_lengths_ft"), of("span_ft"));
     // kip and feet throughout: the node at (x, z) is in balance with a load p downward.
     let balance = |x: f64, z: f64, p: f64| {
         let a = solve(x, -z.abs(), left, ea, w);
-        let b = solve(1000.0 - x, z.abs(), right, ea, w);
+        let b = solve(span - x, z.abs(), right, ea, w);
         let down = a.vertical_force_at_end() - b.vertical_force_at_start() + p;
         (b.horizontal_force() - a.horizontal_force(), -down)
     };
@@ -110,11 +100,13 @@ fn the_isolated_cable_of_michalos_and_birnstiel_moves_as_published() {
         (x, z)
     };
     let (x0, z0) = rest(0.0, 400.0, -96.0);
-    assert_close(-z0, 96.049_477_954_474_44, 1e-9, "sag");
-    assert_close(x0, 399.999_900_794_963_63, 1e-9, "node");
-    let (x1, z1) = rest(8.0, 398.0, -114.0);
-    assert_close((z1 - z0) * FOOT, -5.625_616_451_571_743, 1e-7, "vertical, published -5.626");
-    assert_close((x1 - x0) * FOOT, -0.859_365_123_311_387_8, 1e-6, "horizontal, published -0.859");
+    let [node_x, node_z] = numbers(case, "node_at_rest_ft");
+    assert_close(-z0, -node_z, 1e-9, "sag");
+    assert_close(x0, node_x, 1e-9, "node");
+    let (x1, z1) = rest(of("load_kip"), 398.0, -114.0);
+    let ([horizontal, vertical], foot) = (numbers(case, "displacement_under_load_m"), of("metres_per_foot"));
+    assert_close((z1 - z0) * foot, vertical, 1e-7, "vertical, published -5.626");
+    assert_close((x1 - x0) * foot, horizontal, 1e-6, "horizontal, published -0.859");
 }
 
 #[test]

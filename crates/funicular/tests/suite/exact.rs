@@ -128,7 +128,7 @@ fn both_ends_have_the_stiffness_of_transfer_matrices_undamped_and_damped() {
 }
 
 fn robot(id: &str) -> (Robot, Vec<f64>) {
-    let all: Value = serde_json::from_str(include_str!("data/independent.json")).unwrap();
+    let all: Value = serde_json::from_str(include_str!("../../reference/independent.json")).unwrap();
     let cases = all["cases"].as_array().unwrap().clone();
     let case = cases.into_iter().find(|case| case["id"] == id).unwrap();
     let robot = Robot::from_toml(case["toml"].as_str().unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! Fourteen robots against a separate program; see the head of data/independent.json.
+//! Fourteen robots against a separate program; see the head of reference/independent.json.
 
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::sync::LazyLock;
 
 static CASES: LazyLock<Vec<Value>> = LazyLock::new(|| {
-    let all: Value = serde_json::from_str(include_str!("data/independent.json")).unwrap();
+    let all: Value = serde_json::from_str(include_str!("../../reference/independent.json")).unwrap();
     all["cases"].as_array().unwrap().clone()
 });
 

@@ -8,6 +8,7 @@ mod exact;
 mod independent;
 mod modes;
 mod random;
+mod reference;
 mod response;
 mod robot_files;
 mod statics;

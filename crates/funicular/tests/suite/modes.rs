@@ -12,6 +12,8 @@ use funicular::statics::{self, CableState, Equilibrium, Stability, StaticModel};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
+use crate::reference::{list, number, numbers, rows, table};
+
 fn load(text: &str) -> (Robot, Vec<f64>) {
     let robot = Robot::from_toml(text).unwrap();
     let State::Lengths(lengths) = robot.state.clone() else { panic!("given by lengths") };
@@ -24,37 +26,18 @@ fn yuan() -> (Robot, Equilibrium) {
     (robot, rest)
 }
 
-/// Eight straight cables and a 30 kg point mass in the middle of a 2.5 m cube (Nguyen-Van, JMST 2020,
-/// doi 10.1007/s12206-020-0809-9; SAP2000 models Eight_60N and Eight_140N, CC0): (unstrained lengths, tensions of the
-/// model, first frequencies of continuous strings by the Wittrick-Williams count [Hz]).
-#[rustfmt::skip]
-const CUBE: [([f64; 8], &[f64]); 2] = [
-    (
-        [1.767_666_007_226_99, 1.767_666_007_226_99, 1.767_666_007_226_99, 1.767_666_007_226_99,
-         2.164_791_893_778_93, 2.164_791_892_915_13, 2.164_791_892_915_13, 2.164_791_897_450_09],
-        &[13.425120051, 13.428850801, 13.428850801, 13.4294160606, 13.4294160606, 13.4294160606, 13.4294160606,
-          13.4294160606, 16.2454887929, 16.2518994495, 16.2519409652, 16.2536197312, 16.2536248639, 16.2536938975,
-          16.253699769, 16.2537092308, 22.9066729684, 26.8569038385, 26.8569038385, 26.8588321211, 26.8588321211,
-          26.8588321211, 26.8588321211, 26.8588321211, 26.8738137304, 32.4973951243, 32.4974763884, 32.5072370071,
-          32.507246597, 32.5073876617, 32.5073993613, 32.5074184616, 32.5153892202, 38.5635742297, 38.5635745087],
-    ),
-    (
-        [1.767_522_771_214_67, 1.767_522_771_214_67, 1.767_522_771_214_67, 1.767_522_771_214_67,
-         2.164_791_802_432_18, 2.164_791_984_046_64, 2.164_791_984_046_64, 2.164_791_806_103_31],
-        &[16.2446506202, 16.2495810587, 16.2504211067, 16.2509816338, 16.2544705523, 16.2551715827, 16.2560166477,
-          16.2563645191, 20.827823042, 20.8857462669, 20.8857462685, 20.888388084, 20.888388084, 20.888388084,
-          20.888388084, 20.888388084, 22.9779372449, 32.4934497012, 32.4972122711, 32.5019632675, 32.5046483776,
-          32.50756244, 32.5113385547, 32.5127260683, 32.5180837127, 38.560611592, 38.5606302321],
-    ),
-];
-
+/// Eight straight cables and a 30 kg point mass in the middle of a 2.5 m cube.
 #[test]
 fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multiplicity() {
     let (mut robot, _) = load(include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"));
     // The published model is the linearisation at the middle of the cube with the tensions of its lengths, without sag.
     robot.gravity_w = Vec3::zeros();
-    for (lengths, expected) in CUBE {
-        let pose = Pose::new([1.25; 3], [0.0; 3]);
+    let cube = table("cube_point_mass");
+    assert_eq!(rows("cube_point_mass").len(), 2);
+    for row in rows("cube_point_mass") {
+        let lengths: [f64; 8] = numbers(row, "unstrained_length_m");
+        let expected = list(row, "frequencies_hz");
+        let pose = Pose::new(numbers(cube, "position_m"), [0.0; 3]);
         let cables = robot.cables.iter().zip(lengths).map(|(cable, unstrained_length)| {
             let axial_stiffness = cable.material.axial_stiffness;
             let rope = Rope { unstrained_length, weight_per_length: 0.0, axial_stiffness };
@@ -82,7 +65,7 @@ fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multipli
             / robot.cables[0].material.axial_stiffness;
         let dynamics = Dynamics::about(&robot, &state, Linearisation::default(), 20.0).unwrap();
         // The lists end before the third family of the strings.
-        let limit = 38.6;
+        let limit = number(cube, "limit_hz");
         let found = modes::below(&dynamics, limit);
         assert!(found.certified);
         assert_eq!(found.modes.len(), expected.len());
@@ -91,7 +74,8 @@ fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multipli
             // (ω l √(m/EA))²/3 (l = 2.165 m), its frequencies by up to half of that where a mode stretches the cables.
             // Its strings have the mass of the unstrained length spread over the stretched one, ours per length: half
             // of the strain.
-            let axial = (TAU * theirs * 2.165).powi(2) * 0.025_594_946 / 1_010_336.2;
+            let axial = (TAU * theirs * number(cube, "longest_cable_m")).powi(2) * number(cube, "mass_kg_per_m")
+                / number(cube, "axial_stiffness_n");
             let moves = if mode.platform_energy_fraction == 0.0 { 0.0 } else { axial / 6.0 };
             let bound = moves + 0.501 * strain;
             let gap = (mode.frequency_hz / theirs - 1.0).abs();

@@ -6,9 +6,20 @@ use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, Stability, StaticModel, StaticsError};
 use proptest::prelude::*;
 
+use crate::reference::{number, numbers, rows};
+
 const YUAN_4MM: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
 const YUAN_8MM: &str = include_str!("../../../../robots/yuan2014-8mm.toml");
 const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
+
+/// The file of the paper's robot that a row names.
+fn paper_robot(row: &serde_json::Value) -> &'static str {
+    match row["robot"].as_str() {
+        Some("yuan2014-4mm") => YUAN_4MM,
+        Some("yuan2014-8mm") => YUAN_8MM,
+        other => panic!("{other:?} is no robot of the paper"),
+    }
+}
 
 fn load(text: &str) -> (Robot, Vec<f64>) {
     let robot = Robot::from_toml(text).unwrap();
@@ -16,19 +27,13 @@ fn load(text: &str) -> (Robot, Vec<f64>) {
     (robot, lengths)
 }
 
-/// MoorPy 1.3.0 (elastic catenary, EA = E π d²/4, tolerance 1e-7, g 9.81): position [m], tensions at the platform [N].
-#[rustfmt::skip]
-const MOORPY: [(&str, f64, [f64; 3], [f64; 6]); 4] = [
-    (YUAN_4MM, 10.55, [0.0203, 0.01023, 0.45548], [17.69, 36.93, 39.89, 15.64, 50.44, 52.55]),
-    (YUAN_4MM, 86.35, [0.01643, 0.00999, 0.43526], [102.54, 311.24, 343.6, 78.49, 378.44, 391.71]),
-    (YUAN_8MM, 10.55, [2.92521, -8e-05, 0.56726], [49.45, 22.95, 20.55, 50.3, 41.26, 39.56]),
-    (YUAN_8MM, 86.35, [3.00329, -0.00341, 0.50409], [319.6, 151.92, 139.81, 320.87, 272.52, 219.46]),
-];
-
 #[test]
 fn the_papers_robot_rests_where_moorpy_finds_it() {
-    for (text, mass, position, tensions) in MOORPY {
-        let (robot, lengths) = load(text);
+    assert_eq!(rows("paper_robot_equilibria").len(), 4);
+    for row in rows("paper_robot_equilibria") {
+        let (mass, position) = (number(row, "mass_kg"), numbers(row, "position_m"));
+        let tensions: [f64; 6] = numbers(row, "tension_platform_n");
+        let (robot, lengths) = load(paper_robot(row));
         let rest = statics::forward(&robot.with_mass(mass), &lengths, StaticModel::Catenary, None).unwrap();
         // Five decimals and 0.01 N are what the table prints.
         assert!((rest.pose.position_w - Vec3::from(position)).amax() < 6e-6);
@@ -41,8 +46,10 @@ fn the_papers_robot_rests_where_moorpy_finds_it() {
 
 #[test]
 fn ideal_poses_close_the_lengths_of_tables_i_and_ii() {
-    for (text, position) in [(YUAN_4MM, [0.0089, 0.0098, 0.4521]), (YUAN_8MM, [3.0047, -0.0048, 0.5049])] {
-        let (robot, lengths) = load(text);
+    assert_eq!(rows("paper_robot_ideal_poses").len(), 2);
+    for row in rows("paper_robot_ideal_poses") {
+        let position = numbers(row, "position_m");
+        let (robot, lengths) = load(paper_robot(row));
         let rest = statics::forward(&robot, &lengths, StaticModel::Ideal, None).unwrap();
         assert!((rest.pose.position_w - Vec3::from(position)).amax() < 6e-5);
         for (cable, length) in rest.cables.iter().zip(&lengths) {

@@ -1,0 +1,218 @@
+//! Fourteen robots against a separate program.
+
+use super::reference::{ComplexMatrix, Independent, IndependentCase, Matrix, ModeList, Response, robot};
+use super::{Bound, Case, Kind, Row, Section, largest, over, worst};
+use anyhow::{Result, ensure};
+use funicular::cable::{CableModel, Sag};
+use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
+use funicular::math::{Complex, Mat6, Vec3, Vec6, rotation};
+use funicular::modes;
+use funicular::response::{self, Direction, Quantity};
+use funicular::robot::{Damping, Robot};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use std::f64::consts::TAU;
+
+/// Limit of the frequencies of the cases [Hz].
+const BELOW_HZ: f64 = 20.0;
+
+pub(super) fn section(independent: &Independent) -> Result<Section> {
+    let mut rows = Vec::new();
+    for given in &independent.cases {
+        let (robot, lengths) = robot(&given.toml)?;
+        let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+        ensure!(given.equilibrium.cables.len() == robot.cables.len(), "{}: a row a cable is missing", given.id);
+        let springs = statics::forward(&robot, &lengths, StaticModel::Spring, None)?;
+        let compared =
+            Compared { case: Case { name: given.id.clone(), source: &independent.about }, given, robot, rest };
+        compared.equilibrium(&mut rows);
+        compared.springs(&springs, &mut rows);
+        compared.static_stiffness(&mut rows)?;
+        compared.closed_form_stiffness(&mut rows)?;
+        compared.modes(&mut rows)?;
+        compared.responses(&mut rows)?;
+    }
+    Ok(Section {
+        title: "Fourteen robots, computed independently",
+        note: "Both programs have the same models and no code in common. Equilibria need no start. Of matrices the \
+               largest entry is shown and all entries are compared, moments and rotations divided by the mean distance \
+               of the attachments from the origin; of lists the last or largest value is shown and all are compared.",
+        rows,
+    })
+}
+
+struct Compared<'a> {
+    case: Case<'a>,
+    given: &'a IndependentCase,
+    robot: Robot,
+    rest: Equilibrium,
+}
+
+impl Compared<'_> {
+    fn equilibrium(&self, rows: &mut Vec<Row>) {
+        let (case, theirs, cables) = (&self.case, &self.given.equilibrium, &self.given.equilibrium.cables);
+        let position: [f64; 3] = self.rest.pose.position_w.into();
+        rows.push(case.absolute("position [m]", &theirs.position_m, &position, 1e-10, Bound::Rounding));
+        let turn = rotation::quaternion_wxyz(&self.rest.pose.rot_wp);
+        rows.push(case.absolute("quaternion w, x, y, z", &theirs.quaternion_wxyz, &turn, 1e-10, Bound::Rounding));
+        // Both ends of every cable; the largest is shown.
+        let pairs: Vec<[f64; 2]> = cables
+            .iter()
+            .zip(&self.rest.cables)
+            .flat_map(|(a, b)| [[a.tension_platform_n, b.tension_platform], [a.tension_anchor_n, b.tension_anchor]])
+            .collect();
+        rows.push(self.each("tensions at both ends, largest [N]", &pairs, 1e-9));
+        let sags: Vec<Sag> =
+            self.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(&self.robot, i, cable)).collect();
+        let pairs: Vec<[f64; 2]> = cables.iter().zip(&sags).map(|(a, b)| [a.sag_ratio, b.ratio()]).collect();
+        rows.push(self.each("sag over chord, largest", &pairs, 1e-9));
+        let pairs: Vec<[f64; 2]> = cables.iter().zip(&sags).map(|(a, b)| [a.lambda2, b.lambda2]).collect();
+        rows.push(self.each("λ², largest", &pairs, 1e-9));
+        let pairs: Vec<[f64; 2]> = cables.iter().zip(&self.rest.cables).map(|(a, b)| [a.chord_m, b.chord()]).collect();
+        rows.push(self.each("chords, largest [m]", &pairs, 1e-12));
+        let forces = cables.iter().zip(&self.rest.cables).map(|(a, b)| {
+            let theirs = Vec3::from(a.force_on_platform_n);
+            (b.force_on_platform_w - theirs).norm() / theirs.norm()
+        });
+        let shown = |force: Vec3| <[f64; 3]>::from(force);
+        rows.push(case.row(
+            "forces on the platform, first [N]",
+            (&shown(Vec3::from(cables[0].force_on_platform_n)), &shown(self.rest.cables[0].force_on_platform_w)),
+            (worst(forces), Kind::Relative),
+            1e-9,
+            Bound::Rounding,
+        ));
+    }
+
+    /// Pairs (theirs, ours), each with its own relative difference; the one with the largest of theirs is shown.
+    fn each(&self, quantity: &str, pairs: &[[f64; 2]], tolerance: f64) -> Row {
+        let difference = worst(pairs.iter().map(|[a, b]| over((a - b).abs(), a.abs())));
+        let [a, b] = pairs.iter().copied().max_by(|x, y| x[0].total_cmp(&y[0])).unwrap_or_default();
+        self.case.row(quantity, (&[a], &[b]), (difference, Kind::Relative), tolerance, Bound::Rounding)
+    }
+
+    fn springs(&self, springs: &Equilibrium, rows: &mut Vec<Row>) {
+        let (case, theirs) = (&self.case, &self.given.spring);
+        let position: [f64; 3] = springs.pose.position_w.into();
+        rows.push(case.absolute("springs: position [m]", &theirs.position_m, &position, 1e-10, Bound::Rounding));
+        let tensions: Vec<f64> = springs.cables.iter().map(|cable| cable.tension_platform).collect();
+        let quantity = "springs: tensions [N]";
+        rows.push(case.together(quantity, &theirs.tension_n, &tensions, 1e-9, Bound::Rounding));
+    }
+
+    /// Largest difference over the largest entry, rotations scaled by ℓ.
+    fn matrix(&self, quantity: &str, theirs: &Matrix, ours: &Mat6) -> Row {
+        let ell = self.robot.platform_length();
+        let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / ell };
+        let entries = |of: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+            (0..36).map(|n| of(n / 6, n % 6) * scale(n / 6) * scale(n % 6)).collect()
+        };
+        let (theirs, ours) = (entries(&|i, j| theirs[i][j]), entries(&|i, j| ours[(i, j)]));
+        let mut row = self.case.together(quantity, &theirs, &ours, 1e-9, Bound::Rounding);
+        let size = largest(&theirs);
+        let at = theirs.iter().position(|value| value.abs() >= size).unwrap_or(0);
+        (row.theirs, row.ours) = (vec![theirs[at]], vec![ours[at]]);
+        row
+    }
+
+    fn static_stiffness(&self, rows: &mut Vec<Row>) -> Result<()> {
+        let consistent = statics::tangent_stiffness(&self.robot, &self.rest).ok_or(DynamicsError::Rigid)?;
+        let theirs = &self.given.static_tangent_consistent;
+        rows.push(self.matrix("static stiffness, consistent [N/m]", theirs, &consistent));
+        let linearisation =
+            Linearisation { cable_model: CableModel::CatenaryTangent, assembly: Assembly::Paper, in_plane_only: false };
+        let paper = Dynamics::about(&self.robot, &self.rest, linearisation, BELOW_HZ)?.stiffness(0.0).map(|k| k.re);
+        rows.push(self.matrix("static stiffness, paper [N/m]", &self.given.static_tangent_paper, &paper));
+        Ok(())
+    }
+
+    fn closed(&self, robot: &Robot, assembly: Assembly, in_plane_only: bool) -> Result<Dynamics, DynamicsError> {
+        let linearisation = Linearisation { cable_model: CableModel::ClosedForm, assembly, in_plane_only };
+        Dynamics::about(robot, &self.rest, linearisation, BELOW_HZ)
+    }
+
+    fn closed_form_stiffness(&self, rows: &mut Vec<Row>) -> Result<()> {
+        let given = self.given;
+        let omega = given.closed_form_at_hz * TAU;
+        let mut quiet = self.robot.clone();
+        for cable in &mut quiet.cables {
+            cable.material.damping = Damping::Ratio(0.0);
+        }
+        let at = format!("closed form at {} Hz", given.closed_form_at_hz);
+        for (assembly, in_plane_only, name, theirs) in [
+            (Assembly::Consistent, false, "consistent", &given.closed_form_consistent_undamped),
+            (Assembly::Paper, false, "paper", &given.closed_form_paper_undamped),
+            (Assembly::Consistent, true, "in plane only", &given.closed_form_consistent_in_plane_only_undamped),
+        ] {
+            let k = self.closed(&quiet, assembly, in_plane_only)?.stiffness(omega).map(|k| k.re);
+            rows.push(self.matrix(&format!("{at}, {name} [N/m]"), theirs, &k));
+        }
+        let k = self.closed(&self.robot, Assembly::Consistent, false)?.stiffness(omega);
+        let ComplexMatrix { real, imag } = &given.closed_form_consistent_damped;
+        rows.push(self.matrix(&format!("{at}, damped, real part [N/m]"), real, &k.map(|k| k.re)));
+        rows.push(self.matrix(&format!("{at}, damped, imaginary part [N/m]"), imag, &k.map(|k| k.im)));
+        Ok(())
+    }
+
+    fn modes(&self, rows: &mut Vec<Row>) -> Result<()> {
+        for (in_plane_only, name, theirs) in
+            [(false, "", &self.given.modes), (true, ", in plane only", &self.given.modes_in_plane_only)]
+        {
+            let ModeList { below_hz, frequencies_hz, platform_at_rest } = theirs;
+            let found = modes::below(&self.closed(&self.robot, Assembly::Consistent, in_plane_only)?, *below_hz);
+            let count = format!("modes below {below_hz} Hz{name}");
+            // A list that its own count does not certify is no list.
+            let certified = if found.certified { found.modes.len() } else { 0 };
+            rows.push(self.case.count(&count, frequencies_hz.len(), certified));
+            let resting: f64 = platform_at_rest.iter().map(|(_, several)| several).sum();
+            let found_resting = found.modes.iter().filter(|mode| mode.platform_energy_fraction == 0.0).count();
+            rows.push(self.case.count(
+                &format!("of them with the platform at rest{name}"),
+                resting as usize,
+                found_resting,
+            ));
+            let pairs: Vec<[f64; 2]> =
+                frequencies_hz.iter().zip(&found.modes).map(|(a, b)| [*a, b.frequency_hz]).collect();
+            rows.push(self.each(&format!("natural frequencies{name}, last [Hz]"), &pairs, 1e-10));
+        }
+        Ok(())
+    }
+
+    fn responses(&self, rows: &mut Vec<Row>) -> Result<()> {
+        let dynamics = self.closed(&self.robot, Assembly::Consistent, false)?;
+        let along =
+            |direction_w: Vec3, point_p: Vec3| Direction::Along { direction_w, point_p }.vector(&self.rest.pose);
+        let frf = &self.given.frf;
+        let (up, aside) = (along(Vec3::z(), Vec3::zeros()), along(Vec3::y(), Vec3::zeros()));
+        let ours = |frequencies: &[f64], input: &Vec6, output: &Vec6, quantity| {
+            response::frf(&dynamics, frequencies, input, output, quantity)
+        };
+        let az = ours(&frf.frequency_hz, &up, &up, Quantity::Acceleration)?;
+        let ay = ours(&frf.frequency_hz, &up, &aside, Quantity::Acceleration)?;
+        rows.push(self.response("accelerance az/fz, largest [1/kg]", &frf.az, &frf.az, &az));
+        // Of a symmetric robot ay is zero: compared with az.
+        rows.push(self.response("accelerance ay/fz, largest [1/kg]", &frf.ay, &frf.az, &ay));
+        let offset = &self.given.frf_offset;
+        let input = along(Vec3::from(offset.input_direction_w), Vec3::from(offset.input_point_p));
+        let output = along(Vec3::from(offset.output_direction_w), Vec3::from(offset.output_point_p));
+        let x = ours(&offset.frequency_hz, &input, &output, Quantity::Displacement)?;
+        let quantity = "receptance between offset points, largest [m/N]";
+        rows.push(self.response(quantity, &offset.response, &offset.response, &x));
+        Ok(())
+    }
+
+    /// Differences over the larger of theirs and `scale` at each frequency; the largest modulus is shown.
+    fn response(&self, quantity: &str, theirs: &Response, scale: &Response, ours: &[Complex]) -> Row {
+        let complex = |of: &Response| -> Vec<Complex> {
+            of.real.iter().zip(&of.imag).map(|(re, im)| Complex::new(*re, *im)).collect()
+        };
+        let (theirs, scale) = (complex(theirs), complex(scale));
+        let gaps = (0..theirs.len().max(ours.len())).map(|i| match (theirs.get(i), scale.get(i), ours.get(i)) {
+            (Some(a), Some(s), Some(b)) => (b - a).norm() / s.norm().max(a.norm()),
+            _ => f64::NAN,
+        });
+        let difference = worst(gaps);
+        let shown = |of: &[Complex]| largest(&of.iter().map(|z| z.norm()).collect::<Vec<_>>());
+        let shown = (&[shown(&theirs)][..], &[shown(ours)][..]);
+        self.case.row(quantity, shown, (difference, Kind::Relative), 1e-8, Bound::Rounding)
+    }
+}

@@ -1,0 +1,346 @@
+//! The files of crates/funicular/reference.
+
+use anyhow::{Context, Result, anyhow};
+use funicular::robot::{Robot, State};
+use serde::Deserialize;
+
+/// A table without values of its own.
+#[derive(Deserialize)]
+pub(super) struct Table<R> {
+    pub(super) source: String,
+    pub(super) rows: Vec<R>,
+}
+
+/// published.json.
+#[derive(Deserialize)]
+pub(super) struct Published {
+    pub(super) catenary_grid: Table<GridCable>,
+    pub(super) catenary_moorpy: Table<MoorpyCable>,
+    pub(super) hanging_lines: Table<HangingLine>,
+    pub(super) isolated_cable: IsolatedCable,
+    pub(super) irvine_caughey: Table<Roots>,
+    pub(super) fig2_cable: Fig2,
+    pub(super) fig2_closed_form: Table<ClosedFormRow>,
+    pub(super) fig2_finite_elements: Table<FiniteElementRow>,
+    pub(super) bessel_cable: Bessel,
+    pub(super) paper_robot_equilibria: Table<PaperEquilibrium>,
+    pub(super) paper_robot_ideal_poses: Table<IdealPose>,
+    pub(super) cube_point_mass: Cube,
+}
+
+/// What the catenary needs.
+#[derive(Deserialize)]
+pub(super) struct HungBetween {
+    pub(super) span_m: f64,
+    pub(super) rise_m: f64,
+    pub(super) unstrained_length_m: f64,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) weight_n_per_m: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct GridCable {
+    #[serde(flatten)]
+    pub(super) hung: HungBetween,
+    pub(super) horizontal_force_n: f64,
+    pub(super) vertical_force_at_end_n: f64,
+    pub(super) end_stiffness_xx_xz_zz_n_per_m: [f64; 3],
+}
+
+#[derive(Deserialize)]
+pub(super) struct MoorpyCable {
+    #[serde(flatten)]
+    pub(super) hung: HungBetween,
+    pub(super) horizontal_force_n: f64,
+    pub(super) vertical_force_at_start_n: f64,
+    pub(super) vertical_force_at_end_n: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct HangingLine {
+    pub(super) case: String,
+    pub(super) source: String,
+    #[serde(flatten)]
+    pub(super) hung: HungBetween,
+    pub(super) horizontal_force_n: Option<f64>,
+    pub(super) sag_at_mid_m: Option<f64>,
+    pub(super) horizontal_force_kn: Option<f64>,
+    pub(super) tension_at_end_kn: Option<f64>,
+    pub(super) tension_at_start_kn: Option<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct IsolatedCable {
+    pub(super) source: String,
+    pub(super) metres_per_foot: f64,
+    pub(super) youngs_modulus_kip_per_in2: f64,
+    pub(super) area_in2: f64,
+    pub(super) weight_kip_per_ft: f64,
+    pub(super) span_ft: f64,
+    pub(super) unstrained_lengths_ft: [f64; 2],
+    pub(super) load_kip: f64,
+    pub(super) node_at_rest_ft: [f64; 2],
+    pub(super) displacement_under_load_m: [f64; 2],
+    pub(super) published_displacement_m: [f64; 2],
+}
+
+#[derive(Deserialize)]
+pub(super) struct Roots {
+    /// None for the inextensible cable.
+    pub(super) lambda2: Option<f64>,
+    pub(super) roots: [f64; 4],
+}
+
+#[derive(Deserialize)]
+pub(super) struct Fig2 {
+    pub(super) source: String,
+    pub(super) chord_m: f64,
+    pub(super) inclination_deg: f64,
+    pub(super) tension_n: f64,
+    pub(super) youngs_modulus_pa: f64,
+    pub(super) area_m2: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) gravity_m_s2: f64,
+    pub(super) published: Fig2Printed,
+    pub(super) from_table_ii: Fig2Defined,
+    pub(super) mass_of_published_lambda2_kg_per_m: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Fig2Printed {
+    pub(super) lambda2: f64,
+    pub(super) epsilon: f64,
+    pub(super) effective_length_over_chord: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Fig2Defined {
+    pub(super) source: String,
+    pub(super) lambda2: f64,
+    pub(super) epsilon: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ClosedFormRow {
+    pub(super) frequency_hz: f64,
+    pub(super) damping_ratio: f64,
+    pub(super) axial_n_per_m: [f64; 2],
+    pub(super) coupling_n_per_m: [f64; 2],
+    pub(super) normal_n_per_m: [f64; 2],
+    pub(super) out_of_plane_n_per_m: [f64; 2],
+}
+
+#[derive(Deserialize)]
+pub(super) struct FiniteElementRow {
+    pub(super) frequency_hz: f64,
+    pub(super) upper_end_moves: bool,
+    pub(super) stiffness_xx_xz_zz_yy_n_per_m: [f64; 4],
+}
+
+#[derive(Deserialize)]
+pub(super) struct Bessel {
+    pub(super) source: String,
+    pub(super) length_m: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) gravity_m_s2: f64,
+    pub(super) rows: Vec<BesselRow>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct BesselRow {
+    pub(super) lower_tension_n: f64,
+    pub(super) clamped_rad_per_s: [f64; 3],
+    pub(super) stiffness_at_rest_n_per_m: f64,
+    pub(super) stiffness_at_1_rad_per_s_n_per_m: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct PaperEquilibrium {
+    pub(super) robot: String,
+    pub(super) mass_kg: f64,
+    pub(super) position_m: [f64; 3],
+    pub(super) tension_platform_n: [f64; 6],
+}
+
+#[derive(Deserialize)]
+pub(super) struct IdealPose {
+    pub(super) robot: String,
+    pub(super) position_m: [f64; 3],
+    pub(super) rotation_vector_deg: [f64; 3],
+}
+
+#[derive(Deserialize)]
+pub(super) struct Cube {
+    pub(super) source: String,
+    pub(super) position_m: [f64; 3],
+    pub(super) longest_cable_m: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) limit_hz: f64,
+    pub(super) rows: Vec<CubeRow>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct CubeRow {
+    pub(super) model: String,
+    pub(super) unstrained_length_m: [f64; 8],
+    pub(super) frequencies_hz: Vec<f64>,
+}
+
+/// independent.json.
+#[derive(Deserialize)]
+pub(super) struct Independent {
+    #[serde(rename = "_about")]
+    pub(super) about: String,
+    pub(super) cases: Vec<IndependentCase>,
+}
+
+pub(super) type Matrix = [[f64; 6]; 6];
+
+#[derive(Deserialize)]
+pub(super) struct IndependentCase {
+    pub(super) id: String,
+    pub(super) toml: String,
+    pub(super) equilibrium: Equilibrium,
+    pub(super) spring: SpringEquilibrium,
+    pub(super) static_tangent_consistent: Matrix,
+    pub(super) static_tangent_paper: Matrix,
+    pub(super) closed_form_at_hz: f64,
+    pub(super) closed_form_consistent_undamped: Matrix,
+    pub(super) closed_form_paper_undamped: Matrix,
+    pub(super) closed_form_consistent_in_plane_only_undamped: Matrix,
+    pub(super) closed_form_consistent_damped: ComplexMatrix,
+    pub(super) modes: ModeList,
+    pub(super) modes_in_plane_only: ModeList,
+    pub(super) frf: Frf,
+    pub(super) frf_offset: FrfOffset,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Equilibrium {
+    pub(super) position_m: [f64; 3],
+    pub(super) quaternion_wxyz: [f64; 4],
+    pub(super) cables: Vec<CableRow>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct CableRow {
+    pub(super) tension_platform_n: f64,
+    pub(super) tension_anchor_n: f64,
+    pub(super) chord_m: f64,
+    pub(super) sag_ratio: f64,
+    pub(super) lambda2: f64,
+    pub(super) force_on_platform_n: [f64; 3],
+}
+
+#[derive(Deserialize)]
+pub(super) struct SpringEquilibrium {
+    pub(super) position_m: [f64; 3],
+    pub(super) tension_n: Vec<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ComplexMatrix {
+    pub(super) real: Matrix,
+    pub(super) imag: Matrix,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ModeList {
+    pub(super) below_hz: f64,
+    pub(super) frequencies_hz: Vec<f64>,
+    /// Frequency and number of modes there with the platform at rest.
+    pub(super) platform_at_rest: Vec<(f64, f64)>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Response {
+    pub(super) real: Vec<f64>,
+    pub(super) imag: Vec<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Frf {
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) ay: Response,
+    pub(super) az: Response,
+}
+
+#[derive(Deserialize)]
+pub(super) struct FrfOffset {
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) input_direction_w: [f64; 3],
+    pub(super) input_point_p: [f64; 3],
+    pub(super) output_direction_w: [f64; 3],
+    pub(super) output_point_p: [f64; 3],
+    #[serde(flatten)]
+    pub(super) response: Response,
+}
+
+/// Exact cables alone and in robots.
+#[derive(Deserialize)]
+pub(super) struct Exact {
+    #[serde(rename = "_about")]
+    pub(super) about: String,
+    pub(super) cables: Vec<ExactCable>,
+    pub(super) robots: Vec<ExactRobot>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ExactCable {
+    pub(super) id: String,
+    pub(super) start_m: [f64; 3],
+    pub(super) end_m: [f64; 3],
+    pub(super) unstrained_length_m: f64,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) gravity_m_s2: [f64; 3],
+    pub(super) clamped_in_plane_hz: Vec<f64>,
+    pub(super) clamped_out_of_plane_hz: Vec<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ExactRobot {
+    pub(super) id: String,
+    pub(super) below_hz: f64,
+    pub(super) frequencies_hz: Vec<f64>,
+    pub(super) frf: ExactResponse,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ExactResponse {
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) real: Vec<f64>,
+    pub(super) imag: Vec<f64>,
+}
+
+pub(super) fn published() -> Result<Published> {
+    serde_json::from_str(include_str!("../../../funicular/reference/published.json")).context("published.json")
+}
+
+pub(super) fn independent() -> Result<Independent> {
+    serde_json::from_str(include_str!("../../../funicular/reference/independent.json")).context("independent.json")
+}
+
+pub(super) fn exact() -> Result<Exact> {
+    serde_json::from_str(include_str!("../../../funicular/reference/exact.json")).context("exact.json")
+}
+
+/// A robot and its unstrained lengths.
+pub(super) fn robot(text: &str) -> Result<(Robot, Vec<f64>)> {
+    let robot = Robot::from_toml(text)?;
+    match robot.state.clone() {
+        State::Lengths(lengths) => Ok((robot, lengths)),
+        State::Pose(_) | State::Unknown => Err(anyhow!("{} gives no unstrained lengths", robot.name)),
+    }
+}
+
+/// A robot of the library by its file's name.
+pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
+    robot(match name {
+        "yuan2014-4mm" => include_str!("../../../../robots/yuan2014-4mm.toml"),
+        "yuan2014-8mm" => include_str!("../../../../robots/yuan2014-8mm.toml"),
+        "sap2000-8-cable-point-mass" => include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"),
+        other => return Err(anyhow!("the comparisons use no robot {other}")),
+    })
+}
