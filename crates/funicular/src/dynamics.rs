@@ -34,12 +34,12 @@ pub struct Linearisation {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
     /// A cable has no exact dynamic stiffness.
-    #[error("cable \"{cable}\": {source}")]
+    #[error("cable \"{cable}\": {reason}")]
     Exact {
         /// Name of the cable.
         cable: String,
         /// Why.
-        source: ExactError,
+        reason: ExactError,
     },
     /// A cable carries no tension.
     #[error(
@@ -64,7 +64,7 @@ impl DynamicsError {
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
-            NoStiffness::Exact(source) => Self::Exact { cable, source },
+            NoStiffness::Exact(reason) => Self::Exact { cable, reason },
         }
     }
 }

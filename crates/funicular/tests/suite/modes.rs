@@ -243,7 +243,7 @@ proptest! {
         let dynamics = match Dynamics::about(&robot, &rest, linearisation, limit) {
             Ok(dynamics) => dynamics,
             // Very slack and heavy cables have hundreds of resonances there: refused with a reason.
-            Err(DynamicsError::Exact { source: ExactError::TooFine { .. }, .. }) => return Ok(()),
+            Err(DynamicsError::Exact { reason: ExactError::TooFine { .. }, .. }) => return Ok(()),
             Err(other) => return Err(TestCaseError::fail(other.to_string())),
         };
         let found = modes::below(&dynamics, limit);
