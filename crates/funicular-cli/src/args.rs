@@ -13,8 +13,8 @@ use values::{Input, Lengths, MassRange, Output, PoseNumbers};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// Every command but `validate` reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
-/// unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
+/// All but `paper` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
+/// the unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
 #[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]
@@ -60,6 +60,14 @@ pub(crate) enum Command {
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
+    /// All of it on one page, figures included
+    #[command(after_help = "Examples:\n  funicular report\n  \
+        funicular report robots/cogiro.toml -o cogiro.html\n  \
+        funicular report robots/yuan2014-4mm.toml --pose 0,0,0.5 --below-hz 10 --input f:1,0,1 --output x")]
+    Report(ReportArgs),
+    /// Every figure and table of Yuan et al. 2014, theirs beside ours, on one page
+    #[command(after_help = "Example:\n  funicular paper -o paper.html")]
+    Paper(PaperArgs),
     /// Compare the program with numbers that others published or computed; exit code 1 if one is not within tolerance
     #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
         funicular validate --format json")]
@@ -72,7 +80,13 @@ pub(crate) struct RobotArgs {
     /// Robot file (TOML), or - for standard input
     #[arg(value_name = "ROBOT")]
     pub(crate) robot: PathBuf,
+    #[command(flatten)]
+    pub(crate) changes: ChangeArgs,
+}
 
+/// Changes of the robot file.
+#[derive(Debug, Args)]
+pub(crate) struct ChangeArgs {
     /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by their name; repeatable)
     #[arg(long, value_name = "PATH=VALUE", value_parser = crate::set::assignment)]
     pub(crate) set: Vec<Assignment>,
@@ -106,7 +120,14 @@ pub(crate) struct ModelArgs {
     /// How cables answer motion of the platform [default: closed-form]
     #[arg(long, value_name = "MODEL", value_enum)]
     pub(crate) cable_model: Option<CableModelName>,
+    #[command(flatten)]
+    pub(crate) terms: TermArgs,
+}
 
+/// What of a cable's stiffness counts.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Model")]
+pub(crate) struct TermArgs {
     /// Terms of the stiffness: all (consistent), or the cables' end stiffness only, as Yuan et al. 2014 (paper)
     #[arg(long, value_name = "TERMS", value_enum, default_value_t)]
     pub(crate) assembly: AssemblyName,
@@ -124,7 +145,7 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 
-    /// Write the result to FILE, as a whole or not at all, instead of standard output
+    /// Write the result to FILE, as a whole or not at all, instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output_file: Option<PathBuf>,
 }
@@ -215,14 +236,8 @@ pub(crate) struct FrfArgs {
     /// Displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…, a:… along a direction; world axes
     #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
     pub(crate) output: Output,
-
-    /// Point where the force acts, platform frame [m] [default: the origin]
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub(crate) input_point_m: Option<Vec3>,
-
-    /// Point whose motion is measured, platform frame [m] [default: the origin]
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub(crate) output_point_m: Option<Vec3>,
+    #[command(flatten)]
+    pub(crate) points: PointArgs,
 
     /// Least height of a peak above the valleys beside it [dB]
     #[arg(long, value_name = "DB", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "1")]
@@ -236,6 +251,18 @@ pub(crate) struct FrfArgs {
     pub(crate) sink: OutputArgs,
 }
 
+/// Where a response begins and ends.
+#[derive(Debug, Args)]
+pub(crate) struct PointArgs {
+    /// Point where the force acts, platform frame [m] [default: the origin]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) input_point_m: Option<Vec3>,
+
+    /// Point whose motion is measured, platform frame [m] [default: the origin]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) output_point_m: Option<Vec3>,
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
     #[command(flatten)]
@@ -247,15 +274,8 @@ pub(crate) struct CompareArgs {
 
     #[command(flatten)]
     pub(crate) state: StateArgs,
-
-    /// Terms of the stiffness: all (consistent), or the cables' end stiffness only, as Yuan et al. 2014 (paper)
-    #[arg(long, value_name = "TERMS", value_enum, default_value_t)]
-    pub(crate) assembly: AssemblyName,
-
-    /// Leave out the stiffness of cables out of their planes, as Yuan et al. 2014
-    #[arg(long)]
-    pub(crate) in_plane_only: bool,
-
+    #[command(flatten)]
+    pub(crate) terms: TermArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }
@@ -305,6 +325,45 @@ pub(crate) struct CableArgs {
 
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArgs {
+    /// Robot file (TOML), or - for standard input [default: the robot that the program carries, yuan2014-4mm.toml]
+    #[arg(value_name = "ROBOT")]
+    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: ChangeArgs,
+
+    /// Limit of the frequencies [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value = "20")]
+    pub(crate) below_hz: f64,
+
+    /// Force or moment of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, as of `funicular frf`
+    #[arg(long, value_name = "INPUT", value_parser = values::input, default_value = "fz")]
+    pub(crate) input: Input,
+
+    /// Motion of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, as of `funicular frf`
+    #[arg(long, value_name = "OUTPUT", value_parser = values::output, default_value = "az")]
+    pub(crate) output: Output,
+    #[command(flatten)]
+    pub(crate) points: PointArgs,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+
+    /// Write the page to FILE, as a whole or not at all; - is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "funicular-report.html", help_heading = "Output")]
+    pub(crate) output_file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PaperArgs {
+    /// Write the page to FILE, as a whole or not at all; - is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "funicular-paper.html")]
+    pub(crate) output_file: PathBuf,
 }
 
 #[derive(Debug, Args)]

@@ -41,6 +41,11 @@ pub(crate) fn warn(warning: &str) {
     to_stderr(&format!("{} {warning}", styled("warning:", "33")));
 }
 
+/// Prints what was done.
+pub(crate) fn note(note: &str) {
+    to_stderr(note);
+}
+
 /// Colours are for terminals whose user has not refused them (no-color.org).
 pub(crate) fn stderr_has_colour() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())

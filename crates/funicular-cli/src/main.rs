@@ -6,6 +6,7 @@ mod errors;
 mod grid;
 mod json;
 mod output;
+mod page;
 mod progress;
 mod robot_file;
 mod set;
@@ -44,16 +45,17 @@ fn run(command: &Command) -> Result<()> {
         Command::Compare(args) => steps(&args.robot, &args.output, |robot| commands::compare::run(robot, args)),
         Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
+        Command::Report(args) => commands::report::run(args),
+        Command::Paper(args) => commands::paper::run(args),
         Command::Validate(args) => validate(args),
     }
 }
 
-/// What every command does.
+/// What every command does that prints a result.
 fn steps<R: Results>(robot: &RobotArgs, output: &OutputArgs, analyse: impl FnOnce(Robot) -> Result<R>) -> Result<()> {
-    let robot_file = robot;
-    let robot = robot_file::read(robot_file)?;
-    let sink = Sink::open(output, Some(robot_file))?;
-    let results = analyse(robot)?;
+    let file = robot_file::read(Some(&robot.robot), &robot.changes)?;
+    let sink = Sink::open(output, Some(&robot.robot))?;
+    let results = analyse(file.robot)?;
     sink.write(&results)
 }
 

@@ -1,6 +1,6 @@
 //! Where a result goes: standard output, or a file that is written as a whole or not at all.
 
-use crate::args::{Format, OutputArgs, RobotArgs};
+use crate::args::{Format, OutputArgs};
 use crate::errors::NoSolution;
 use crate::json;
 use anyhow::{Context, Result, anyhow, bail};
@@ -27,31 +27,22 @@ pub(crate) trait Results: Serialize {
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
 }
 
-/// Where the result goes, in which format.
-pub(crate) struct Sink {
-    format: Format,
+/// Standard output, or a file that is written as a whole or not at all.
+pub(crate) struct Target {
     file: Option<PathBuf>,
 }
 
-impl Sink {
-    /// Checks that the result can be written, before work begins that may take long.
-    pub(crate) fn open(args: &OutputArgs, robot: Option<&RobotArgs>) -> Result<Self> {
-        let Some(path) = &args.output_file else {
-            return Ok(Self { format: args.format.unwrap_or(Format::Text), file: None });
-        };
-        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
-        let format = args.format.unwrap_or(match ending.as_deref() {
-            Some("json") => Format::Json,
-            Some("csv") => Format::Csv,
-            _ => Format::Text,
-        });
+impl Target {
+    /// Checks that bytes can be written there, before work begins that may take long. No path or `-` is standard output.
+    pub(crate) fn open(path: Option<&Path>, robot: Option<&Path>) -> Result<Self> {
+        let Some(path) = path.filter(|path| path.as_os_str() != "-") else { return Ok(Self { file: None }) };
         let shown = path.display();
         // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
-        let target = path.canonicalize().unwrap_or_else(|_| path.clone());
+        let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         if target.is_dir() {
             bail!("cannot write to {shown}: it is a directory; add a file name");
         }
-        if robot.is_some_and(|robot| robot.robot.canonicalize().is_ok_and(|source| source == target)) {
+        if robot.and_then(|robot| robot.canonicalize().ok()).is_some_and(|source| source == target) {
             bail!("refusing to write the result over the robot file {shown}; choose another name for -o");
         }
         if is_regular_or_new(&target) {
@@ -60,16 +51,45 @@ impl Sink {
             }
             temporary(&target).with_context(|| format!("cannot write to {shown}"))?;
         }
-        Ok(Self { format, file: Some(target) })
+        Ok(Self { file: Some(target) })
+    }
+
+    /// Whether what is written becomes a file.
+    pub(crate) fn is_file(&self) -> bool {
+        self.file.is_some()
+    }
+
+    /// Writes all of it.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
+        match &self.file {
+            None => to_stdout(bytes),
+            Some(path) => to_file(path, bytes).with_context(|| format!("cannot write to {}", path.display())),
+        }
+    }
+}
+
+/// Where a result goes, in which format.
+pub(crate) struct Sink {
+    format: Format,
+    target: Target,
+}
+
+impl Sink {
+    /// Of a command and the robot file that it reads, if any; that is never written over.
+    pub(crate) fn open(args: &OutputArgs, robot: Option<&Path>) -> Result<Self> {
+        let path = args.output_file.as_deref();
+        let ending = path.and_then(Path::extension).and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+        let format = args.format.unwrap_or(match ending.as_deref() {
+            Some("json") => Format::Json,
+            Some("csv") => Format::Csv,
+            _ => Format::Text,
+        });
+        Ok(Self { format, target: Target::open(path, robot)? })
     }
 
     /// Writes the result; its warnings go to stderr, too.
     pub(crate) fn write<R: Results>(&self, results: &R) -> Result<()> {
-        let bytes = self.render(results)?;
-        match &self.file {
-            None => to_stdout(&bytes)?,
-            Some(path) => to_file(path, &bytes).with_context(|| format!("cannot write to {}", path.display()))?,
-        }
+        self.target.write(&self.render(results)?)?;
         results.warnings().iter().for_each(|warning| crate::errors::warn(warning));
         Ok(())
     }
@@ -83,7 +103,7 @@ impl Sink {
                 as_json(&mut io::sink(), results)?;
                 if self.format == Format::Text {
                     bytes = results.text().into_bytes();
-                    if self.file.is_some() {
+                    if self.target.is_file() {
                         for warning in results.warnings() {
                             writeln!(bytes, "\nwarning: {warning}")?;
                         }

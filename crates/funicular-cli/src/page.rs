@@ -52,6 +52,7 @@ mod tests {
     use super::paper::paper;
     use super::plotly_script;
     use super::report::{ReportInput, report};
+    use crate::state::AtRest;
     use funicular::cable::CableModel;
     use funicular::dynamics::Linearisation;
     use funicular::math::Vec3;
@@ -78,17 +79,18 @@ mod tests {
         let up = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
         let u = up.vector(&equilibrium.pose);
         report(&ReportInput {
-            robot: &robot,
+            at_rest: &AtRest { robot, equilibrium },
             file_label: "robot.toml",
             robot_text: text,
-            equilibrium: &equilibrium,
             linearisation,
             below_hz: 20.0,
             frf_input: ("a vertical force".to_owned(), u),
             frf_output: ("the vertical acceleration".to_owned(), u, Quantity::Acceleration),
+            frf_unit: "(m/s²)/N",
             command_line: "funicular report robot.toml".to_owned(),
         })
         .unwrap()
+        .html
     }
 
     /// The page without plotly.js, after a check that it is there once.
@@ -126,7 +128,7 @@ mod tests {
 
     #[test]
     fn the_paper_carries_all_it_needs_and_has_every_section() {
-        let page = paper().unwrap();
+        let page = paper("funicular paper".to_owned()).unwrap();
         assert!(page.len() < 6_000_000, "{}", page.len());
         let own = own_part(&page);
         loads_nothing(&own);
@@ -139,7 +141,7 @@ mod tests {
     #[test]
     fn two_runs_write_the_same_bytes() {
         assert_eq!(page_of(YUAN, StaticModel::Catenary), page_of(YUAN, StaticModel::Catenary));
-        assert_eq!(paper().unwrap(), paper().unwrap());
+        assert_eq!(paper("funicular paper".to_owned()).unwrap(), paper("funicular paper".to_owned()).unwrap());
     }
 
     #[test]
@@ -171,7 +173,7 @@ mod tests {
 
     #[test]
     fn every_figure_is_json_with_traces() {
-        for page in [page_of(COGIRO, StaticModel::Catenary), paper().unwrap()] {
+        for page in [page_of(COGIRO, StaticModel::Catenary), paper("funicular paper".to_owned()).unwrap()] {
             let own = own_part(&page);
             let mut figures = 0;
             for part in own.split("<script type=\"application/json\"").skip(1) {

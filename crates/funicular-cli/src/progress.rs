@@ -1,6 +1,8 @@
-//! A bar for what takes over a second, on a terminal only.
+//! A bar or a spinner for what takes over a second, on a terminal only.
 
 use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// How long a command stays silent; most are done by then.
@@ -43,6 +45,37 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// A spinner from the time on when waiting has become long, until it is dropped.
+pub(crate) struct Waiting {
+    done: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Waiting {
+    pub(crate) fn for_(what: &'static str) -> Self {
+        let (done, is_done) = mpsc::channel();
+        let thread = thread::spawn(move || {
+            if is_done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                let spinner = ProgressBar::new_spinner().with_message(what);
+                spinner.enable_steady_tick(Duration::from_millis(120));
+                // An error is a sender that is gone: done as well.
+                let _ = is_done.recv();
+                spinner.finish_and_clear();
+            }
+        });
+        Self { done: Some((done, thread)) }
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        if let Some((done, thread)) = self.done.take() {
+            drop(done);
+            // The line is clear before anything else is printed. A spinner that failed is no reason to fail.
+            let _ = thread.join();
         }
     }
 }

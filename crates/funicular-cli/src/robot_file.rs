@@ -1,6 +1,6 @@
 //! The robot file: found, read, changed as `--set` says, checked.
 
-use crate::args::RobotArgs;
+use crate::args::ChangeArgs;
 use crate::errors::Rendered;
 use crate::set;
 use anyhow::{Context, Result, bail};
@@ -12,21 +12,41 @@ use std::path::Path;
 /// Largest robot file [bytes]; a cable takes some 200, so this is no robot but another file given by mistake.
 const LARGEST: u64 = 16 << 20;
 
-/// Reads the robot that the arguments name.
-pub(crate) fn read(args: &RobotArgs) -> Result<Robot> {
-    let is_stdin = args.robot.as_os_str() == "-";
-    let name = if is_stdin { "<stdin>".to_owned() } else { args.robot.display().to_string() };
-    let text = if is_stdin { limited(io::stdin().lock(), &name)? } else { limited(open(&args.robot, &name)?, &name)? };
-    if args.set.is_empty() {
-        parse(&text, &name)
-    } else {
-        parse(&set::apply(&text, &args.set)?, &format!("{name} with --set"))
-    }
+/// The robot that the program carries: its name and its file.
+const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", include_str!("../../../robots/yuan2014-4mm.toml"));
+
+/// A robot with the text that describes it.
+pub(crate) struct RobotFile {
+    pub(crate) robot: Robot,
+    /// Where the text is from.
+    pub(crate) name: String,
+    /// With the changes of `--set`.
+    pub(crate) text: String,
 }
 
-fn parse(text: &str, name: &str) -> Result<Robot> {
-    Robot::from_toml(text)
-        .map_err(|error| Rendered(error.render(name, text, crate::errors::stderr_has_colour())).into())
+/// Reads the robot that the arguments name; without a path the one that the program carries.
+pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotFile> {
+    let (mut name, mut text) = match path {
+        None => (EMBEDDED.0.to_owned(), EMBEDDED.1.to_owned()),
+        Some(path) if path.as_os_str() == "-" => {
+            let name = "<stdin>".to_owned();
+            let text = limited(io::stdin().lock(), &name)?;
+            (name, text)
+        }
+        Some(path) => {
+            let name = path.display().to_string();
+            let text = limited(open(path, &name)?, &name)?;
+            (name, text)
+        }
+    };
+    if !changes.set.is_empty() {
+        text = set::apply(&text, &changes.set)?;
+        name.push_str(" with --set");
+    }
+    match Robot::from_toml(&text) {
+        Ok(robot) => Ok(RobotFile { robot, name, text }),
+        Err(error) => Err(Rendered(error.render(&name, &text, crate::errors::stderr_has_colour())).into()),
+    }
 }
 
 fn open(path: &Path, name: &str) -> Result<File> {

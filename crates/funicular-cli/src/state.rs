@@ -2,7 +2,7 @@
 
 use crate::args::{ModelArgs, StateArgs};
 use anyhow::{Result, bail};
-use funicular::cable::CableModel;
+use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
@@ -73,12 +73,35 @@ impl Models {
     }
 }
 
+/// Numbers of a cable's sag, as JSON has them. They are absent for a cable without tension, the string frequency for one
+/// without mass, too.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct SagNumbers {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sag_ratio: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) lambda2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) string_frequency_hz: Option<f64>,
+}
+
+impl SagNumbers {
+    pub(crate) fn of(sag: &Sag) -> Self {
+        let taut = sag.tension > 0.0;
+        Self {
+            sag_ratio: taut.then(|| sag.ratio()),
+            lambda2: taut.then_some(sag.lambda2),
+            string_frequency_hz: taut.then(|| sag.string_frequency_hz()).filter(|f| f.is_finite()),
+        }
+    }
+}
+
 /// The linearisation that the options ask for, the closed form without a word on it.
 pub(crate) fn linearisation(args: &ModelArgs) -> Linearisation {
     Linearisation {
         cable_model: args.cable_model.unwrap_or_default().into(),
-        assembly: args.assembly.into(),
-        in_plane_only: args.in_plane_only,
+        assembly: args.terms.assembly.into(),
+        in_plane_only: args.terms.in_plane_only,
     }
 }
 

@@ -5,7 +5,7 @@ use crate::errors::NoSolution;
 use crate::grid;
 use crate::output::Results;
 use crate::set;
-use crate::state::{self, static_model_name};
+use crate::state::{self, SagNumbers, static_model_name};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};
@@ -29,12 +29,8 @@ pub(crate) struct CableResult {
     in_plane_only: bool,
     chord_m: f64,
     parallel_tension_n: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sag_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lambda2: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    string_frequency_hz: Option<f64>,
+    #[serde(flatten)]
+    sag: SagNumbers,
     /// Unit vectors along the chord, in plane and out of plane, world axes.
     axes: Axes,
     /// Undamped, both ends held; absent for the models without them.
@@ -94,7 +90,6 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
         });
     };
     let sag = Sag::of(robot, i, state);
-    let taut = sag.tension > 0.0;
     let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
     let values = curve(&stiffness, &axes, &frequency_hz)?;
     let part = |of: fn(&LocalStiffness<Complex>) -> Complex| Curve {
@@ -112,9 +107,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
         in_plane_only: args.in_plane_only,
         chord_m: sag.chord,
         parallel_tension_n: sag.tension,
-        sag_ratio: taut.then(|| sag.ratio()),
-        lambda2: taut.then_some(sag.lambda2),
-        string_frequency_hz: taut.then(|| sag.string_frequency_hz()).filter(|f| f.is_finite()),
+        sag: SagNumbers::of(&sag),
         axes: Axes { e: axes.e.into(), n: axes.n.into(), b: axes.b.into() },
         clamped_frequencies_hz: clamped(&stiffness, args)?,
         local: Local {
@@ -233,11 +226,11 @@ impl Results for CableResult {
         let mut say = |label: &str, text: String| out.push_str(&line(label, &text));
         say("chord", format!("{} m", decimals(self.chord_m, 4)));
         say("tension along the chord", format!("{} N", significant(self.parallel_tension_n, 6)));
-        if let (Some(ratio), Some(lambda2)) = (self.sag_ratio, self.lambda2) {
+        if let (Some(ratio), Some(lambda2)) = (self.sag.sag_ratio, self.sag.lambda2) {
             say("sag/chord", decimals(ratio, 5));
             say("λ²", significant(lambda2, 5));
         }
-        if let Some(string) = self.string_frequency_hz {
+        if let Some(string) = self.sag.string_frequency_hz {
             say("taut string", format!("{} Hz", significant(string, 5)));
         }
         if let Some(clamped) = &self.clamped_frequencies_hz {

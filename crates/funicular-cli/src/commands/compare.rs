@@ -1,7 +1,7 @@
 //! `compare`: every cable model side by side.
 
 use crate::args::CompareArgs;
-use crate::commands::modes::{ModeRow, check_count, uncertified};
+use crate::commands::modes::{MOST_MODES, ModeRow, check_count, uncertified};
 use crate::output::Results;
 use crate::state;
 use crate::table::{self, Table, decimals};
@@ -62,11 +62,11 @@ pub(crate) fn run(robot: Robot, args: &CompareArgs) -> Result<Compared> {
     let at_rest = state::equilibrium(robot, &args.state)?;
     let linearisation = Linearisation {
         cable_model: CableModel::default(),
-        assembly: args.assembly.into(),
-        in_plane_only: args.in_plane_only,
+        assembly: args.terms.assembly.into(),
+        in_plane_only: args.terms.in_plane_only,
     };
     let (reference, mut warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
-    check_count(&reference, args.below_hz)?;
+    check_count(&reference, args.below_hz, MOST_MODES)?;
     let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, args.below_hz, linearisation)?;
     let Comparison { below_hz, reference, models, advice } = found;
     for model in &models {
@@ -79,7 +79,7 @@ pub(crate) fn run(robot: Robot, args: &CompareArgs) -> Result<Compared> {
         below_hz,
         static_model: state::static_model_name(at_rest.equilibrium.model),
         assembly: state::assembly_name(linearisation.assembly),
-        in_plane_only: args.in_plane_only,
+        in_plane_only: linearisation.in_plane_only,
         reference: reference.name(),
         tolerance: TOLERANCE,
         models: models.into_iter().map(ModelRow::from).collect(),
@@ -151,7 +151,7 @@ impl Results for Compared {
             table.row(row);
         }
         let head = format!(
-            "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n{table}\n",
+            "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n",
             self.robot,
             self.below_hz,
             self.reference,
@@ -163,6 +163,7 @@ impl Results for Compared {
         for model in others {
             let line = match (&model.error, model.first_wrong_hz) {
                 (Some(error), _) => error.clone(),
+                (None, None) if reference.is_empty() => "no modes, as the reference".to_owned(),
                 (None, None) => format!("all {} modes within {} %", reference.len(), 100.0 * self.tolerance),
                 (None, Some(first)) => format!(
                     "{} of {} modes, misses {}, first wrong at {} Hz",
@@ -174,7 +175,8 @@ impl Results for Compared {
             };
             lines.push(format!("  {:<17} {line}", model.cable_model));
         }
-        format!("{head}{}\n\n{}\n", lines.join("\n"), self.advice.text)
+        let table = if reference.is_empty() { String::new() } else { format!("{table}\n") };
+        format!("{head}{table}{}\n\n{}\n", lines.join("\n"), self.advice.text)
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {

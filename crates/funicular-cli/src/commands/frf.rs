@@ -1,7 +1,7 @@
 //! `frf`: one frequency response and its peaks.
 
 use crate::args::values::{Input, Output};
-use crate::args::{FrfArgs, values};
+use crate::args::{FrfArgs, PointArgs};
 use crate::grid;
 use crate::output::Results;
 use crate::progress::Progress;
@@ -53,8 +53,7 @@ impl From<Peak> for PeakRow {
 
 pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
     let frequencies = grid::frequencies(&args.range)?;
-    let input = input_direction(&robot, &args.input, args.input_point_m)?;
-    let output = output_direction(&robot, &args.output, args.output_point_m)?;
+    let (input, output) = directions(&robot, &args.input, &args.output, &args.points)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
     let linearisation = state::linearisation(&args.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, args.range.to_hz)?;
@@ -72,9 +71,9 @@ pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
         robot: at_rest.robot.name.clone(),
         models: Models::of(&at_rest.equilibrium, linearisation),
         input: args.input.name.clone(),
-        input_point_m: args.input_point_m.unwrap_or_default().into(),
+        input_point_m: args.points.input_point_m.unwrap_or_default().into(),
         output: args.output.name.clone(),
-        output_point_m: args.output_point_m.unwrap_or_default().into(),
+        output_point_m: args.points.output_point_m.unwrap_or_default().into(),
         unit: unit(&args.input, &args.output),
         prominence_db: args.prominence_db,
         peaks: peaks.into_iter().map(PeakRow::from).collect(),
@@ -85,34 +84,41 @@ pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
     })
 }
 
-fn input_direction(robot: &Robot, input: &values::Input, point: Option<Vec3>) -> Result<Direction> {
-    if input.is_moment && point.is_some() {
-        bail!(
-            "--input-point-m has no effect: the moment --input {} acts the same at every point; remove it",
-            input.name
-        );
-    }
-    check_point_mass(robot, input.is_moment, "--input", &input.name, point)?;
-    Ok(if input.is_moment {
-        Direction::About { axis_w: input.direction_w }
-    } else {
-        Direction::Along { direction_w: input.direction_w, point_p: point.unwrap_or_default() }
-    })
+/// Input and output of a response, checked against what the robot can do.
+pub(crate) fn directions(
+    robot: &Robot,
+    input: &Input,
+    output: &Output,
+    points: &PointArgs,
+) -> Result<(Direction, Direction)> {
+    let from = Side { option: "--input", name: &input.name, turns: input.is_moment, direction_w: input.direction_w };
+    let to =
+        Side { option: "--output", name: &output.name, turns: output.is_rotation, direction_w: output.direction_w };
+    Ok((from.direction(robot, points.input_point_m)?, to.direction(robot, points.output_point_m)?))
 }
 
-fn output_direction(robot: &Robot, output: &values::Output, point: Option<Vec3>) -> Result<Direction> {
-    if output.is_rotation && point.is_some() {
-        bail!(
-            "--output-point-m has no effect: the rotation --output {} is the same at every point; remove it",
-            output.name
-        );
+/// One end of a response.
+struct Side<'a> {
+    option: &'static str,
+    name: &'a str,
+    /// A moment or a rotation.
+    turns: bool,
+    direction_w: Vec3,
+}
+
+impl Side<'_> {
+    fn direction(&self, robot: &Robot, point: Option<Vec3>) -> Result<Direction> {
+        let Self { option, name, turns, direction_w } = *self;
+        if turns && point.is_some() {
+            bail!("{option}-point-m has no effect: {option} {name} is the same at every point; remove it");
+        }
+        check_point_mass(robot, turns, option, name, point)?;
+        Ok(if turns {
+            Direction::About { axis_w: direction_w }
+        } else {
+            Direction::Along { direction_w, point_p: point.unwrap_or_default() }
+        })
     }
-    check_point_mass(robot, output.is_rotation, "--output", &output.name, point)?;
-    Ok(if output.is_rotation {
-        Direction::About { axis_w: output.direction_w }
-    } else {
-        Direction::Along { direction_w: output.direction_w, point_p: point.unwrap_or_default() }
-    })
 }
 
 /// A point mass neither turns nor extends.
@@ -131,14 +137,15 @@ fn check_point_mass(robot: &Robot, turns: bool, option: &str, name: &str, point:
     Ok(())
 }
 
-fn unit(input: &Input, output: &Output) -> String {
+/// Unit of motion over excitation.
+pub(crate) fn unit(input: &Input, output: &Output) -> String {
     let motion = if output.is_rotation { "rad" } else { "m" };
     let by_time = match output.quantity {
         Quantity::Displacement => "",
         Quantity::Velocity => "/s",
         Quantity::Acceleration => "/s²",
     };
-    let effort = if input.is_moment { "(N m)" } else { "N" };
+    let effort = if input.is_moment { "(N·m)" } else { "N" };
     if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 

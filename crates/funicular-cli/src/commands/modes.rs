@@ -60,11 +60,11 @@ impl From<modes::Mode> for ModeRow {
 }
 
 /// Refuses a limit below which there are more modes than anyone reads.
-pub(crate) fn check_count(dynamics: &Dynamics, below_hz: f64) -> Result<()> {
+pub(crate) fn check_count(dynamics: &Dynamics, below_hz: f64, most: usize) -> Result<()> {
     let count = dynamics.modes_below(below_hz * TAU);
-    if count > MOST_MODES {
+    if count > most {
         bail!(
-            "{count} natural frequencies lie below {below_hz} Hz, at most {MOST_MODES} are listed: lower --below-hz, or \
+            "{count} natural frequencies lie below {below_hz} Hz, at most {most} are listed: lower --below-hz, or \
              use --cable-model spring, which has none of the cables' own"
         );
     }
@@ -96,7 +96,7 @@ pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
     let at_rest = state::equilibrium(robot, &args.state)?;
     let linearisation = state::linearisation(&args.model);
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
-    check_count(&dynamics, args.below_hz)?;
+    check_count(&dynamics, args.below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, args.below_hz);
     warnings.extend(uncertified(&found));
     Ok(Modes {
@@ -136,20 +136,25 @@ impl Modes {
 
     /// The cables that move most, with their shares of the energy.
     fn strongest(&self, mode: &ModeRow) -> String {
-        const SHOWN: usize = 3;
-        // A share that rounds to less than this tells nothing.
-        const LEAST: f64 = 0.05;
-        let mut shares: Vec<(&str, f64)> =
-            self.cable_names.iter().map(String::as_str).zip(mode.cable_energy_fractions.iter().copied()).collect();
-        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let shown: Vec<String> = shares
+        let names = self.cable_names.iter().map(String::as_str);
+        let shown: Vec<String> = strongest(names, &mode.cable_energy_fractions)
             .iter()
-            .take(SHOWN)
-            .filter(|(_, share)| *share >= LEAST)
             .map(|(name, share)| format!("{name} {}%", decimals(100.0 * share, 0)))
             .collect();
         if shown.is_empty() { table::NONE.to_owned() } else { shown.join(", ") }
     }
+}
+
+/// Of cables by name and their shares of a mode's energy the first few that matter.
+pub(crate) fn strongest<'a>(names: impl Iterator<Item = &'a str>, shares: &[f64]) -> Vec<(&'a str, f64)> {
+    const SHOWN: usize = 3;
+    // A share that rounds to less than this tells nothing.
+    const LEAST: f64 = 0.05;
+    let mut all: Vec<(&str, f64)> = names.zip(shares.iter().copied()).collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    all.retain(|(_, share)| *share >= LEAST);
+    all.truncate(SHOWN);
+    all
 }
 
 impl Results for Modes {

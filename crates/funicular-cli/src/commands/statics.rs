@@ -2,7 +2,7 @@
 
 use crate::args::StateArgs;
 use crate::output::Results;
-use crate::state::{self, AtRest, static_model_name};
+use crate::state::{self, AtRest, SagNumbers, static_model_name};
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use anyhow::Result;
 use funicular::cable::Sag;
@@ -37,7 +37,6 @@ struct PoseRow {
     roll_pitch_yaw_deg: [f64; 3],
 }
 
-/// Sag, λ² and string frequency are absent for a cable without tension, the last for one without mass, too.
 #[derive(Serialize)]
 struct CableRow {
     name: String,
@@ -45,12 +44,8 @@ struct CableRow {
     tension_platform_n: f64,
     tension_anchor_n: f64,
     chord_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sag_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lambda2: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    string_frequency_hz: Option<f64>,
+    #[serde(flatten)]
+    sag: SagNumbers,
     force_on_platform_n: [f64; 3],
 }
 
@@ -61,19 +56,14 @@ pub(crate) fn run(robot: Robot, args: &StateArgs) -> Result<Statics> {
         .cables
         .iter()
         .enumerate()
-        .map(|(i, cable)| {
-            let sag = Some(Sag::of(robot, i, cable)).filter(|sag| sag.tension > 0.0);
-            CableRow {
-                name: robot.cables[i].name.clone(),
-                unstrained_length_m: cable.unstrained_length,
-                tension_platform_n: cable.tension_platform,
-                tension_anchor_n: cable.tension_anchor,
-                chord_m: cable.chord(),
-                sag_ratio: sag.map(|sag| sag.ratio()),
-                lambda2: sag.map(|sag| sag.lambda2),
-                string_frequency_hz: sag.map(|sag| sag.string_frequency_hz()).filter(|f| f.is_finite()),
-                force_on_platform_n: cable.force_on_platform_w.into(),
-            }
+        .map(|(i, cable)| CableRow {
+            name: robot.cables[i].name.clone(),
+            unstrained_length_m: cable.unstrained_length,
+            tension_platform_n: cable.tension_platform,
+            tension_anchor_n: cable.tension_anchor,
+            chord_m: cable.chord(),
+            sag: SagNumbers::of(&Sag::of(robot, i, cable)),
+            force_on_platform_n: cable.force_on_platform_w.into(),
         })
         .collect();
     let (stable, least_stiffness_n_per_m) = match equilibrium.stability {
@@ -130,9 +120,9 @@ impl Results for Statics {
                 decimals(cable.chord_m, 4),
                 decimals(cable.tension_platform_n, 3),
                 decimals(cable.tension_anchor_n, 3),
-                decimals_or_none(cable.sag_ratio, 5),
-                or_none(cable.lambda2),
-                decimals_or_none(cable.string_frequency_hz, 3),
+                decimals_or_none(cable.sag.sag_ratio, 5),
+                or_none(cable.sag.lambda2),
+                decimals_or_none(cable.sag.string_frequency_hz, 3),
             ]);
         }
         let stability = match (self.stable, self.least_stiffness_n_per_m) {
@@ -174,9 +164,9 @@ impl Results for Statics {
                 c.tension_platform_n,
                 c.tension_anchor_n,
                 c.chord_m,
-                c.sag_ratio,
-                c.lambda2,
-                c.string_frequency_hz,
+                c.sag.sag_ratio,
+                c.sag.lambda2,
+                c.sag.string_frequency_hz,
                 c.force_on_platform_n,
             ))?;
         }

@@ -46,13 +46,14 @@ struct PaperPage {
     lists: Vec<Table>,
     counts: Table,
     sag_text: String,
+    command_line: String,
 }
 
-/// The page, as HTML.
+/// The page, as HTML; `command_line` writes it again.
 ///
 /// # Errors
 /// If one of the computations fails, which the tests exclude.
-pub(crate) fn paper() -> anyhow::Result<String> {
+pub(crate) fn paper(command_line: String) -> anyhow::Result<String> {
     let [small, large] = robots()?;
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
     let outcomes = dynamic_test::outcomes([&small, &large])?;
@@ -72,6 +73,7 @@ pub(crate) fn paper() -> anyhow::Result<String> {
         lists: dynamic_test::lists(&outcomes),
         counts: dynamic_test::counts(&outcomes),
         sag_text: dynamic_test::sag_text(&outcomes),
+        command_line,
     };
     page.render().context("the page could not be written as HTML")
 }

@@ -6,6 +6,8 @@ use super::Shell;
 use super::figure::response::{Curve, Marks, sampled};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
+use crate::commands::modes::{check_count, uncertified};
+use crate::state::AtRest;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::cable::CableModel;
@@ -15,21 +17,21 @@ use funicular::modes::{self, Kind, Modes};
 use funicular::response::{Peak, Quantity, peaks};
 use funicular::robot::{Freedoms, Robot};
 use funicular::statics::{Equilibrium, Stability, StaticModel};
-use funicular::validity;
 
 /// Prominence from which on a peak is named [dB].
 const PEAK_PROMINENCE_DB: f64 = 3.0;
 
+/// Most modes of a page: a browser still scrolls their table with ease.
+const MOST_MODES: usize = 2000;
+
 /// What a report is about.
 pub(crate) struct ReportInput<'a> {
-    /// The robot.
-    pub(crate) robot: &'a Robot,
+    /// The robot and its state.
+    pub(crate) at_rest: &'a AtRest,
     /// Where its file is, or what stands for it.
     pub(crate) file_label: &'a str,
     /// The file itself.
     pub(crate) robot_text: &'a str,
-    /// The state.
-    pub(crate) equilibrium: &'a Equilibrium,
     /// How the robot is linearised about it.
     pub(crate) linearisation: Linearisation,
     /// Upper limit of the frequencies [Hz].
@@ -38,6 +40,8 @@ pub(crate) struct ReportInput<'a> {
     pub(crate) frf_input: (String, Vec6),
     /// Name, 6-vector and kind of the motion that is measured.
     pub(crate) frf_output: (String, Vec6, Quantity),
+    /// Unit of motion over excitation.
+    pub(crate) frf_unit: &'a str,
     /// The command that writes this page again.
     pub(crate) command_line: String,
 }
@@ -62,7 +66,7 @@ struct ReportPage<'a> {
     peaks_table: Table,
     response_notes: Vec<String>,
     comparison: Result<parts::ComparisonPart, String>,
-    warnings: Vec<Vec<Part>>,
+    warnings: Vec<String>,
     command_line: &'a str,
     file_label: &'a str,
     robot_text: &'a str,
@@ -80,21 +84,26 @@ pub(crate) const CONTENTS: &[(&str, &str)] = &[
     ("repeat", "How to repeat"),
 ];
 
-/// The page, as HTML.
+/// A page, and what its reader should know before trusting it.
+pub(crate) struct Report {
+    /// HTML.
+    pub(crate) html: String,
+    /// They stand on the page, too.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// The page.
 ///
 /// # Errors
 /// If the robot cannot be linearised at this state with the model asked, or has no finite response there.
-pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<String> {
-    let ReportInput { robot, equilibrium, linearisation, below_hz, .. } = *input;
-    let dynamics = Dynamics::about(robot, equilibrium, linearisation)?;
+pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
+    let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
+    let AtRest { robot, equilibrium } = at_rest;
+    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
+    check_count(&dynamics, below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, below_hz);
+    warnings.extend(uncertified(&found));
     let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
-    let warnings = validity::of_statics(robot, equilibrium).into_iter().chain(validity::of_dynamics(
-        robot,
-        equilibrium,
-        linearisation.cable_model,
-        below_hz,
-    ));
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
         source: robot.source.trim_end_matches('.'),
@@ -113,23 +122,28 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<String> {
         peaks_table,
         response_notes,
         comparison: parts::comparison(robot, equilibrium, below_hz, linearisation),
-        warnings: warnings.map(|w| parts_of(&sentence(&w.to_string()))).collect(),
+        warnings: warnings.iter().map(|warning| prose(&sentence(warning))).collect(),
         command_line: &input.command_line,
         file_label: input.file_label,
         robot_text: input.robot_text,
     };
-    page.render().context("the report could not be written as HTML")
+    let html = page.render().context("the report could not be written as HTML")?;
+    Ok(Report { html, warnings })
 }
 
-/// A stretch of text, or of what one types.
-struct Part {
-    code: bool,
-    text: String,
+/// Text of the core, which quotes what one types in backticks.
+#[derive(Template)]
+#[template(
+    source = "{% for (code, text) in parts %}{% if *code %}<code>{{ text }}</code>{% else %}{{ text }}{% endif %}{% endfor %}",
+    ext = "html"
+)]
+struct Prose<'a> {
+    parts: Vec<(bool, &'a str)>,
 }
 
-/// The core quotes what one types in backticks.
-fn parts_of(text: &str) -> Vec<Part> {
-    text.split('`').enumerate().map(|(i, text)| Part { code: i % 2 == 1, text: text.to_owned() }).collect()
+/// Rendered as HTML.
+fn prose(text: &str) -> String {
+    Prose { parts: text.split('`').enumerate().map(|(i, text)| (i % 2 == 1, text)).collect() }.to_string()
 }
 
 /// First letter large, full stop at the end: the core speaks in lower case.
@@ -215,7 +229,7 @@ fn respond(
     dynamics: &Dynamics,
     found: &Modes,
 ) -> anyhow::Result<(Figure, Table, Vec<String>)> {
-    let ReportInput { robot, equilibrium, linearisation, below_hz, .. } = *input;
+    let ReportInput { at_rest: AtRest { robot, equilibrium }, linearisation, below_hz, frf_unit: unit, .. } = *input;
     let (force, u) = &input.frf_input;
     let (motion, v, quantity) = &input.frf_output;
     let draw = |dynamics: &Dynamics, found: &Modes| {
@@ -235,11 +249,12 @@ fn respond(
             draw(&other, &found).map_err(|e| e.to_string())
         }) {
             Ok(curve) => curves.push(curve),
-            Err(reason) => notes.push(format!("Without the model {}: {reason}.", model_name(cable_model))),
+            Err(reason) => {
+                notes.push(prose(&format!("Without the model {}: {reason}.", model_name(cable_model))));
+            }
         }
     }
     let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);
-    let unit = unit_of(u, v, *quantity);
     let caption = format!(
         "Response of {motion} to {force}, magnitude and phase. Ticks are the natural frequencies with the {} model, \
          numbers the frequencies [Hz] of its most prominent peaks. Models without frequency-dependent cables have no \
@@ -278,24 +293,4 @@ fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> Table {
         ]);
     }
     table
-}
-
-/// Unit of motion over excitation.
-fn unit_of(input: &Vec6, output: &Vec6, quantity: Quantity) -> &'static str {
-    // A vector without a translation part is a moment or a rotation.
-    let turns = |u: &Vec6| u.fixed_rows::<3>(0).amax() <= 0.0;
-    match (turns(output), quantity, turns(input)) {
-        (false, Quantity::Displacement, false) => "m/N",
-        (false, Quantity::Velocity, false) => "(m/s)/N",
-        (false, Quantity::Acceleration, false) => "(m/s²)/N",
-        (true, Quantity::Displacement, false) => "rad/N",
-        (true, Quantity::Velocity, false) => "(rad/s)/N",
-        (true, Quantity::Acceleration, false) => "(rad/s²)/N",
-        (false, Quantity::Displacement, true) => "m/(N·m)",
-        (false, Quantity::Velocity, true) => "(m/s)/(N·m)",
-        (false, Quantity::Acceleration, true) => "(m/s²)/(N·m)",
-        (true, Quantity::Displacement, true) => "rad/(N·m)",
-        (true, Quantity::Velocity, true) => "(rad/s)/(N·m)",
-        (true, Quantity::Acceleration, true) => "(rad/s²)/(N·m)",
-    }
 }

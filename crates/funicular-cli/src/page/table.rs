@@ -1,5 +1,6 @@
 //! Tables with units in their heads, and numbers as they are printed.
 
+use crate::table;
 use askama::Template;
 
 /// A table with caption.
@@ -27,6 +28,8 @@ struct Row {
 
 /// Rows above which a table scrolls on screen.
 const TALL: usize = 30;
+/// Columns from which on a table prints in a smaller type.
+const DENSE: usize = 12;
 
 impl Table {
     /// An empty table. A column is `name` or `name|unit`; one that starts with `<` is text and stands left, with `<<` it
@@ -62,29 +65,16 @@ impl Table {
 
 /// A number with fixed decimals and a true minus sign; what rounds to zero has none. A dash if it is not a number.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return "–".to_owned();
-    }
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
-        Some(rest) => format!("−{rest}"),
-        None => text,
-    }
+    typeset(value, || table::decimals(value, decimals))
 }
 
-/// A number with a count of significant digits, without exponent between 1e-4 and 1e7.
-pub(crate) fn significant(value: f64, digits: u8) -> String {
-    let size = value.abs();
-    if !value.is_finite() || size < f64::MIN_POSITIVE {
-        return fixed(value, 0);
-    }
-    let exponent = size.log10().floor() as i32;
-    if (-4..7).contains(&exponent) {
-        fixed(value, usize::try_from(i32::from(digits) - 1 - exponent).unwrap_or(0))
-    } else {
-        format!("{value:.*e}", usize::from(digits) - 1).replace('-', "−")
-    }
+/// A number with a count of significant digits; as a power of ten where that is shorter.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    typeset(value, || table::significant(value, digits))
+}
+
+fn typeset(value: f64, text: impl FnOnce() -> String) -> String {
+    if value.is_finite() { text().replace('-', "−") } else { table::NONE.to_owned() }
 }
 
 /// Numbers in a row, separated by commas.

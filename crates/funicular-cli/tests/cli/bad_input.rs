@@ -210,6 +210,10 @@ fn every_command_has_help_with_an_example() {
         assert!(help.contains("Example") && help.contains(&format!("funicular {verb} ")), "{verb}: {help}");
         assert!(help.contains("--set") && help.contains("--format"), "{verb}");
     }
+    for verb in ["report", "paper"] {
+        let help = super::succeed(&[verb, "--help"]);
+        assert!(help.contains("Example") && help.contains(&format!("funicular {verb}")), "{help}");
+    }
     assert!(super::succeed(&["--version"]).starts_with("funicular "));
     let bare = run(&[]);
     assert_eq!(bare.status.code(), Some(2));

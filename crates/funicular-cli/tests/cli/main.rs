@@ -2,6 +2,8 @@
 
 mod bad_input;
 mod files;
+mod pages;
+mod readme;
 mod results;
 
 use assert_cmd::Command;

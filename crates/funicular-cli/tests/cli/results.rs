@@ -312,5 +312,7 @@ fn a_list_without_modes_says_so_without_an_empty_table() {
         "--output",
         "z",
     ]);
+    let compared = succeed(&["compare", "ROBOT", "--below-hz", "0.5"]);
+    assert!(compared.contains("no modes, as the reference") && !compared.contains("[Hz]"), "{compared}");
     assert!(text.contains("0 peaks") && !text.contains("peak [Hz]"), "{text}");
 }

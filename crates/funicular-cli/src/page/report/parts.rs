@@ -1,8 +1,10 @@
 //! The report's tables and bars.
 
-use super::{Part, parts_of};
+use super::prose;
+use crate::commands::modes;
 use crate::page::figure::{Figure, axis, colour, model_name, plain, rounded};
 use crate::page::table::{Table, fixed, listed, significant};
+use crate::table::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison};
 use funicular::dynamics::Linearisation;
@@ -11,11 +13,8 @@ use funicular::robot::{Freedoms, Robot};
 use funicular::statics::{Equilibrium, StaticModel, tangent_stiffness};
 use serde_json::{Value, json};
 
-/// Share of a mode's energy from which on a cable is named.
-const NAMED_SHARE: f64 = 0.1;
 /// Frequencies that a row of the table of models lists at most.
 const LISTED: usize = 16;
-/// Correlation of motion above which two models' modes stand in one row.
 
 fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
     equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect()
@@ -200,24 +199,20 @@ fn class_of(kind: Kind) -> &'static str {
     }
 }
 
-/// Names of the cables with most of a mode's energy, up to three.
-pub(crate) fn strongest(robot: &Robot, mode: &Mode) -> String {
-    let mut order: Vec<usize> = (0..robot.cables.len()).collect();
-    let share = |i: usize| mode.cable_energy_fractions[i];
-    order.sort_by(|&a, &b| share(b).total_cmp(&share(a)));
-    let named: Vec<String> = order
+/// Names of the cables with most of a mode's energy.
+fn strongest(robot: &Robot, mode: &Mode) -> String {
+    let names = robot.cables.iter().map(|cable| cable.name.as_str());
+    let named: Vec<String> = modes::strongest(names, &mode.cable_energy_fractions)
         .iter()
-        .filter(|&&i| share(i) >= NAMED_SHARE)
-        .take(3)
-        .map(|&i| format!("{} ({} %)", robot.cables[i].name, fixed(100.0 * share(i), 0)))
+        .map(|(name, share)| format!("{name} ({} %)", fixed(100.0 * share, 0)))
         .collect();
-    if named.is_empty() { "–".to_owned() } else { named.join(", ") }
+    if named.is_empty() { NONE.to_owned() } else { named.join(", ") }
 }
 
 /// The comparison of the cable models.
 pub(crate) struct ComparisonPart {
     /// Advice of the core.
-    pub(crate) advice: Vec<Part>,
+    pub(crate) advice: String,
     /// One row a model.
     pub(crate) models: Table,
     /// One row a mode.
@@ -231,9 +226,10 @@ pub(crate) fn comparison(
     below_hz: f64,
     linearisation: Linearisation,
 ) -> Result<ComparisonPart, String> {
-    let comparison = compare::compare(robot, equilibrium, below_hz, linearisation).map_err(|e| e.to_string())?;
+    let comparison = compare::compare(robot, equilibrium, below_hz, linearisation)
+        .map_err(|error| prose(&format!("The models cannot be compared at this state: {error}.")))?;
     let (models, modes) = (models_table(&comparison), side_by_side(&comparison));
-    Ok(ComparisonPart { advice: parts_of(&comparison.advice.text), models, modes })
+    Ok(ComparisonPart { advice: prose(&comparison.advice.text), models, modes })
 }
 
 fn models_table(comparison: &Comparison) -> Table {
@@ -267,7 +263,8 @@ fn models_table(comparison: &Comparison) -> Table {
                 };
                 format!("{}{free}", listed(&all, 3))
             }
-            Err(reason) => reason.to_string(),
+            // A cell is plain text; the core quotes what one types in backticks.
+            Err(reason) => reason.to_string().replace('`', ""),
         };
         let count = modes.map_or_else(|| "–".to_owned(), |m| m.modes.len().to_string());
         let (missed, first) = if is_reference || modes.is_none() {
@@ -299,10 +296,7 @@ fn side_by_side(comparison: &Comparison) -> Table {
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
     let modes = reference.and_then(|m| m.modes.as_ref().ok()).map_or(&[][..], |m| &m.modes);
     for (index, mode) in modes.iter().enumerate() {
-        let pairs: Vec<_> = others
-            .iter()
-            .map(|m| m.matches.iter().find(|m| m.reference_index == index))
-            .collect();
+        let pairs: Vec<_> = others.iter().map(|m| m.matches.iter().find(|m| m.reference_index == index)).collect();
         if mode.kind == Kind::Cable && pairs.iter().all(Option::is_none) {
             continue;
         }
