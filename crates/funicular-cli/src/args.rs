@@ -408,6 +408,8 @@ impl From<StaticModelName> for StaticModel {
 /// Names of [`CableModel`].
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 pub(crate) enum CableModelName {
+    /// Vibration about the elastic catenary: any sag, axial waves included
+    Exact,
     /// Dynamic stiffness of a shallow sagging cable (Starossek 1991)
     #[default]
     ClosedForm,
@@ -422,6 +424,7 @@ pub(crate) enum CableModelName {
 impl From<CableModelName> for CableModel {
     fn from(name: CableModelName) -> Self {
         match name {
+            CableModelName::Exact => Self::Exact,
             CableModelName::ClosedForm => Self::ClosedForm,
             CableModelName::StaticSag => Self::StaticSag,
             CableModelName::CatenaryTangent => Self::CatenaryTangent,

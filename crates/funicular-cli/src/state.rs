@@ -108,7 +108,7 @@ pub(crate) fn linearisation(args: &ModelArgs) -> Linearisation {
 impl AtRest {
     /// Linearises, with what there is to warn of for frequencies up to a limit [Hz].
     pub(crate) fn dynamics(&self, linearisation: Linearisation, up_to_hz: f64) -> Result<(Dynamics, Vec<String>)> {
-        let dynamics = Dynamics::about(&self.robot, &self.equilibrium, linearisation)?;
+        let dynamics = Dynamics::about(&self.robot, &self.equilibrium, linearisation, up_to_hz)?;
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 

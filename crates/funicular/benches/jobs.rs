@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use funicular::cable::CableModel;
 use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
@@ -53,7 +54,7 @@ fn statics_both_ways(c: &mut Criterion) {
 
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
-    (Dynamics::about(robot, &rest, Linearisation::default()).expect("taut"), rest.pose)
+    (Dynamics::about(robot, &rest, Linearisation::default(), 20.0).expect("taut"), rest.pose)
 }
 
 fn responses(c: &mut Criterion) {
@@ -82,9 +83,34 @@ fn natural_frequencies(c: &mut Criterion) {
     });
 }
 
+fn exact_cables(c: &mut Criterion) {
+    let (robot, lengths) = robot();
+    let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
+    let linearised = |up_to_hz| {
+        let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
+        (Dynamics::about(&robot, &rest, linearisation, up_to_hz).expect("taut"), rest.pose)
+    };
+    c.bench_function("exact: statics and set-up below 20 Hz", |b| b.iter(|| linearised(black_box(20.0))));
+    c.bench_function("exact: statics, set-up and all modes below 20 Hz, certified", |b| {
+        b.iter(|| {
+            let (dynamics, _) = linearised(black_box(20.0));
+            let found = modes::below(&dynamics, 20.0);
+            assert!(found.certified);
+            found.modes.len()
+        });
+    });
+    let frequencies: Vec<f64> = (0..10_000).map(|i| 0.002 * f64::from(i + 1)).collect();
+    c.bench_function("exact: set-up and frf of 10,000 frequencies, all 36 entries", |b| {
+        b.iter(|| {
+            let (dynamics, _) = linearised(black_box(20.0));
+            response::receptances(&dynamics, &frequencies)
+        });
+    });
+}
+
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, responses, natural_frequencies
+    targets = one_catenary, statics_both_ways, responses, natural_frequencies, exact_cables
 }
 criterion_main!(jobs);

@@ -6,15 +6,19 @@
 //! and one that goes down. One file a model.
 
 pub mod closed_form;
+pub mod exact;
 pub mod spring;
 pub mod static_sag;
 
 use crate::catenary::space::any_normal;
-use crate::math::{Mat3, Vec3};
+use crate::math::{Complex, Mat3, Vec3};
 use crate::robot::{Damping, Robot};
 use crate::statics::CableState;
 use closed_form::ClosedForm;
+use exact::ExactEnd;
+use std::f64::consts::TAU;
 use std::fmt;
+use thiserror::Error;
 
 /// How a cable answers motion of its platform end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,11 +32,13 @@ pub enum CableModel {
     /// Starossek's dynamic stiffness of a shallow sagging cable.
     #[default]
     ClosedForm,
+    /// Linear vibration about the elastic catenary, of any sag, with axial inertia.
+    Exact,
 }
 
 impl CableModel {
     /// All of them, simplest first.
-    pub const ALL: [Self; 4] = [Self::Spring, Self::StaticSag, Self::CatenaryTangent, Self::ClosedForm];
+    pub const ALL: [Self; 5] = [Self::Spring, Self::StaticSag, Self::CatenaryTangent, Self::ClosedForm, Self::Exact];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -41,12 +47,13 @@ impl CableModel {
             Self::StaticSag => "static-sag",
             Self::CatenaryTangent => "catenary-tangent",
             Self::ClosedForm => "closed-form",
+            Self::Exact => "exact",
         }
     }
 
     /// The stiffness depends on frequency: the cable has resonances of its own.
     pub fn is_dynamic(self) -> bool {
-        self == Self::ClosedForm
+        matches!(self, Self::ClosedForm | Self::Exact)
     }
 }
 
@@ -173,34 +180,123 @@ pub enum EndStiffness {
     /// Independent of frequency; 3×3 in world axes [N/m].
     Constant(Mat3),
     /// Depends on frequency.
+    Dynamic(DynamicCable),
+}
+
+/// Why a cable has no stiffness in a model.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum NoStiffness {
+    /// It is rigid.
+    #[error("ideal cables are rigid: only the models `spring`, `static-sag` and `closed-form` exist for them")]
+    Rigid,
+    /// It carries no tension.
+    #[error("it has no tension")]
+    NoTension,
+    /// The exact model does not exist for it.
+    #[error(transparent)]
+    Exact(#[from] exact::ExactError),
+}
+
+/// The models whose stiffness depends on frequency; one interface, in the local axes that each names.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DynamicCable {
+    /// Starossek's.
     ClosedForm(ClosedForm),
+    /// About the catenary.
+    Exact(Box<ExactEnd>),
+}
+
+impl DynamicCable {
+    /// Its local axes.
+    pub fn axes(&self) -> &LocalAxes {
+        match self {
+            Self::ClosedForm(cable) => &cable.axes,
+            Self::Exact(cable) => &cable.axes,
+        }
+    }
+
+    /// Undamped stiffness in local axes at ω [rad/s], [N/m].
+    pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
+        match self {
+            Self::ClosedForm(cable) => cable.undamped(omega),
+            Self::Exact(cable) => cable.undamped(omega),
+        }
+    }
+
+    /// Damped stiffness in local axes at ω [rad/s], [N/m].
+    pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
+        match self {
+            Self::ClosedForm(cable) => cable.damped(omega),
+            Self::Exact(cable) => cable.damped(omega),
+        }
+    }
+
+    /// Minus the derivative of the undamped stiffness by ω² [kg]; positive semidefinite as a 3×3.
+    pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
+        match self {
+            Self::ClosedForm(cable) => cable.moving_mass(omega),
+            Self::Exact(cable) => cable.moving_mass(omega),
+        }
+    }
+
+    /// Number of clamped-clamped frequencies below ω [rad/s]: J0 of Wittrick and Williams.
+    pub fn clamped_modes_below(&self, omega: f64) -> usize {
+        match self {
+            Self::ClosedForm(cable) => cable.clamped_modes_below(omega),
+            Self::Exact(cable) => cable.clamped_modes_below(omega),
+        }
+    }
+
+    /// The clamped-clamped frequencies below ω [rad/s], ascending, with multiplicity.
+    pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<f64> {
+        match self {
+            Self::ClosedForm(cable) => cable.clamped_frequencies_below(omega),
+            Self::Exact(cable) => cable.clamped_frequencies_below(omega),
+        }
+    }
 }
 
 impl EndStiffness {
-    /// The cable `i` of a robot at a static state. `in_plane_only` leaves out all stiffness out of the cable's plane,
-    /// as the paper does.
+    /// The cable `i` of a robot at a static state, good up to the frequency `up_to_hz` [Hz] (which only the exact model
+    /// asks for). `in_plane_only` leaves out all stiffness out of the cable's plane, as the paper does.
     ///
-    /// `None` if the state has no such stiffness: an ideal cable has no catenary tangent, a cable without tension has
-    /// no sag stiffness.
-    pub fn new(robot: &Robot, i: usize, state: &CableState, model: CableModel, in_plane_only: bool) -> Option<Self> {
+    /// # Errors
+    /// [`NoStiffness`]: an ideal cable has no catenary tangent, a cable without tension no sag stiffness.
+    pub fn new(
+        robot: &Robot,
+        i: usize,
+        state: &CableState,
+        model: CableModel,
+        in_plane_only: bool,
+        up_to_hz: f64,
+    ) -> Result<Self, NoStiffness> {
         let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
         let sag = Sag::of(robot, i, state);
-        let tense = sag.tension > 0.0;
+        let material = &robot.cables[i].material;
+        if sag.tension <= 0.0 && matches!(model, CableModel::StaticSag | CableModel::ClosedForm | CableModel::Exact) {
+            return Err(NoStiffness::NoTension);
+        }
         let without_b =
             |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
-        match model {
-            CableModel::Spring if state.is_slack() => Some(Self::Constant(Mat3::zeros())),
-            CableModel::Spring => Some(Self::Constant(spring::stiffness(&sag).in_world(&axes))),
-            CableModel::StaticSag if tense => {
-                Some(Self::Constant(without_b(static_sag::stiffness(&sag).in_world(&axes))))
+        Ok(match model {
+            CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
+            CableModel::Spring => Self::Constant(spring::stiffness(&sag).in_world(&axes)),
+            CableModel::StaticSag => Self::Constant(without_b(static_sag::stiffness(&sag).in_world(&axes))),
+            CableModel::CatenaryTangent => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
+            CableModel::ClosedForm => {
+                let cable = ClosedForm::new(sag, axes, material.damping, in_plane_only);
+                Self::Dynamic(DynamicCable::ClosedForm(cable))
             }
-            CableModel::CatenaryTangent => state.tangent_w().map(|k| Self::Constant(without_b(k))),
-            CableModel::ClosedForm if tense => {
-                let damping = robot.cables[i].material.damping;
-                Some(Self::ClosedForm(ClosedForm::new(sag, axes, damping, in_plane_only)))
+            CableModel::Exact => {
+                let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
+                if material.mass_per_length == 0.0 {
+                    return Ok(Self::Constant(without_b(hanging.tangent_w())));
+                }
+                let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
+                let cable = ExactEnd::new(hanging, m, damping, in_plane_only, limit)?;
+                Self::Dynamic(DynamicCable::Exact(Box::new(cable)))
             }
-            CableModel::StaticSag | CableModel::ClosedForm => None,
-        }
+        })
     }
 }
 

@@ -18,6 +18,9 @@ pub const SAME_MOTION: f64 = 0.5;
 /// moves: with 20 cable resonances in between, some shape always fits.
 const SAME_RANGE: f64 = 2.0;
 
+/// Relative difference of frequency up to which modes of two models with vibrating cables can be the same.
+const SAME_FREQUENCY: f64 = 0.2;
+
 /// All models at one equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
@@ -38,8 +41,9 @@ pub struct ModelResult {
     pub model: CableModel,
     /// Its modes below the limit, or why there are none.
     pub modes: Result<Modes, DynamicsError>,
-    /// Its modes that have a counterpart in the reference: the one that moves the platform most alike, with a
-    /// correlation of at least [`SAME_MOTION`] and a frequency within a factor of two. None for the reference.
+    /// Its modes that have a counterpart in the reference. Of constant stiffnesses: the mode that moves the platform most
+    /// alike, with a correlation of at least [`SAME_MOTION`] and a frequency within a factor of two. Of vibrating
+    /// cables, most of whose modes hardly move the platform: the nearest in frequency. None for the reference.
     pub matches: Vec<Match>,
     /// Modes of the reference that it has no counterpart of.
     pub missed: usize,
@@ -71,7 +75,7 @@ pub struct Advice {
     pub text: String,
 }
 
-/// Finds the modes below `below_hz` [Hz] with every model and measures each against the closed form. The model in
+/// Finds the modes below `below_hz` [Hz] with every model and measures each against the exact cable. The model in
 /// `linearisation` is ignored; assembly and plane hold for all.
 ///
 /// # Errors
@@ -82,8 +86,9 @@ pub fn compare(
     below_hz: f64,
     linearisation: Linearisation,
 ) -> Result<Comparison, DynamicsError> {
-    let reference = CableModel::ClosedForm;
-    let with = |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation });
+    let reference = CableModel::Exact;
+    let with =
+        |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
     let dynamics = with(reference)?;
     let truth = modes::below(&dynamics, below_hz);
     let models: Vec<ModelResult> = CableModel::ALL
@@ -95,14 +100,20 @@ pub fn compare(
             }
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
             let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
-            let matches = match_modes(found, &truth.modes, &dynamics.mass());
+            let matches = match_modes(found, &truth.modes, &dynamics.mass(), model.is_dynamic());
             let mut hit = vec![false; truth.modes.len()];
             let mut right = hit.clone();
             for m in &matches {
                 hit[m.reference_index] = true;
                 right[m.reference_index] |= m.relative_difference.abs() <= TOLERANCE;
             }
-            let missed = hit.iter().filter(|h| !**h).count();
+            let mut missed = hit.iter().filter(|h| !**h).count();
+            if model.is_dynamic() {
+                // It has the cables' resonances, too; among dozens of them shapes of the platform tell little, and what
+                // counts is whether each frequency is there.
+                right = frequencies_within(TOLERANCE, found, &truth.modes);
+                missed = truth.modes.len().saturating_sub(found.len());
+            }
             let first_wrong_hz = right.iter().position(|r| !r).map(|i| truth.modes[i].frequency_hz);
             ModelResult { model, modes, matches, missed, first_wrong_hz }
         })
@@ -111,9 +122,22 @@ pub fn compare(
     Ok(Comparison { below_hz, reference, models, advice })
 }
 
+/// Which modes of the ascending list `truth` have one of their own in the ascending list `found`, within a relative
+/// tolerance of frequency.
+fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<bool> {
+    let mut left = found.iter().peekable();
+    truth
+        .iter()
+        .map(|wanted| {
+            while left.next_if(|m| m.frequency_hz < wanted.frequency_hz * (1.0 - tolerance)).is_some() {}
+            left.next_if(|m| m.frequency_hz <= wanted.frequency_hz * (1.0 + tolerance)).is_some()
+        })
+        .collect()
+}
+
 /// Pairs every mode with the reference mode of the most similar platform motion, weighed by how much of that mode is
-/// the platform's; each reference mode serves once.
-fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
+/// the platform's; or, `by_frequency`, with the nearest. Each reference mode serves once.
+fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) -> Vec<Match> {
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
     let mut candidates = Vec::new();
@@ -121,15 +145,34 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
         let x = vector(ours);
         for (j, theirs) in truth.iter().enumerate() {
             let y = vector(theirs);
-            let size = inner(&x, &x) * inner(&y, &y);
-            if size > 0.0 {
-                let correlation = inner(&x, &y).powi(2) / size;
-                let ratio = ours.frequency_hz / theirs.frequency_hz;
+            let (own, other) = (inner(&x, &x), inner(&y, &y));
+            // Two vibrations of cables beside a platform at rest are alike if their frequencies are.
+            let both_at_rest = own == 0.0 && other == 0.0;
+            if !(both_at_rest || own * other > 0.0 || by_frequency) {
+                continue;
+            }
+            let correlation = if both_at_rest {
+                1.0
+            } else if own * other > 0.0 {
+                inner(&x, &y).powi(2) / (own * other)
+            } else {
+                0.0
+            };
+            let ratio = ours.frequency_hz / theirs.frequency_hz;
+            let distance = (1.0 - ratio).abs();
+            let score = if by_frequency {
+                if distance > SAME_FREQUENCY {
+                    continue;
+                }
+                // Two of nearly the same frequency: the more alike.
+                -distance + 0.1 * TOLERANCE * correlation
+            } else {
                 if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
                     continue;
                 }
-                candidates.push((correlation * theirs.platform_energy_fraction, correlation, i, j));
-            }
+                correlation * theirs.platform_energy_fraction - 1e-6 * distance
+            };
+            candidates.push((score, correlation, i, j));
         }
     }
     candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -172,26 +215,33 @@ fn advise(
         ),
         None => format!("no cable resonance lies below the {below_hz} Hz asked"),
     };
-    let simplest = models
-        .iter()
-        .find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none())
-        .map_or(CableModel::ClosedForm, |m| m.model);
+    let simplest =
+        models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(CableModel::Exact, |m| m.model);
     let percent = 100.0 * TOLERANCE;
-    let choice = if simplest == CableModel::ClosedForm {
-        let wrong = models.iter().rev().find(|m| m.model == CableModel::CatenaryTangent);
-        let lost = wrong.map_or(0, |m| m.missed);
-        format!(
-            "Use `closed-form`: {string}, {cable_modes} of the {} modes there have most of their energy in the cables, \
-             and a constant cable stiffness misses {lost} of them",
-            truth.modes.len()
-        )
-    } else if truth.modes.is_empty() {
-        format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
-    } else {
-        format!(
-            "Use `{simplest}`: it has all {} modes below {below_hz} Hz within {percent} % of the closed form; {string}",
-            truth.modes.len()
-        )
+    let result = |model: CableModel| models.iter().find(|m| m.model == model);
+    let lost = result(CableModel::CatenaryTangent).map_or(0, |m| m.missed);
+    let total = truth.modes.len();
+    let constant = format!(
+        "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant cable \
+         stiffness misses {lost} of them"
+    );
+    let choice = match simplest {
+        _ if truth.modes.is_empty() => {
+            format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
+        }
+        CableModel::Exact => {
+            let wrong = result(CableModel::ClosedForm).and_then(|m| m.first_wrong_hz);
+            let closed = wrong.map_or(String::new(), |hz| {
+                format!("; the closed form lacks the one at {hz:.3} Hz or has it wrong by more than {percent} %")
+            });
+            format!("Use `exact`: {constant}{closed}")
+        }
+        CableModel::ClosedForm => {
+            format!("Use `closed-form`, which has all {total} within {percent} % of the exact ones: {constant}")
+        }
+        _ => format!(
+            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the exact ones; {string}"
+        ),
     };
     let range = if ratio > SHALLOW_SAG_LIMIT {
         " The sag is beyond d/l = 1/20, the range of the closed form: take its cable resonances as approximate."

@@ -2,7 +2,8 @@
 //! frequencies below a frequency.
 
 use crate::cable::closed_form::{ClosedForm, Entire};
-use crate::cable::{CableModel, EndStiffness, LocalStiffness, damping_ratio};
+use crate::cable::exact::ExactError;
+use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, inertia, skew};
 use crate::robot::{Damping, Freedoms, Robot};
 use crate::statics::{Equilibrium, add_congruent, add_lever_term, scaled};
@@ -32,6 +33,14 @@ pub struct Linearisation {
 /// Why a robot cannot be linearised.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
+    /// A cable has no exact dynamic stiffness.
+    #[error("cable \"{cable}\": {source}")]
+    Exact {
+        /// Name of the cable.
+        cable: String,
+        /// Why.
+        source: ExactError,
+    },
     /// A cable carries no tension.
     #[error(
         "cable \"{cable}\" has no tension: the {model} model does not exist for it; choose a state in which all cables \
@@ -46,6 +55,18 @@ pub enum DynamicsError {
     /// An ideal equilibrium has no tangent.
     #[error("ideal cables are rigid: they have no catenary tangent; use the static model `catenary` or `spring`")]
     Rigid,
+}
+
+impl DynamicsError {
+    /// Why the cable of this name has no stiffness in a model.
+    pub fn of_cable(name: &str, model: CableModel, reason: NoStiffness) -> Self {
+        let cable = name.to_owned();
+        match reason {
+            NoStiffness::Rigid => Self::Rigid,
+            NoStiffness::NoTension => Self::NoTension { cable, model },
+            NoStiffness::Exact(source) => Self::Exact { cable, source },
+        }
+    }
 }
 
 /// A robot linearised about an equilibrium.
@@ -70,14 +91,15 @@ pub struct Dynamics {
 #[derive(Debug, Clone)]
 pub(crate) struct Term {
     pub(crate) cable: usize,
-    pub(crate) form: ClosedForm,
+    pub(crate) form: DynamicCable,
     pub(crate) along: Vec6,
     pub(crate) normal: Vec6,
     pub(crate) out: Vec6,
 }
 
 impl Dynamics {
-    /// Linearises a robot about an equilibrium.
+    /// Linearises a robot about an equilibrium, for frequencies up to `up_to_hz` [Hz]: exact cables are resolved as finely
+    /// as these ask for, the other models do not need the number.
     ///
     /// # Errors
     /// [`DynamicsError`] if a cable has no stiffness in the model asked.
@@ -88,27 +110,24 @@ impl Dynamics {
         robot: &Robot,
         equilibrium: &Equilibrium,
         linearisation: Linearisation,
+        up_to_hz: f64,
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
         let ell = robot.platform_length();
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only).ok_or_else(|| {
-                if cable_model == CableModel::CatenaryTangent {
-                    DynamicsError::Rigid
-                } else {
-                    DynamicsError::NoTension { cable: robot.cables[i].name.clone(), model: cable_model }
-                }
-            })?;
+            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only, up_to_hz)
+                .map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
             match stiffness {
                 EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
-                EndStiffness::ClosedForm(form) => {
+                EndStiffness::Dynamic(form) => {
                     let vector = |u: &Vec3| {
                         let moment = state.lever_w.cross(u) / ell;
                         Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
                     };
-                    let (along, normal, out) = (vector(&form.axes.e), vector(&form.axes.n), vector(&form.axes.b));
+                    let LocalAxes { e, n, b } = *form.axes();
+                    let (along, normal, out) = (vector(&e), vector(&n), vector(&b));
                     terms.push(Term { cable: i, form, along, normal, out });
                 }
             }
@@ -215,12 +234,24 @@ impl Dynamics {
         let mut matrix = self.constant - self.mass * (omega * omega);
         let mut borders: Vec<(Vec6, f64)> = Vec::new();
         for term in &self.terms {
-            let form = &term.form;
-            let of = Entire::real(omega * omega * form.gamma_by_square);
-            if is_regular(&of, form) {
-                add_local(&mut matrix, term, &form.undamped(omega), |k, product| k * product);
-            } else {
-                add_bordered(&mut matrix, &mut borders, term, &of);
+            match &term.form {
+                DynamicCable::ClosedForm(form) => {
+                    let of = Entire::real(omega * omega * form.gamma_by_square);
+                    if is_regular(&of, form) {
+                        add_local(&mut matrix, term, &form.undamped(omega), |k, product| k * product);
+                    } else {
+                        add_bordered(&mut matrix, &mut borders, term, form, &of);
+                    }
+                }
+                DynamicCable::Exact(form) => {
+                    let (regular, poles) = form.beside_poles(omega * omega, POLE_PART);
+                    add_local(&mut matrix, term, &regular, |k, product| k * product);
+                    borders.extend(
+                        poles
+                            .into_iter()
+                            .map(|([e, n, b], inverse)| (term.along * e + term.normal * n + term.out * b, inverse)),
+                    );
+                }
             }
         }
         if borders.is_empty() {
@@ -261,6 +292,9 @@ impl Dynamics {
 /// the soft directions lost in the sum) the counts are the same.
 const NEAR_POLE: f64 = 1e3;
 
+/// The same for exact cables: distance of ω² to a pole, relative, below which its term is bordered.
+const POLE_PART: f64 = 1e-3;
+
 fn is_regular(of: &Entire<f64>, form: &ClosedForm) -> bool {
     let determinant = of.c + 0.25 * form.sag.lambda2 * of.q;
     let (antisymmetric, symmetric) = (of.c / of.sigma, of.gamma * of.sigma / of.c);
@@ -275,8 +309,8 @@ fn is_regular(of: &Entire<f64>, form: &ClosedForm) -> bool {
 ///
 /// With t = c/σ − γσ/c, the string's stiffness across, the cable in its plane is `k_a w wᵀ + (τ/l) t n nᵀ` with
 /// `w = a + (ε/2)(γq/c) n`: a spring with λ²-softening beside a taut string (docs/theory.md, equation (25)).
-fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, of: &Entire<f64>) {
-    let sag = &term.form.sag;
+fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, form: &ClosedForm, of: &Entire<f64>) {
+    let sag = &form.sag;
     let (along, across) = (sag.axial_stiffness / sag.effective_length, sag.tension / sag.chord);
     let Entire { gamma, c, sigma, q } = *of;
     let sagging = 0.25 * sag.lambda2 * q;
@@ -291,7 +325,7 @@ fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, 
             *matrix += w * w.transpose() * (across / inverse);
         }
     };
-    if !term.form.in_plane_only {
+    if !form.in_plane_only {
         string(&term.out, matrix, borders);
     }
     let turn = 0.5 * sag.epsilon * gamma * q;

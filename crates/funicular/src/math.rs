@@ -3,6 +3,8 @@
 //! This is the only file that names nalgebra's types, so that a change of library is a change here.
 
 pub mod inertia;
+pub mod legendre;
+pub mod projected;
 pub mod roots;
 pub mod rotation;
 
@@ -30,3 +32,6 @@ pub type Rotation = nalgebra::UnitQuaternion<f64>;
 pub fn skew(v: &Vec3) -> Mat3 {
     v.cross_matrix()
 }
+
+/// Matrix of any size.
+pub type DMat = nalgebra::DMatrix<f64>;

@@ -97,7 +97,7 @@ const RESIDUAL_LIMIT: f64 = 1e-8;
 /// # let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
 /// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
-/// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default())?;
+/// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0)?;
 /// let found = modes::below(&dynamics, 20.0);
 /// assert!(found.certified && found.modes.len() == found.count_below);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -128,7 +128,7 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {
         let axial_hz = sags[i].axial_frequency_hz();
-        if below_hz > AXIAL_PART * axial_hz {
+        if model != CableModel::Exact && below_hz > AXIAL_PART * axial_hz {
             warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
         }
     }

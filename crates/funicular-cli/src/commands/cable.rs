@@ -12,7 +12,7 @@ use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag}
 use funicular::dynamics::DynamicsError;
 use funicular::math::{Complex, Mat3};
 use funicular::robot::Robot;
-use funicular::statics::{CableState, StaticModel};
+use funicular::statics::CableState;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -82,13 +82,8 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
     let at_rest = state::equilibrium(robot, &args.state)?;
     let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);
     let model: CableModel = args.cable_model.into();
-    let Some(stiffness) = EndStiffness::new(robot, i, state, model, args.in_plane_only) else {
-        return Err(if at_rest.equilibrium.model == StaticModel::Ideal && model == CableModel::CatenaryTangent {
-            DynamicsError::Rigid.into()
-        } else {
-            DynamicsError::NoTension { cable: args.name.clone(), model }.into()
-        });
-    };
+    let stiffness = EndStiffness::new(robot, i, state, model, args.in_plane_only, args.range.to_hz)
+        .map_err(|reason| DynamicsError::of_cable(&args.name, model, reason))?;
     let sag = Sag::of(robot, i, state);
     let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
     let values = curve(&stiffness, &axes, &frequency_hz)?;
@@ -129,7 +124,7 @@ fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Re
         .map(|&f| {
             let k = match stiffness {
                 EndStiffness::Constant(world) => in_axes(world, axes),
-                EndStiffness::ClosedForm(form) => form.damped(f * TAU),
+                EndStiffness::Dynamic(form) => turned(&form.damped(f * TAU), form.axes(), axes),
             };
             let finite =
                 [k.axial, k.coupling, k.normal, k.out_of_plane].iter().all(|k| k.re.is_finite() && k.im.is_finite());
@@ -142,6 +137,22 @@ fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Re
             }
         })
         .collect()
+}
+
+/// A stiffness in the axes of its model, in the axes of the chord.
+fn turned(k: &LocalStiffness<Complex>, from: &LocalAxes, to: &LocalAxes) -> LocalStiffness<Complex> {
+    if from == to {
+        return *k;
+    }
+    let part = |of: fn(&Complex) -> f64| in_axes(&in_part(k, of).in_world(from), to);
+    let (re, im) = (part(|k| k.re), part(|k| k.im));
+    let join = |re: Complex, im: Complex| Complex::new(re.re, im.re);
+    LocalStiffness {
+        axial: join(re.axial, im.axial),
+        coupling: join(re.coupling, im.coupling),
+        normal: join(re.normal, im.normal),
+        out_of_plane: join(re.out_of_plane, im.out_of_plane),
+    }
 }
 
 /// A symmetric stiffness in world axes, in the axes of the cable.
@@ -166,7 +177,7 @@ fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
 
 /// Frequencies of the cable with both ends held in the range [Hz].
 fn clamped(stiffness: &EndStiffness, args: &CableArgs) -> Result<Option<Vec<f64>>> {
-    let EndStiffness::ClosedForm(form) = stiffness else { return Ok(None) };
+    let EndStiffness::Dynamic(form) = stiffness else { return Ok(None) };
     let limit = args.range.to_hz * TAU;
     let count = form.clamped_modes_below(limit);
     if count > MOST_CLAMPED {

@@ -125,6 +125,7 @@ pub(crate) fn plain(text: &str) -> String {
 /// Colour and dash of a cable model, the same in every figure.
 pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
     match model {
+        CableModel::Exact => (colour::BLACK, "solid"),
         CableModel::ClosedForm => (colour::BLUE, "solid"),
         CableModel::StaticSag => (colour::ORANGE, "dash"),
         CableModel::Spring => (colour::GREEN, "dot"),
@@ -135,6 +136,7 @@ pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
 /// A cable model in words.
 pub(crate) fn model_name(model: CableModel) -> &'static str {
     match model {
+        CableModel::Exact => "exact (dynamic)",
         CableModel::ClosedForm => "closed form (dynamic)",
         CableModel::StaticSag => "static sag",
         CableModel::Spring => "spring",

@@ -239,11 +239,11 @@ fn respond(
     };
     let mut curves = vec![draw(dynamics, found)?];
     let mut notes = Vec::new();
-    for cable_model in [CableModel::ClosedForm, CableModel::StaticSag, CableModel::Spring] {
+    for cable_model in [CableModel::Exact, CableModel::ClosedForm, CableModel::StaticSag, CableModel::Spring] {
         if cable_model == linearisation.cable_model {
             continue;
         }
-        let other = Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation });
+        let other = Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
         match other.map_err(|e| e.to_string()).and_then(|other| {
             let found = modes::below(&other, below_hz);
             draw(&other, &found).map_err(|e| e.to_string())

@@ -175,7 +175,8 @@ fn compare_has_all_models_and_advice() {
     let value = json(&["compare", "ROBOT", "--below-hz", "3"]);
     let models: Vec<&str> =
         value["models"].as_array().unwrap().iter().map(|m| m["cable_model"].as_str().unwrap()).collect();
-    assert_eq!(models, ["spring", "static-sag", "catenary-tangent", "closed-form"]);
+    assert_eq!(models, ["spring", "static-sag", "catenary-tangent", "closed-form", "exact"]);
+    assert_eq!(value["reference"], "exact");
     assert_eq!(value["advice"]["cable_model"], "closed-form");
     assert!(succeed(&["compare", "ROBOT", "--below-hz", "3"]).contains("Use `closed-form`"));
 }
@@ -195,7 +196,7 @@ fn pose_error_names_the_threshold_mass() {
 
 #[test]
 fn the_stiffness_of_a_cable_is_the_same_in_its_own_and_in_world_axes() {
-    for model in ["closed-form", "static-sag", "spring", "catenary-tangent"] {
+    for model in ["exact", "closed-form", "static-sag", "spring", "catenary-tangent"] {
         let value = json(&[
             "cable",
             "ROBOT",
@@ -220,7 +221,7 @@ fn the_stiffness_of_a_cable_is_the_same_in_its_own_and_in_world_axes() {
             let sum = a[i] + c[i] + o[i];
             assert!(close(trace(i), sum, 1e-9 * (a[i].abs() + c[i].abs() + o[i].abs())), "{model} {i}");
         }
-        assert_eq!(value["clamped_frequencies_hz"].is_array(), model == "closed-form");
+        assert_eq!(value["clamped_frequencies_hz"].is_array(), matches!(model, "closed-form" | "exact"));
     }
 }
 

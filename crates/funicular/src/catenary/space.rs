@@ -50,6 +50,11 @@ impl HangingCable {
         self.end_w - self.start_w
     }
 
+    /// The axes of its plane: the horizontal unit vector from start to end, and up.
+    pub fn axes_w(&self) -> (Vec3, Vec3) {
+        (self.along_w, self.up_w)
+    }
+
     /// Force of the cable on what holds its start, the platform [N].
     #[inline]
     pub fn force_on_start_w(&self) -> Vec3 {

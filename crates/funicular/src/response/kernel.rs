@@ -3,7 +3,8 @@
 use super::lanes::{Complexes, LANES, Reals, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
 use super::receptance;
 use crate::cable::closed_form::{self, ClosedForm, Entire, SERIES_BELOW};
-use crate::cable::damped_square;
+use crate::cable::exact::{EndSeries, ExactEnd};
+use crate::cable::{DynamicCable, LocalStiffness, damped_square};
 use crate::dynamics::Dynamics;
 use crate::math::{CMat6, Complex, Vec6};
 use std::array::from_fn;
@@ -76,25 +77,50 @@ impl<'a> Prepared<'a> {
             im: [0.0; LANES],
         });
         for (term, products) in self.dynamics.terms.iter().zip(&self.products) {
-            let of = entire(&term.form, omega);
-            let k = closed_form::stiffness(of, &term.form.sag);
-            if term.form.in_plane_only {
-                for (entry, d) in d.iter_mut().enumerate() {
-                    d.add_scaled(&k.axial, products.axial[entry]);
-                    d.add_scaled(&k.coupling, products.coupling[entry]);
-                    d.add_scaled(&k.normal, products.normal[entry]);
+            let (k, in_plane_only) = match &term.form {
+                DynamicCable::ClosedForm(form) => {
+                    (closed_form::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
                 }
-            } else {
-                for (entry, d) in d.iter_mut().enumerate() {
-                    d.add_scaled(&k.axial, products.axial[entry]);
-                    d.add_scaled(&k.coupling, products.coupling[entry]);
-                    d.add_scaled(&k.normal, products.normal[entry]);
+                DynamicCable::Exact(form) => (exact(form, omega), form.in_plane_only),
+            };
+            for (entry, d) in d.iter_mut().enumerate() {
+                d.add_scaled(&k.axial, products.axial[entry]);
+                d.add_scaled(&k.coupling, products.coupling[entry]);
+                d.add_scaled(&k.normal, products.normal[entry]);
+                if !in_plane_only {
                     d.add_scaled(&k.out_of_plane, products.out[entry]);
                 }
             }
         }
         d
     }
+}
+
+/// The exact cable's stiffness at each lane.
+#[inline(always)]
+fn exact(form: &ExactEnd, omega: &Reals) -> LocalStiffness<Complexes> {
+    let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        (re[i], im[i]) = damped_square(omega[i], form.damping, form.mass_per_length);
+    }
+    let x = Complexes { re, im };
+    let [axial, coupling, normal] = pole_sum(&form.plane, &x);
+    let out_of_plane = if form.in_plane_only { Complexes::ZERO } else { pole_sum(&form.across, &x)[0] };
+    LocalStiffness { axial, coupling, normal, out_of_plane }
+}
+
+/// `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)`.
+#[inline(always)]
+fn pole_sum<const E: usize>(of: &EndSeries<E>, x: &Complexes) -> [Complexes; E] {
+    let mut sums = [Complexes::ZERO; E];
+    for (k, pole) in of.poles.iter().enumerate() {
+        let gap = Complexes { re: from_fn(|i| pole - x.re[i]), im: from_fn(|i| -x.im[i]) };
+        let factor = gap.inverse();
+        for (sum, residues) in sums.iter_mut().zip(&of.residues) {
+            sum.add_scaled(&factor, residues[k]);
+        }
+    }
+    from_fn(|e| Complexes::real(of.stiffness[e]) - *x * (Complexes::real(of.mass[e]) + *x * sums[e]))
 }
 
 /// The closed form's functions of γ at each lane, divided by cosh Im √γ.

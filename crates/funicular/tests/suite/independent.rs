@@ -98,7 +98,7 @@ fn static_stiffness_agrees_in_both_assemblies() {
         assert!(gap < 1e-9, "{} consistent: {gap:e}", case["id"]);
         let linearisation =
             Linearisation { cable_model: CableModel::CatenaryTangent, assembly: Assembly::Paper, in_plane_only: false };
-        let paper = Dynamics::about(&robot, &rest, linearisation).unwrap().stiffness(0.0).map(|k| k.re);
+        let paper = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap().stiffness(0.0).map(|k| k.re);
         let gap = difference(&robot, &paper, &matrix(&case["static_tangent_paper"]));
         assert!(gap < 1e-9, "{} paper: {gap:e}", case["id"]);
     }
@@ -106,7 +106,7 @@ fn static_stiffness_agrees_in_both_assemblies() {
 
 fn closed(robot: &Robot, rest: &Equilibrium, assembly: Assembly, in_plane_only: bool) -> Dynamics {
     let linearisation = Linearisation { cable_model: CableModel::ClosedForm, assembly, in_plane_only };
-    Dynamics::about(robot, rest, linearisation).unwrap()
+    Dynamics::about(robot, rest, linearisation, 20.0).unwrap()
 }
 
 fn undamped(robot: &Robot) -> Robot {

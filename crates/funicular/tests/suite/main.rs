@@ -4,6 +4,7 @@
 
 mod cable;
 mod catenary;
+mod exact;
 mod independent;
 mod modes;
 mod random;

@@ -63,7 +63,7 @@ fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multipli
         };
         let strain = state.cables.iter().map(|c| c.tension_platform).fold(0.0, f64::max)
             / robot.cables[0].material.axial_stiffness;
-        let dynamics = Dynamics::about(&robot, &state, Linearisation::default()).unwrap();
+        let dynamics = Dynamics::about(&robot, &state, Linearisation::default(), 20.0).unwrap();
         // The lists end before the third family of the strings.
         let limit = number(cube, "limit_hz");
         let found = modes::below(&dynamics, limit);
@@ -88,7 +88,7 @@ fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multipli
 fn counts_grow_by_one_at_every_listed_frequency_and_nowhere_else() {
     let (robot, rest) = yuan();
     for assembly in [Assembly::Consistent, Assembly::Paper] {
-        let dynamics = Dynamics::about(&robot, &rest, Linearisation { assembly, ..Default::default() }).unwrap();
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation { assembly, ..Default::default() }, 20.0).unwrap();
         let found = modes::below(&dynamics, 20.0);
         assert!(found.certified);
         for (i, mode) in found.modes.iter().enumerate() {
@@ -103,7 +103,8 @@ fn counts_grow_by_one_at_every_listed_frequency_and_nowhere_else() {
 fn constant_models_give_the_eigenvalues_of_stiffness_and_mass() {
     let (robot, rest) = yuan();
     for cable_model in [CableModel::Spring, CableModel::StaticSag, CableModel::CatenaryTangent] {
-        let dynamics = Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }).unwrap();
+        let dynamics =
+            Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 20.0).unwrap();
         let found = modes::below(&dynamics, 100.0);
         assert!(found.certified);
         // Another algorithm: Cholesky of M, eigenvalues of L⁻¹ K L⁻ᵀ.
@@ -129,7 +130,7 @@ fn a_mode_is_a_motion_that_the_dynamic_stiffness_does_not_oppose() {
     for cable in &mut quiet.cables {
         cable.material.damping = funicular::robot::Damping::Ratio(0.0);
     }
-    let dynamics = Dynamics::about(&quiet, &rest, Linearisation::default()).unwrap();
+    let dynamics = Dynamics::about(&quiet, &rest, Linearisation::default(), 20.0).unwrap();
     for mode in modes::below(&dynamics, 20.0).modes {
         let omega = mode.frequency_hz * TAU;
         let d = dynamics.stiffness(omega).map(|k| k.re) - dynamics.mass() * (omega * omega);
@@ -144,7 +145,7 @@ fn a_mode_is_a_motion_that_the_dynamic_stiffness_does_not_oppose() {
 fn damping_to_first_order_is_the_width_of_the_resonance() {
     // The half-power width of the response of a well separated mode is 2ζf.
     let (robot, rest) = yuan();
-    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
     let found = modes::below(&dynamics, 3.0).modes;
     let mut checked = 0;
     for (i, mode) in found.iter().enumerate() {
@@ -184,7 +185,7 @@ fn turning_the_whole_world_changes_no_frequency() {
     }
     let list = |robot: &Robot, start: Option<&Pose>| {
         let rest = statics::forward(robot, &lengths, StaticModel::Catenary, start).unwrap();
-        let found = modes::below(&Dynamics::about(robot, &rest, Linearisation::default()).unwrap(), 20.0);
+        let found = modes::below(&Dynamics::about(robot, &rest, Linearisation::default(), 20.0).unwrap(), 20.0);
         assert!(found.certified);
         (rest.pose, found.modes.iter().map(|m| m.frequency_hz).collect::<Vec<f64>>())
     };
@@ -203,7 +204,7 @@ fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
     let (mut robot, _) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
     let (_, rest) = yuan();
     robot.platform.center_of_mass_p = Vec3::new(0.0, 0.0, 200.0);
-    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
     let found = modes::below(&dynamics, 5.0);
     assert!(found.unstable_directions >= 1);
     assert_eq!(found.modes.len() + found.unstable_directions, found.count_below);
@@ -236,7 +237,7 @@ proptest! {
     ) {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
         let linearisation = Linearisation { in_plane_only, ..Default::default() };
-        let dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+        let dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();
         let found = modes::below(&dynamics, 12.0);
         prop_assert!(found.certified, "{} of {}", found.modes.len(), found.count_below);
         prop_assert!(found.modes.windows(2).all(|pair| pair[0].frequency_hz <= pair[1].frequency_hz));

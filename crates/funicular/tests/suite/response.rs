@@ -36,7 +36,7 @@ fn the_vector_kernel_equals_plain_elimination() {
             for cable_model in CableModel::ALL {
                 for in_plane_only in [false, true] {
                     let linearisation = Linearisation { cable_model, in_plane_only, ..Default::default() };
-                    let dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+                    let dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();
                     let fast = response::receptances(&dynamics, &frequencies).unwrap();
                     let (input, output) =
                         (Vec6::new(1.0, 0.2, -0.3, 0.1, 0.4, 0.0), Vec6::new(0.0, 0.3, 1.0, 0.0, -0.2, 0.1));
@@ -62,7 +62,7 @@ fn the_vector_kernel_equals_plain_elimination() {
 fn at_rest_the_response_is_the_compliance_and_far_up_it_is_the_mass() {
     let (robot, rest) = load(ROBOTS[0]);
     let linearisation = Linearisation { cable_model: CableModel::CatenaryTangent, ..Default::default() };
-    let dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+    let dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();
     let compliance = statics::tangent_stiffness(&robot, &rest).unwrap().try_inverse().unwrap();
     let still = response::receptances(&dynamics, &[0.0]).unwrap()[0].map(|z| z.re);
     assert!((still - compliance).amax() < 1e-10 * compliance.amax());
@@ -74,7 +74,7 @@ fn at_rest_the_response_is_the_compliance_and_far_up_it_is_the_mass() {
 #[test]
 fn reciprocity_and_positive_power_hold_between_any_two_points() {
     let (robot, rest) = load(ROBOTS[1]);
-    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
     let frequencies: Vec<f64> = (1..500).map(|i| 0.04 * f64::from(i)).collect();
     let a = Direction::Along { direction_w: Vec3::new(1.0, 2.0, -0.5), point_p: Vec3::new(0.1, 0.0, 0.3) }
         .vector(&rest.pose);
@@ -91,7 +91,7 @@ fn reciprocity_and_positive_power_hold_between_any_two_points() {
 #[test]
 fn velocity_and_acceleration_are_the_derivatives_of_displacement() {
     let (robot, rest) = load(ROBOTS[2]);
-    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default()).unwrap();
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
     let u = Direction::Along { direction_w: Vec3::x(), point_p: Vec3::zeros() }.vector(&rest.pose);
     let f = 3.7;
     let [x, v, a] = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
@@ -112,7 +112,7 @@ fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
         assembly: funicular::dynamics::Assembly::Paper,
         in_plane_only: false,
     };
-    let mut dynamics = Dynamics::about(&robot, &rest, linearisation).unwrap();
+    let mut dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();
     let u = Vec6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
     assert!(response::frf(&dynamics, &[0.0], &u, &u, Quantity::Displacement).unwrap()[0].norm() > 1e10);
     let slack = {
@@ -123,7 +123,7 @@ fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
         }
         state
     };
-    dynamics = Dynamics::about(&robot, &slack, linearisation).unwrap();
+    dynamics = Dynamics::about(&robot, &slack, linearisation, 20.0).unwrap();
     let refused = response::frf(&dynamics, &[0.0, 1.0], &u, &u, Quantity::Displacement);
     assert_eq!(refused.unwrap_err(), ResponseError::Resonance { frequency_hz: 0.0 });
 }

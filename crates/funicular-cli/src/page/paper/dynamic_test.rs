@@ -104,7 +104,7 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
     let with = |cable_model| -> anyhow::Result<(Modes, Curve)> {
         let linearisation = Linearisation { cable_model, assembly: Assembly::Paper, in_plane_only: true };
-        let dynamics = Dynamics::about(&robot, &rest, linearisation)?;
+        let dynamics = Dynamics::about(&robot, &rest, linearisation, BELOW_HZ)?;
         let found = modes::below(&dynamics, BELOW_HZ);
         let at = (&dynamics, sampled(BELOW_HZ, &found.modes));
         let curve =

@@ -289,8 +289,9 @@ fn side_by_side(comparison: &Comparison) -> Table {
     }
     let mut table = Table::new(
         "table-side-by-side",
-        "Modes that move the platform, the models side by side; a counterpart is the mode whose platform motion correlates \
-         with at least 0.5. Vibrations of cables alone, which constant stiffnesses do not have, are left out.",
+        "Modes that move the platform, the models side by side; the counterpart in a model of \
+         constant stiffness is the mode whose platform motion correlates with at least 0.5, in one of vibrating cables \
+         the nearest in frequency. Vibrations of cables alone, which constant stiffnesses do not have, are left out.",
         &columns.iter().map(String::as_str).collect::<Vec<_>>(),
     );
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);

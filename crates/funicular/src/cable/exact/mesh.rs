@@ -1,0 +1,272 @@
+//! A cable as a few elements of high polynomial degree, condensed onto its ends.
+
+use super::{ExactError, PoleResidue};
+use crate::catenary::Catenary;
+use crate::math::{Complex, DMat, legendre, projected};
+
+/// A cable cut into elements, each with its polynomial degree.
+pub(super) struct Mesh<'a> {
+    catenary: &'a Catenary,
+    mass_per_length: f64,
+    elements: Vec<Element>,
+    /// How often it was refined.
+    pub(super) refined: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Element {
+    from: f64,
+    to: f64,
+    degree: usize,
+}
+
+/// A matrix over the functions of one element, two degrees more than it has: what the discretisation leaves out shows
+/// in what these would answer.
+const BEYOND: usize = 2;
+
+impl<'a> Mesh<'a> {
+    pub(super) fn new(catenary: &'a Catenary, mass_per_length: f64, limit: f64) -> Result<Self, ExactError> {
+        let rope = catenary.rope();
+        let w = rope.weight_per_length;
+        let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
+        let straight = w == 0.0;
+        // T is analytic but at V = ±iH, that is at s = lowest ± i H/w.
+        let (lowest, depth) = (-va / w, h / w);
+        let least = if !straight && (0.0..=rope.unstrained_length).contains(&lowest) {
+            h
+        } else {
+            catenary.tension_at_start().min(catenary.tension_at_end())
+        };
+        if least.is_nan() || least <= 1e-9 * catenary.tension_at_end().max(catenary.tension_at_start()) {
+            return Err(ExactError::NoTension);
+        }
+        let mut cuts = vec![(0.0, rope.unstrained_length)];
+        let mut elements = Vec::new();
+        while let Some((from, to)) = cuts.pop() {
+            let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
+            // Size of the Bernstein ellipse through the singularity: the coefficients of C fall like its powers.
+            let z = Complex::new((lowest - center) / half, depth / half);
+            let root = (z * z - 1.0).sqrt();
+            let size = if straight { f64::INFINITY } else { (z + root).norm().max((z - root).norm()) };
+            if size < SMOOTH_ENOUGH {
+                cuts.extend([(center, to), (from, center)]);
+                continue;
+            }
+            // Phase of the transverse wave, the slower one, over the element (Simpson).
+            let slowness = |s: f64| {
+                let t = catenary.tension_at(s);
+                (mass_per_length * (rope.axial_stiffness + t) / (rope.axial_stiffness * t)).sqrt()
+            };
+            let mean = (slowness(from) + 4.0 * slowness(center) + slowness(to)) / 6.0;
+            let phase = limit * mean * (to - from);
+            // 0.5 resolves a wave; the cube root is the width of the transition to exponential convergence.
+            let waves = 0.53 * phase + 2.2 * (0.5 * phase).cbrt();
+            let degree = (waves + 4.0 + 13.0 / size.ln()).ceil().min(1e6) as usize;
+            elements.push(Element { from, to, degree });
+        }
+        Ok(Self { catenary, mass_per_length, elements, refined: 0 })
+    }
+
+    pub(super) fn refine(&mut self) {
+        self.refined += 1;
+        for element in &mut self.elements {
+            element.degree += element.degree / 6 + 8;
+        }
+    }
+
+    /// Polynomial degree of each element.
+    pub(super) fn degrees(&self) -> Vec<usize> {
+        self.elements.iter().map(|e| e.degree).collect()
+    }
+
+    /// Inner unknowns in plane.
+    pub(super) fn unknowns(&self) -> usize {
+        2 * (self.elements.iter().map(|e| e.degree).sum::<usize>() - 1)
+    }
+
+    /// C at arc length s [N]: in plane (hh, hv, vv), out of plane the first only.
+    fn tangent_at(&self, s: f64) -> ([f64; 3], f64) {
+        let rope = self.catenary.rope();
+        let h = self.catenary.horizontal_force();
+        let v = self.catenary.vertical_force_at_start() + rope.weight_per_length * s;
+        let tension = h.hypot(v);
+        let ea = rope.axial_stiffness;
+        let across = ea * tension / (ea + tension);
+        let (c, s) = (h / tension, v / tension);
+        let extra = ea - across;
+        ([across + extra * c * c, extra * c * s, across + extra * s * s], across)
+    }
+
+    /// Condenses D components a point onto the two ends (N = 2D) with the static stiffness `still`; also the estimated
+    /// relative error of the clamped frequencies below the limit.
+    pub(super) fn condense<const D: usize, const N: usize>(
+        &self,
+        still: [[f64; N]; N],
+        limit: f64,
+    ) -> Result<(PoleResidue<N>, f64), ExactError> {
+        // Scalar functions: inner ones (nodes, then bubbles), the two ends, then those beyond the degree.
+        let inner = self.elements.iter().map(|e| e.degree).sum::<usize>() - 1;
+        let beyond = BEYOND * self.elements.len();
+        let total = inner + 2 + beyond;
+        let (n, count) = (D * inner, 2 * D * (2 + beyond));
+        let mut stiffness = vec![0.0; n * n];
+        let mut mass = vec![0.0; n * n];
+        // Columns of K for ends and beyond, then the same of M, by rows.
+        let mut columns = vec![0.0; n * count];
+        let mut end_mass = [[0.0; N]; N];
+        let mut own = vec![(0.0, 0.0); D * beyond];
+        let nodes = self.elements.len() - 1;
+        let mut bubble = nodes;
+        for (e, element) in self.elements.iter().enumerate() {
+            let left = if e == 0 { inner } else { e - 1 };
+            let right = if e == nodes { inner + 1 } else { e };
+            let functions: Vec<usize> = [left, right]
+                .into_iter()
+                .chain(bubble..bubble + element.degree - 1)
+                .chain((0..BEYOND).map(|k| inner + 2 + BEYOND * e + k))
+                .collect();
+            bubble += element.degree - 1;
+            let (k, m) = self.element_matrices::<D>(element);
+            for (b, &column) in functions.iter().enumerate() {
+                for (a, &row) in functions.iter().enumerate() {
+                    let inertia = m[(a, b)];
+                    for dj in 0..D {
+                        for di in 0..D {
+                            let (entry, inertia) = (k[di + dj][(a, b)], if di == dj { inertia } else { 0.0 });
+                            if row < inner && column < inner {
+                                stiffness[(D * column + dj) * n + D * row + di] += entry;
+                                mass[(D * column + dj) * n + D * row + di] += inertia;
+                            } else if row < inner {
+                                let at = (D * row + di) * count + D * (column - inner) + dj;
+                                columns[at] += entry;
+                                columns[at + count / 2] += inertia;
+                            } else if column < inner {
+                                // The transpose of what the branch above takes.
+                            } else if row < inner + 2 && column < inner + 2 {
+                                end_mass[D * (row - inner) + di][D * (column - inner) + dj] += inertia;
+                            } else if row == column && di == dj {
+                                own[D * (row - inner - 2) + di] = (entry, inertia);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        debug_assert!(total == inner + 2 + beyond && bubble == inner);
+        let (values, products) = projected::pencil(stiffness, mass, columns, count).ok_or(ExactError::NoTension)?;
+        Ok(Self::pole_residue(&values, &products, still, end_mass, &own, limit))
+    }
+
+    /// Poles and residues from the eigenvalues μ = 1/ω² and the products of the eigenvectors, normalised to φᵀKφ = 1,
+    /// with the columns a = K_ib and b = M_ib of the ends: `g = (b − μ a)/√μ`, `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`.
+    fn pole_residue<const N: usize>(
+        values: &[f64],
+        products: &[f64],
+        still: [[f64; N]; N],
+        end_mass: [[f64; N]; N],
+        own: &[(f64, f64)],
+        limit: f64,
+    ) -> (PoleResidue<N>, f64) {
+        let count = products.len() / values.len().max(1);
+        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
+        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+        let mut mass = end_mass;
+        let mut error = 0.0_f64;
+        let mut poles = Vec::with_capacity(order.len());
+        let mut participation = Vec::with_capacity(order.len());
+        for k in order {
+            let mu = values[k];
+            let (stiff, heavy) = products[k * count..(k + 1) * count].split_at(count / 2);
+            for i in 0..N {
+                for j in 0..N {
+                    mass[i][j] -= heavy[i] * stiff[j] + stiff[i] * heavy[j] - mu * stiff[i] * stiff[j];
+                }
+            }
+            poles.push(1.0 / mu);
+            participation.push(std::array::from_fn(|i| (heavy[i] - mu * stiff[i]) / mu.sqrt()));
+            if 1.0 / mu < limit * limit {
+                // What the functions beyond would take off ω², to first order in each, over ω² (φᵀKφ = 1).
+                let lost: f64 = own
+                    .iter()
+                    .enumerate()
+                    .map(|(e, (k_own, m_own))| {
+                        let answer = stiff[N + e] - heavy[N + e] / mu;
+                        answer * answer / (k_own - m_own / mu).abs().max(f64::MIN_POSITIVE)
+                    })
+                    .sum();
+                error = error.max(0.5 * lost);
+            }
+        }
+        (PoleResidue { stiffness: still, mass, poles, participation }, error)
+    }
+
+    /// K of each component (hh, hv, vv, or one) and M of an element over its hats and bubbles, [`BEYOND`] included.
+    fn element_matrices<const D: usize>(&self, element: &Element) -> (Vec<DMat>, DMat) {
+        let half = 0.5 * (element.to - element.from);
+        let middle = 0.5 * (element.to + element.from);
+        let degree = element.degree + BEYOND;
+        // Two slopes have degree 2p − 2; C takes its own share of the rule.
+        let rule = legendre::gauss(degree + 8);
+        let mut slopes = DMat::zeros(degree + 1, rule.len());
+        let parts = 2 * D - 1;
+        let mut weights = vec![vec![0.0; rule.len()]; parts];
+        for (q, (xi, weight)) in rule.iter().enumerate() {
+            let mut column = slopes.column_mut(q);
+            column[0] = -0.5;
+            column[1] = 0.5;
+            for (j, p) in legendre::orthonormal(*xi, degree - 1).iter().enumerate().skip(1) {
+                column[j + 1] = *p;
+            }
+            let (in_plane, across) = self.tangent_at(middle + half * xi);
+            for (part, weights) in weights.iter_mut().enumerate() {
+                weights[q] = weight / half * if D == 1 { across } else { in_plane[part] };
+            }
+        }
+        let stiffness = weights
+            .iter()
+            .map(|weights| {
+                let mut weighted = slopes.clone();
+                for (mut column, w) in weighted.column_iter_mut().zip(weights) {
+                    column *= *w;
+                }
+                weighted * slopes.transpose()
+            })
+            .collect();
+        (stiffness, bubble_mass(degree) * (half * self.mass_per_length))
+    }
+}
+
+/// Smallest Bernstein ellipse of an element. Cutting in two costs a node; at 1.3 a single element still converges, with
+/// twice the degree, and below 2 every slack cable would be cut.
+const SMOOTH_ENOUGH: f64 = 1.5;
+
+/// ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
+fn bubble_mass(degree: usize) -> DMat {
+    let mut m = DMat::zeros(degree + 1, degree + 1);
+    let mut set = |a: usize, b: usize, value: f64| {
+        m[(a, b)] = value;
+        m[(b, a)] = value;
+    };
+    set(0, 0, 2.0 / 3.0);
+    set(1, 1, 2.0 / 3.0);
+    set(0, 1, 1.0 / 3.0);
+    // Index j of N_j is its place, since the hats take 0 and 1.
+    if degree >= 2 {
+        let value = -1.0 / 6f64.sqrt();
+        set(0, 2, value);
+        set(1, 2, value);
+    }
+    if degree >= 3 {
+        let value = 1.0 / (3.0 * 10f64.sqrt());
+        set(0, 3, value);
+        set(1, 3, -value);
+    }
+    for j in 2..=degree {
+        let n = j as f64;
+        set(j, j, 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)));
+        if j + 2 <= degree {
+            set(j, j + 2, -1.0 / ((2.0 * n + 1.0) * ((2.0 * n - 1.0) * (2.0 * n + 3.0)).sqrt()));
+        }
+    }
+    m
+}

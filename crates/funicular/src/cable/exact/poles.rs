@@ -1,0 +1,123 @@
+//! End stiffness by poles and residues.
+
+use crate::math::Complex;
+use std::ops::Range;
+
+/// A symmetric end stiffness by poles and residues; N end components.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoleResidue<const N: usize> {
+    /// K_s, symmetric [N/m].
+    pub stiffness: [[f64; N]; N],
+    /// M_s, symmetric [kg].
+    pub mass: [[f64; N]; N],
+    /// ω_k² of the clamped modes, ascending [rad²/s²].
+    pub poles: Vec<f64>,
+    /// g_k [√kg].
+    pub participation: Vec<[f64; N]>,
+}
+
+impl<const N: usize> PoleResidue<N> {
+    /// Entries (i, j) of the undamped stiffness at x = ω² [N/m].
+    pub fn undamped<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
+        let mut sums = [0.0; E];
+        for (pole, g) in self.poles.iter().zip(&self.participation) {
+            let factor = 1.0 / (pole - x);
+            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
+                *sum += g[i] * g[j] * factor;
+            }
+        }
+        std::array::from_fn(|e| {
+            let (i, j) = entries[e];
+            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
+        })
+    }
+
+    /// Entries (i, j) of the stiffness at the complex x = ω_c² [N/m].
+    pub fn damped<const E: usize>(&self, entries: [(usize, usize); E], x: Complex) -> [Complex; E] {
+        let mut sums = [Complex::new(0.0, 0.0); E];
+        for (pole, g) in self.poles.iter().zip(&self.participation) {
+            let factor = 1.0 / (*pole - x);
+            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
+                *sum += factor * (g[i] * g[j]);
+            }
+        }
+        std::array::from_fn(|e| {
+            let (i, j) = entries[e];
+            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
+        })
+    }
+
+    /// Entries (i, j) of minus the derivative of the undamped stiffness by ω² [kg]:
+    /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω².
+    pub fn moving_mass<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
+        let mut sums = entries.map(|(i, j)| self.mass[i][j]);
+        for (pole, g) in self.poles.iter().zip(&self.participation) {
+            let gap = pole - x;
+            let factor = x * (2.0 * pole - x) / (gap * gap);
+            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
+                *sum += g[i] * g[j] * factor;
+            }
+        }
+        sums
+    }
+
+    /// Number of poles below ω² = x.
+    pub fn poles_below(&self, x: f64) -> usize {
+        self.poles.partition_point(|pole| *pole < x)
+    }
+}
+
+/// Entries of the platform end's stiffness, poles and residues each in a row, for sums in vector registers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct EndSeries<const E: usize> {
+    pub(crate) poles: Vec<f64>,
+    pub(crate) residues: [Vec<f64>; E],
+    pub(crate) stiffness: [f64; E],
+    pub(crate) mass: [f64; E],
+}
+
+impl<const E: usize> EndSeries<E> {
+    pub(super) fn of<const N: usize>(all: &PoleResidue<N>, entries: [(usize, usize); E]) -> Self {
+        Self {
+            poles: all.poles.clone(),
+            residues: entries.map(|(i, j)| all.participation.iter().map(|g| g[i] * g[j]).collect()),
+            stiffness: entries.map(|(i, j)| all.stiffness[i][j]),
+            mass: entries.map(|(i, j)| all.mass[i][j]),
+        }
+    }
+
+    /// Places of the poles nearer to x than the part `width`.
+    pub(super) fn near(&self, x: f64, width: f64) -> Range<usize> {
+        let from = self.poles.partition_point(|pole| *pole < x * (1.0 - width));
+        let count = self.poles[from..].iter().take_while(|pole| **pole < x * (1.0 + width)).count();
+        from..from + count
+    }
+
+    /// Undamped entries at x = ω², without the poles `left_out`.
+    pub(super) fn undamped(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
+        const LANES: usize = 8;
+        let mut sums = [0.0; E];
+        for range in [0..left_out.start, left_out.end..self.poles.len()] {
+            let poles = &self.poles[range.clone()];
+            let residues: [&[f64]; E] = std::array::from_fn(|e| &self.residues[e][range.clone()]);
+            let whole = poles.len() / LANES * LANES;
+            let mut lanes = [[0.0; LANES]; E];
+            for (k, block) in poles.chunks_exact(LANES).enumerate() {
+                let factors: [f64; LANES] = std::array::from_fn(|i| 1.0 / (block[i] - x));
+                for (lanes, residues) in lanes.iter_mut().zip(residues) {
+                    let block = &residues[k * LANES..(k + 1) * LANES];
+                    for i in 0..LANES {
+                        lanes[i] += block[i] * factors[i];
+                    }
+                }
+            }
+            for ((sum, lanes), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
+                *sum += lanes.iter().sum::<f64>();
+                for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
+                    *sum += residue / (pole - x);
+                }
+            }
+        }
+        std::array::from_fn(|e| self.stiffness[e] - x * (self.mass[e] + x * sums[e]))
+    }
+}
