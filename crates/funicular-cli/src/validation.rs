@@ -6,6 +6,7 @@
 mod catenary;
 mod cube;
 mod dynamics;
+mod exact;
 mod independent;
 mod markdown;
 mod paper;
@@ -69,6 +70,8 @@ pub(crate) enum Kind {
 pub(crate) enum Bound {
     /// Both are the same model; what is left is rounding, and no digit of it means anything.
     Rounding,
+    /// Both are the same model, resolved by elements to a known error; below it, as with rounding.
+    Elements,
     /// The digits that were printed, or the tolerance of the other program.
     Digits(&'static str),
     /// The models differ: what one of them leaves out.
@@ -81,6 +84,7 @@ impl From<Bound> for &'static str {
     fn from(bound: Bound) -> Self {
         match bound {
             Bound::Rounding => "rounding",
+            Bound::Elements => "error of the elements",
             Bound::Count => "a count",
             Bound::Digits(text) | Bound::Model(text) => text,
         }
@@ -93,13 +97,15 @@ impl From<Bound> for &'static str {
 /// A reference file that cannot be read, or a robot of it without an equilibrium.
 pub(crate) fn sections() -> Result<Vec<Section>> {
     let published = reference::published()?;
+    let robots = reference::independent()?;
     Ok(vec![
         catenary::section(&published)?,
         robots::section(&published)?,
-        independent::section(&reference::independent()?)?,
+        independent::section(&robots)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,
+        exact::section(&published, &reference::exact()?, &robots)?,
     ])
 }
 

@@ -117,14 +117,14 @@ impl Compared<'_> {
         rows.push(self.matrix("static stiffness, consistent [N/m]", theirs, &consistent));
         let linearisation =
             Linearisation { cable_model: CableModel::CatenaryTangent, assembly: Assembly::Paper, in_plane_only: false };
-        let paper = Dynamics::about(&self.robot, &self.rest, linearisation)?.stiffness(0.0).map(|k| k.re);
+        let paper = Dynamics::about(&self.robot, &self.rest, linearisation, 0.0)?.stiffness(0.0).map(|k| k.re);
         rows.push(self.matrix("static stiffness, paper [N/m]", &self.given.static_tangent_paper, &paper));
         Ok(())
     }
 
     fn closed(&self, robot: &Robot, assembly: Assembly, in_plane_only: bool) -> Result<Dynamics, DynamicsError> {
         let linearisation = Linearisation { cable_model: CableModel::ClosedForm, assembly, in_plane_only };
-        Dynamics::about(robot, &self.rest, linearisation)
+        Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
     }
 
     fn closed_form_stiffness(&self, rows: &mut Vec<Row>) -> Result<()> {

@@ -277,12 +277,62 @@ pub(super) struct FrfOffset {
     pub(super) response: Response,
 }
 
+/// exact.json.
+#[derive(Deserialize)]
+pub(super) struct Reference {
+    #[serde(rename = "_about")]
+    pub(super) about: String,
+    pub(super) cables: Vec<ExactCable>,
+    pub(super) robots: Vec<ExactRobot>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ExactCable {
+    pub(super) id: String,
+    pub(super) start_m: [f64; 3],
+    pub(super) end_m: [f64; 3],
+    pub(super) unstrained_length_m: f64,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) gravity_m_s2: [f64; 3],
+    pub(super) clamped_in_plane_hz: Vec<f64>,
+    pub(super) clamped_out_of_plane_hz: Vec<f64>,
+    pub(super) end_stiffness: ExactStiffness,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ExactStiffness {
+    pub(super) frequency_hz: Vec<f64>,
+    /// Both ends, start first.
+    pub(super) undamped: Vec<Matrix>,
+}
+
+/// A robot of independent.json.
+#[derive(Deserialize)]
+pub(super) struct ExactRobot {
+    pub(super) id: String,
+    pub(super) below_hz: f64,
+    pub(super) frequencies_hz: Vec<f64>,
+    pub(super) frf: ExactFrf,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ExactFrf {
+    pub(super) frequency_hz: Vec<f64>,
+    #[serde(flatten)]
+    pub(super) response: Response,
+}
+
 pub(super) fn published() -> Result<Published> {
     serde_json::from_str(include_str!("../../../funicular/reference/published.json")).context("published.json")
 }
 
 pub(super) fn independent() -> Result<Independent> {
     serde_json::from_str(include_str!("../../../funicular/reference/independent.json")).context("independent.json")
+}
+
+pub(super) fn exact() -> Result<Reference> {
+    serde_json::from_str(include_str!("../../../funicular/reference/exact.json")).context("exact.json")
 }
 
 /// A robot and its unstrained lengths.
