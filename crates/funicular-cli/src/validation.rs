@@ -96,16 +96,15 @@ impl From<Bound> for &'static str {
 /// # Errors
 /// A reference file that cannot be read, or a robot of it without an equilibrium.
 pub(crate) fn sections() -> Result<Vec<Section>> {
-    let published = reference::published()?;
-    let robots = reference::independent()?;
+    let (published, independent) = (reference::published()?, reference::independent()?);
     Ok(vec![
         catenary::section(&published)?,
         robots::section(&published)?,
-        independent::section(&robots)?,
+        independent::section(&independent)?,
+        exact::section(&published, &reference::exact()?, &independent)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,
-        exact::section(&published, &reference::exact()?, &robots)?,
     ])
 }
 

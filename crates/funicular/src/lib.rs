@@ -1,4 +1,50 @@
 //! Statics and vibration of cable-driven parallel robots whose cables sag, stretch and vibrate.
+//!
+//! # A tour
+//!
+//! Data flows one way: robot file → [`Robot`](robot::Robot) → [`Equilibrium`](statics::Equilibrium) →
+//! [`Dynamics`](dynamics::Dynamics) → [`Modes`](modes::Modes) or a [response]. Every step is a free function or a
+//! constructor, its result plain data; nothing is changed once it exists.
+//!
+//! SI units throughout, angles in rad (roll, pitch and yaw in degrees, as people write them), harmonic motion e^{+iωt}.
+//! World frame `w`, platform frame `p`: `anchor_w` is a point in world coordinates, `attachment_p` one in platform
+//! coordinates, `rot_wp` turns the second kind into the first. Wrenches, small motions and the 6×6 matrices are about
+//! the origin of the platform frame, in world axes.
+//!
+//! ```
+//! use funicular::cable::CableModel;
+//! use funicular::dynamics::{Dynamics, Linearisation};
+//! use funicular::math::Vec3;
+//! use funicular::modes;
+//! use funicular::response::{self, Direction, Quantity};
+//! use funicular::robot::{Robot, State};
+//! use funicular::statics::{self, Stability, StaticModel};
+//!
+//! // Six cables, unstrained lengths given.
+//! let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
+//! let State::Lengths(lengths) = &robot.state else { panic!("its file gives lengths") };
+//!
+//! // Where the platform rests; no start is needed.
+//! let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None)?;
+//! assert!((rest.pose.position_w - Vec3::new(0.020305, 0.010232, 0.455485)).norm() < 1e-6);
+//! assert!((rest.cables[0].tension_platform - 17.685).abs() < 1e-3); // N
+//! assert!(matches!(rest.stability, Stability::Stable { .. }));
+//!
+//! // Every natural frequency below 20 Hz, with cables of any sag: as many as the Wittrick–Williams count says.
+//! let exact = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
+//! let dynamics = Dynamics::about(&robot, &rest, exact, 20.0)?;
+//! let found = modes::below(&dynamics, 20.0);
+//! assert!(found.certified && found.modes.len() == 147);
+//! assert!((found.modes[0].frequency_hz - 1.020_75).abs() < 1e-5);
+//!
+//! // Vertical acceleration per vertical force at the platform origin.
+//! let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose);
+//! let accelerance = response::frf(&dynamics, &[1.1], &z, &z, Quantity::Acceleration)?;
+//! assert!((accelerance[0].norm() - 0.011_975).abs() < 1e-5); // (m/s²)/N
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The equations are in docs/theory.md, the comparisons with others' numbers in docs/validation.md.
 
 pub mod cable;
 pub mod catenary;

@@ -25,10 +25,11 @@ pub(super) fn section(published: &Published, reference: &Reference, robots: &Ind
     }
     rows.extend(bessel(published)?);
     Ok(Section {
-        title: "The exact cable",
-        note: "Any sag, axial inertia included: both programs solve the same linear equations about the same catenary by \
-               different elements. Of lists and matrices the last or largest value is shown and all are compared. The \
-               vertical cable of the literature does not stretch; ours is given an axial stiffness of 1e10 N.",
+        title: "Exact cables, computed independently",
+        note: "Vibration about the elastic catenary, of any sag, axial waves included. The other program uses finite \
+               elements in extended precision and transfer matrices; ours one element of high degree and its poles. Of \
+               lists and matrices the last or largest value is shown and all are compared. The vertical cable of the \
+               literature does not stretch; ours has an axial stiffness of 1e10 N.",
         rows,
     })
 }
