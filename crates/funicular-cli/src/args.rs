@@ -13,8 +13,8 @@ use values::{Input, Lengths, MassRange, Output, PoseNumbers};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// Every command but `paper` and `validate` reads a robot file (TOML), prints a result and says what it warns of on stderr. SI units; the
-/// unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
+/// All but `paper` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
+/// the unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
 #[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]

@@ -75,7 +75,7 @@ pub(crate) struct Sink {
 }
 
 impl Sink {
-    /// Of a command that reads a robot file; it is never written over.
+    /// Of a command and the robot file that it reads, if any; that is never written over.
     pub(crate) fn open(args: &OutputArgs, robot: Option<&Path>) -> Result<Self> {
         let path = args.output_file.as_deref();
         let ending = path.and_then(Path::extension).and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);

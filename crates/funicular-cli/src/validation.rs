@@ -70,6 +70,8 @@ pub(crate) enum Kind {
 pub(crate) enum Bound {
     /// Both are the same model; what is left is rounding, and no digit of it means anything.
     Rounding,
+    /// Both are the same model, resolved by elements to a known error; below it, as with rounding.
+    Elements,
     /// The digits that were printed, or the tolerance of the other program.
     Digits(&'static str),
     /// The models differ: what one of them leaves out.
@@ -82,6 +84,7 @@ impl From<Bound> for &'static str {
     fn from(bound: Bound) -> Self {
         match bound {
             Bound::Rounding => "rounding",
+            Bound::Elements => "error of the elements",
             Bound::Count => "a count",
             Bound::Digits(text) | Bound::Model(text) => text,
         }
@@ -98,7 +101,7 @@ pub(crate) fn sections() -> Result<Vec<Section>> {
         catenary::section(&published)?,
         robots::section(&published)?,
         independent::section(&independent)?,
-        exact::section(&reference::exact()?, &independent)?,
+        exact::section(&published, &reference::exact()?, &independent)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,

@@ -3,6 +3,7 @@
 use super::reference::{Cube, CubeRow, Published, library};
 use super::{Bound, Case, Row, Section};
 use anyhow::Result;
+use funicular::cable::CableModel;
 use funicular::catenary::Rope;
 use funicular::catenary::space::HangingCable;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -58,7 +59,8 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
         iterations: 0,
         stability: Stability::Rigid,
     };
-    Ok((Dynamics::about(&robot, &rest, Linearisation::default(), 40.0)?, strain))
+    let linearisation = Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() };
+    Ok((Dynamics::about(&robot, &rest, linearisation, cube.limit_hz)?, strain))
 }
 
 fn frequencies(cube: &Cube, model: &CubeRow) -> Result<Vec<Row>> {

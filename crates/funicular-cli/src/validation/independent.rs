@@ -12,9 +12,6 @@ use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
-/// Limit of the frequencies of the cases [Hz].
-const BELOW_HZ: f64 = 20.0;
-
 pub(super) fn section(independent: &Independent) -> Result<Section> {
     let mut rows = Vec::new();
     for given in &independent.cases {
@@ -120,14 +117,14 @@ impl Compared<'_> {
         rows.push(self.matrix("static stiffness, consistent [N/m]", theirs, &consistent));
         let linearisation =
             Linearisation { cable_model: CableModel::CatenaryTangent, assembly: Assembly::Paper, in_plane_only: false };
-        let paper = Dynamics::about(&self.robot, &self.rest, linearisation, BELOW_HZ)?.stiffness(0.0).map(|k| k.re);
+        let paper = Dynamics::about(&self.robot, &self.rest, linearisation, 0.0)?.stiffness(0.0).map(|k| k.re);
         rows.push(self.matrix("static stiffness, paper [N/m]", &self.given.static_tangent_paper, &paper));
         Ok(())
     }
 
     fn closed(&self, robot: &Robot, assembly: Assembly, in_plane_only: bool) -> Result<Dynamics, DynamicsError> {
         let linearisation = Linearisation { cable_model: CableModel::ClosedForm, assembly, in_plane_only };
-        Dynamics::about(robot, &self.rest, linearisation, BELOW_HZ)
+        Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
     }
 
     fn closed_form_stiffness(&self, rows: &mut Vec<Row>) -> Result<()> {

@@ -48,11 +48,12 @@ gives every digit. The reference numbers, each with its source, are in `crates/f
 | bounded by | why it is not smaller |
 | pass | the difference is within the tolerance |
 
-Where both sides solve the same equations, only rounding is left; its size depends on the machine and means nothing, so
-it is given as less than the tolerance. Where the models differ, or few digits were printed, the difference is what it
-is, and three causes are to be expected: the closed form has no *axial inertia* (a cable is too stiff along its chord by
-about (ω l √(m/EA))²/3); it has *one tension per string*, while the tension of a real one grows towards its upper end;
-and the *strain* of a rope, which models count into its length and mass in different ways.
+Where both sides solve the same equations, only rounding is left, or the small error of elements; its size depends on
+the machine and means nothing, so it is given as less than the tolerance. Where the models differ, or few digits were
+printed, the difference is what it is, and three causes are to be expected: the closed form has no *axial inertia* (a
+cable is too stiff along its chord by about (ω l √(m/EA))²/3); it has *one tension per string*, while the tension of a
+real one grows towards its upper end; and the *strain* of a rope, which models count into its length and mass in
+different ways.
 
 ";
 
@@ -70,12 +71,12 @@ fn line(row: &Row) -> String {
     };
     let difference = match bounded_by {
         Bound::Count => format!("{difference}"),
-        Bound::Rounding if *pass => format!("{kind}< {}", power(*tolerance)),
+        Bound::Rounding | Bound::Elements if *pass => format!("{kind}< {}", power(*tolerance)),
         _ => format!("{kind}{}", two(*difference)),
     };
     let tolerance = match bounded_by {
         Bound::Count => "0".to_owned(),
-        Bound::Rounding => power(*tolerance),
+        Bound::Rounding | Bound::Elements => power(*tolerance),
         _ => two(*tolerance),
     };
     let list =

@@ -277,9 +277,9 @@ pub(super) struct FrfOffset {
     pub(super) response: Response,
 }
 
-/// Exact cables alone and in robots.
+/// exact.json.
 #[derive(Deserialize)]
-pub(super) struct Exact {
+pub(super) struct Reference {
     #[serde(rename = "_about")]
     pub(super) about: String,
     pub(super) cables: Vec<ExactCable>,
@@ -297,21 +297,30 @@ pub(super) struct ExactCable {
     pub(super) gravity_m_s2: [f64; 3],
     pub(super) clamped_in_plane_hz: Vec<f64>,
     pub(super) clamped_out_of_plane_hz: Vec<f64>,
+    pub(super) end_stiffness: ExactStiffness,
 }
 
+#[derive(Deserialize)]
+pub(super) struct ExactStiffness {
+    pub(super) frequency_hz: Vec<f64>,
+    /// Both ends, start first.
+    pub(super) undamped: Vec<Matrix>,
+}
+
+/// A robot of independent.json.
 #[derive(Deserialize)]
 pub(super) struct ExactRobot {
     pub(super) id: String,
     pub(super) below_hz: f64,
     pub(super) frequencies_hz: Vec<f64>,
-    pub(super) frf: ExactResponse,
+    pub(super) frf: ExactFrf,
 }
 
 #[derive(Deserialize)]
-pub(super) struct ExactResponse {
+pub(super) struct ExactFrf {
     pub(super) frequency_hz: Vec<f64>,
-    pub(super) real: Vec<f64>,
-    pub(super) imag: Vec<f64>,
+    #[serde(flatten)]
+    pub(super) response: Response,
 }
 
 pub(super) fn published() -> Result<Published> {
@@ -322,7 +331,7 @@ pub(super) fn independent() -> Result<Independent> {
     serde_json::from_str(include_str!("../../../funicular/reference/independent.json")).context("independent.json")
 }
 
-pub(super) fn exact() -> Result<Exact> {
+pub(super) fn exact() -> Result<Reference> {
     serde_json::from_str(include_str!("../../../funicular/reference/exact.json")).context("exact.json")
 }
 

@@ -14,6 +14,8 @@ use serde_json::Value;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
+use crate::reference;
+
 static REFERENCE: LazyLock<Value> =
     LazyLock::new(|| serde_json::from_str(include_str!("../../reference/exact.json")).unwrap());
 
@@ -227,19 +229,19 @@ fn it_is_symmetric_positive_in_mass_and_passive_with_damping() {
 
 #[test]
 fn a_vertical_cable_is_that_of_bessel_functions() {
-    // Upper end fixed, tension 5, 50, 500 N at the lower end, 10 m, 0.25 kg/m, inextensible; mpmath, 30 digits.
-    let cases: [(f64, [f64; 3]); 3] = [
-        (5.0, [2.386_591_301_685_105, 4.806_656_760_419_61, 7.220_159_114_017_309]),
-        (50.0, [4.931_029_185_827_509, 9.865_776_137_343_04, 14.799_702_220_925_198]),
-        (500.0, [14.219_747_456_968_139, 28.439_649_763_806_173, 42.659_517_662_754_11]),
-    ];
-    for (tension, frequencies) in cases {
+    // Theirs does not stretch.
+    let of = |key| reference::number(reference::table("bessel_cable"), key);
+    let (length, mass, gravity) = (of("length_m"), of("mass_kg_per_m"), of("gravity_m_s2"));
+    assert_eq!(reference::rows("bessel_cable").len(), 3);
+    for row in reference::rows("bessel_cable") {
+        let tension = reference::number(row, "lower_tension_n");
+        let frequencies: [f64; 3] = reference::numbers(row, "clamped_rad_per_s");
         let ea = 1e10;
-        let weight = 0.25 * 9.81 * 10.0;
-        let rope = Rope { unstrained_length: 10.0, weight_per_length: 0.25 * 9.81, axial_stiffness: ea };
-        let rise = 10.0 * (1.0 + (tension + 0.5 * weight) / ea);
+        let weight = mass * gravity * length;
+        let rope = Rope { unstrained_length: length, weight_per_length: mass * gravity, axial_stiffness: ea };
+        let rise = length * (1.0 + (tension + 0.5 * weight) / ea);
         let cable = Catenary::between(0.0, rise, rope).unwrap();
-        let exact = Exact::new(&cable, 0.25, 60.0).unwrap();
+        let exact = Exact::new(&cable, mass, 60.0).unwrap();
         for (pole, theirs) in exact.out_of_plane.poles.iter().zip(frequencies) {
             // What remains is the elasticity, T/EA.
             assert!((pole.sqrt() / theirs - 1.0).abs() < 1e-7, "{tension} N: {} for {theirs}", pole.sqrt());
