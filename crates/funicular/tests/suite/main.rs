@@ -7,6 +7,7 @@ mod catenary;
 mod exact;
 mod independent;
 mod modes;
+mod oracle;
 mod random;
 mod reference;
 mod response;
