@@ -196,8 +196,9 @@ impl Exact {
             let [[hh, hv], [_, vv]] = catenary.tangent();
             let o = catenary.out_of_plane_stiffness();
             let still = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
-            let (in_plane, error_in) = mesh.condense::<2, 4>(still, limit)?;
-            let (out_of_plane, error_out) = mesh.condense::<1, 2>([[o, -o], [-o, o]], limit)?;
+            let tables = mesh.tables();
+            let (in_plane, error_in) = mesh.condense::<2, 4>(&tables, still, limit)?;
+            let (out_of_plane, error_out) = mesh.condense::<1, 2>(&tables, [[o, -o], [-o, o]], limit)?;
             let error = error_in.max(error_out);
             if error <= WANTED_ERROR || mesh.refined == MOST_REFINEMENTS {
                 return Ok(Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() });

@@ -20,8 +20,30 @@ struct Element {
     degree: usize,
 }
 
-/// A matrix over the functions of one element, two degrees more than it has: what the discretisation leaves out shows
-/// in what these would answer.
+/// A Gauss rule (ξ, weight), and the slopes d/dξ of hats and bubbles (rows) at its points (columns).
+pub(super) struct Table {
+    rule: Vec<(f64, f64)>,
+    slopes: DMat,
+}
+
+impl Table {
+    fn new(degree: usize) -> Self {
+        // Two slopes have degree 2p − 2; C takes its own share of the rule.
+        let rule = legendre::gauss(degree + 8);
+        let mut slopes = DMat::zeros(degree + 1, rule.len());
+        for (mut column, (xi, _)) in slopes.column_iter_mut().zip(&rule) {
+            column[0] = -0.5;
+            column[1] = 0.5;
+            for (j, p) in legendre::orthonormal(*xi, degree - 1).iter().enumerate().skip(1) {
+                column[j + 1] = *p;
+            }
+        }
+        Self { rule, slopes }
+    }
+}
+
+/// Degrees that matrices of an element have beyond its own: what the discretisation leaves out shows in what those
+/// functions would answer.
 const BEYOND: usize = 2;
 
 impl<'a> Mesh<'a> {
@@ -74,6 +96,11 @@ impl<'a> Mesh<'a> {
         }
     }
 
+    /// Quadrature and slopes of each element, which all components share.
+    pub(super) fn tables(&self) -> Vec<Table> {
+        self.elements.iter().map(|element| Table::new(element.degree + BEYOND)).collect()
+    }
+
     /// Polynomial degree of each element.
     pub(super) fn degrees(&self) -> Vec<usize> {
         self.elements.iter().map(|e| e.degree).collect()
@@ -101,6 +128,7 @@ impl<'a> Mesh<'a> {
     /// relative error of the clamped frequencies below the limit.
     pub(super) fn condense<const D: usize, const N: usize>(
         &self,
+        tables: &[Table],
         still: [[f64; N]; N],
         limit: f64,
     ) -> Result<(PoleResidue<N>, f64), ExactError> {
@@ -126,7 +154,7 @@ impl<'a> Mesh<'a> {
                 .chain((0..BEYOND).map(|k| inner + 2 + BEYOND * e + k))
                 .collect();
             bubble += element.degree - 1;
-            let (k, m) = self.element_matrices::<D>(element);
+            let (k, m) = self.element_matrices::<D>(element, &tables[e]);
             for (b, &column) in functions.iter().enumerate() {
                 for (a, &row) in functions.iter().enumerate() {
                     let inertia = m[(a, b)];
@@ -201,22 +229,13 @@ impl<'a> Mesh<'a> {
     }
 
     /// K of each component (hh, hv, vv, or one) and M of an element over its hats and bubbles, [`BEYOND`] included.
-    fn element_matrices<const D: usize>(&self, element: &Element) -> (Vec<DMat>, DMat) {
+    fn element_matrices<const D: usize>(&self, element: &Element, table: &Table) -> (Vec<DMat>, DMat) {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);
-        let degree = element.degree + BEYOND;
-        // Two slopes have degree 2p − 2; C takes its own share of the rule.
-        let rule = legendre::gauss(degree + 8);
-        let mut slopes = DMat::zeros(degree + 1, rule.len());
+        let Table { rule, slopes } = table;
         let parts = 2 * D - 1;
         let mut weights = vec![vec![0.0; rule.len()]; parts];
         for (q, (xi, weight)) in rule.iter().enumerate() {
-            let mut column = slopes.column_mut(q);
-            column[0] = -0.5;
-            column[1] = 0.5;
-            for (j, p) in legendre::orthonormal(*xi, degree - 1).iter().enumerate().skip(1) {
-                column[j + 1] = *p;
-            }
             let (in_plane, across) = self.tangent_at(middle + half * xi);
             for (part, weights) in weights.iter_mut().enumerate() {
                 weights[q] = weight / half * if D == 1 { across } else { in_plane[part] };
@@ -232,7 +251,7 @@ impl<'a> Mesh<'a> {
                 weighted * slopes.transpose()
             })
             .collect();
-        (stiffness, bubble_mass(degree) * (half * self.mass_per_length))
+        (stiffness, bubble_mass(element.degree + BEYOND) * (half * self.mass_per_length))
     }
 }
 
