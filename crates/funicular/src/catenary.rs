@@ -426,7 +426,8 @@ fn root(x: f64, z: f64, k: f64) -> Root {
     let chord2_minus_1 = stretch * (chord + 1.0);
     let mut v = start(x, z, k, chord, stretch);
     let (mut low, mut high) = (0.0, f64::INFINITY);
-    // Seen: 2 to 4 passes in a robot, at most 9 over sags, slopes and strains of eight decades; the rest is a guard.
+    // Robots take 2 or 3 passes; of a million cables over eight decades of sag, slope and strain 99.5 % at most 4, the
+    // worst 14. The rest is a guard.
     for _ in 0..80 {
         let h = Hyperbolic::of(v);
         let across = v + k;

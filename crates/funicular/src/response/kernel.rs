@@ -15,8 +15,8 @@ const fn at(i: usize, j: usize) -> usize {
     j * 6 - j * (j + 1) / 2 + i
 }
 
-/// A pivot below this part of the largest diagonal entry sends its lane to the plain version. Elimination without
-/// exchange then keeps at least ten digits; seen with damping 0.003: no lane in 10⁶.
+/// A pivot below this part of the largest diagonal entry sends its lane to the plain version: elimination without
+/// exchange then keeps at least ten digits.
 const LEAST_PIVOT: f64 = 1e-6;
 
 /// A cable's projections, ready to be multiplied: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ.

@@ -2,7 +2,6 @@
 
 use crate::math::{Mat6, Vec3, Vec6};
 use crate::robot::{Freedoms, Pose, Robot};
-use crate::statics::scaled;
 
 /// The pose at which straight cables of the given lengths [m] come closest to closing, in least squares.
 ///
@@ -23,7 +22,7 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
     let freedoms = robot.platform.freedoms;
     let mut damping = 1e-3;
     let mut gaps = closure(robot, lengths, &pose, freedoms, ell);
-    // Seen: 4 to 7 steps. Only a start is wanted: the gaps need not vanish, sagging cables are longer than the chord.
+    // Only a start is wanted: the gaps need not vanish, sagging cables are longer than the chord.
     for _ in 0..20 {
         let (normal, gradient, cost) = gaps;
         let Some(factor) = (normal + Mat6::identity() * damping).cholesky() else { break };
@@ -66,6 +65,5 @@ fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, freedoms: Freedoms, ell:
         gradient += row * gap;
         cost += gap * gap;
     }
-    debug_assert!(scaled(&normal, 1.0) == normal);
     (normal, gradient, cost)
 }
