@@ -75,7 +75,8 @@ pub struct Advice {
     pub text: String,
 }
 
-/// Finds the modes below `below_hz` [Hz] with every model and measures each against the exact cable. The model in
+/// Finds the modes below `below_hz` [Hz] with every model and measures each against the exact cable,
+/// or against the closed form where the exact cable would need more unknowns than it may have. The model in
 /// `linearisation` is ignored; assembly and plane hold for all.
 ///
 /// # Errors
@@ -86,10 +87,14 @@ pub fn compare(
     below_hz: f64,
     linearisation: Linearisation,
 ) -> Result<Comparison, DynamicsError> {
-    let reference = CableModel::Exact;
     let with =
         |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
-    let dynamics = with(reference)?;
+    let (reference, dynamics) = match with(CableModel::Exact) {
+        Ok(dynamics) => (CableModel::Exact, dynamics),
+        // Too many unknowns for one cable; the next best is the closed form, which has no such limit.
+        Err(DynamicsError::Exact { .. }) => (CableModel::ClosedForm, with(CableModel::ClosedForm)?),
+        Err(other) => return Err(other),
+    };
     let truth = modes::below(&dynamics, below_hz);
     let models: Vec<ModelResult> = CableModel::ALL
         .into_iter()
@@ -215,8 +220,8 @@ fn advise(
         ),
         None => format!("no cable resonance lies below the {below_hz} Hz asked"),
     };
-    let simplest =
-        models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(CableModel::Exact, |m| m.model);
+    let reference = dynamics.linearisation.cable_model;
+    let simplest = models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(reference, |m| m.model);
     let percent = 100.0 * TOLERANCE;
     let result = |model: CableModel| models.iter().find(|m| m.model == model);
     let lost = result(CableModel::CatenaryTangent).map_or(0, |m| m.missed);
@@ -229,18 +234,18 @@ fn advise(
         _ if truth.modes.is_empty() => {
             format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
         }
-        CableModel::Exact => {
+        model if model == reference => {
             let wrong = result(CableModel::ClosedForm).and_then(|m| m.first_wrong_hz);
             let closed = wrong.map_or(String::new(), |hz| {
                 format!("; the closed form lacks the one at {hz:.3} Hz or has it wrong by more than {percent} %")
             });
-            format!("Use `exact`: {constant}{closed}")
+            format!("Use `{model}`: {constant}{closed}")
         }
         CableModel::ClosedForm => {
-            format!("Use `closed-form`, which has all {total} within {percent} % of the exact ones: {constant}")
+            format!("Use `closed-form`, which has all {total} within {percent} % of the {reference} ones: {constant}")
         }
         _ => format!(
-            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the exact ones; {string}"
+            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the {reference} ones; {string}"
         ),
     };
     let range = if ratio > SHALLOW_SAG_LIMIT {

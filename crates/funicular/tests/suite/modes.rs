@@ -258,3 +258,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reach() {
+    use funicular::compare;
+    let (robot, mut lengths) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let reference = |lengths: &[f64], below_hz: f64| {
+        let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
+        compare::compare(&robot, &rest, below_hz, Linearisation::default()).unwrap()
+    };
+    let usual = reference(&lengths, 5.0);
+    assert_eq!((usual.reference, usual.advice.model), (CableModel::Exact, CableModel::ClosedForm));
+    // A rope of twice its length has hundreds of resonances below 60 Hz.
+    lengths[0] = 14.0;
+    let slack = reference(&lengths, 60.0);
+    assert_eq!(slack.reference, CableModel::ClosedForm);
+    let exact = slack.models.iter().find(|m| m.model == CableModel::Exact).unwrap();
+    assert!(exact.modes.as_ref().unwrap_err().to_string().contains("unknowns for one cable"));
+}
