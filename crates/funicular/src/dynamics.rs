@@ -276,6 +276,16 @@ impl Dynamics {
         inertia::negative_eigenvalues_in(&mut a, n) - positive
     }
 
+    /// Whether every exact cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies below
+    /// 1e-9; true for the models that are not discretised.
+    pub fn resolves(&self, omega: f64) -> bool {
+        self.terms.iter().all(|term| match &term.form {
+            DynamicCable::ClosedForm(_) => true,
+            // Frequencies pass through Hz and back.
+            DynamicCable::Exact(cable) => omega <= cable.exact.limit * (1.0 + 1e-12) && cable.exact.error <= RESOLUTION,
+        })
+    }
+
     /// Clamped-clamped frequencies of all cables below ω [rad/s]: (frequency, cable), ascending, with multiplicity.
     pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<(f64, usize)> {
         let mut all: Vec<(f64, usize)> = self
@@ -287,6 +297,9 @@ impl Dynamics {
         all
     }
 }
+
+/// Estimated relative error of the clamped frequencies up to which an exact cable counts as resolved.
+const RESOLUTION: f64 = 1e-9;
 
 /// Quotients above this count as near a pole. Between 1e1 (every second evaluation bordered) and 1e6 (six digits of
 /// the soft directions lost in the sum) the counts are the same.

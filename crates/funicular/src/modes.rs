@@ -77,7 +77,7 @@ pub struct Modes {
     pub count_below: usize,
     /// Directions in which the equilibrium is unstable; they are in the count and have no frequency.
     pub unstable_directions: usize,
-    /// The list and the count agree and every mode's residual is below 1e-8.
+    /// The list and the count agree, every mode's residual is below 1e-8, and exact cables are resolved up to the limit.
     pub certified: bool,
 }
 
@@ -87,7 +87,7 @@ const POLE_WIDTH: f64 = 1e-12;
 /// Relative width at which modes that the count still finds together are one multiple mode.
 const MULTIPLE_WIDTH: f64 = 2e-13;
 /// Largest residual of a certified mode.
-const RESIDUAL_LIMIT: f64 = 1e-8;
+pub const RESIDUAL_LIMIT: f64 = 1e-8;
 
 /// All natural frequencies below `below_hz` [Hz], undamped, with multiplicity.
 ///
@@ -136,6 +136,7 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     let List { mut modes, consistent, .. } = list;
     modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
     let certified = consistent
+        && dynamics.resolves(limit)
         && modes.len() + unstable_directions == count_below
         && modes.iter().all(|m| m.residual <= RESIDUAL_LIMIT);
     Modes { modes, below_hz, count_below, unstable_directions, certified }

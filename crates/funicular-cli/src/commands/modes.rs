@@ -80,6 +80,12 @@ pub(crate) fn uncertified(found: &modes::Modes) -> Option<String> {
     let listed = counted(modes.len(), "mode");
     let inexact = modes.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));
     Some(match inexact {
+        Some(mode) if modes.len() + unstable_directions == *count_below && mode.residual <= modes::RESIDUAL_LIMIT => {
+            format!(
+                "the list of {listed} is not certified, though the count confirms its number: the exact cables are not \
+             resolved up to {below_hz} Hz; lower the limit"
+            )
+        }
         Some(mode) if modes.len() + unstable_directions == *count_below => format!(
             "the list of {listed} is not certified, though the count confirms its number: the largest residual is \
              {:.1e}, of the mode at {:.4} Hz",

@@ -276,3 +276,12 @@ fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reac
     let exact = slack.models.iter().find(|m| m.model == CableModel::Exact).unwrap();
     assert!(exact.modes.as_ref().unwrap_err().to_string().contains("unknowns for one cable"));
 }
+
+#[test]
+fn a_list_beyond_the_resolution_of_exact_cables_is_not_certified() {
+    let (robot, rest) = yuan();
+    let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
+    let dynamics = Dynamics::about(&robot, &rest, linearisation, 5.0).unwrap();
+    assert!(modes::below(&dynamics, 5.0).certified);
+    assert!(!modes::below(&dynamics, 6.0).certified);
+}

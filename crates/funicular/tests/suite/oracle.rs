@@ -155,3 +155,43 @@ fn the_closed_form_agrees_with_the_bars_where_sag_is_shallow() {
         }
     }
 }
+
+#[test]
+fn the_warning_about_deep_sag_says_how_far_the_closed_form_is_off() {
+    // The paper's cable, lengthened until it sags by d/l.
+    let first = |degrees: f64, ratio: f64| {
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let (chord, ea) = (6.848, 20e9 * 1.2566e-5);
+        let with = |unstrained_length: f64| {
+            let rope = Rope { unstrained_length, weight_per_length: MASS_PER_LENGTH * 9.81, axial_stiffness: ea };
+            let cable = Catenary::between(chord * cos, chord * sin, rope).unwrap();
+            let sag = Sag::new(chord, cos, cable.parallel_tension(), ea, MASS_PER_LENGTH, 9.81);
+            (cable, sag)
+        };
+        let (mut low, mut high) = (0.99 * chord, 1.2 * chord);
+        while high - low > 1e-13 * chord {
+            let middle = 0.5 * (low + high);
+            if with(middle).1.ratio() < ratio { low = middle } else { high = middle }
+        }
+        let (cable, sag) = with(low);
+        let exact = Exact::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let axes = LocalAxes::of_chord(&Vec3::zeros(), &Vec3::new(cos, 0.0, sin), &Vec3::z());
+        let closed = ClosedForm::new(sag, axes, Damping::Ratio(0.0), true).clamped_frequencies_below(LIMIT)[0];
+        closed / exact.in_plane.poles[0].sqrt() - 1.0
+    };
+    for (degrees, ratio, expected) in [
+        (36.0, 0.02, 0.003),
+        (36.0, 0.05, 0.018),
+        (36.0, 0.10, 0.07),
+        (60.0, 0.02, 0.008),
+        (60.0, 0.05, 0.044),
+        (60.0, 0.10, 0.154),
+    ] {
+        let off = first(degrees, ratio);
+        // To the digits that docs/theory.md prints in its section 6, and the warning rounds.
+        assert!(
+            (off - expected).abs() < 0.0006 + 0.002 * f64::from(u8::from(expected >= 0.07)),
+            "{degrees}°, d/l {ratio}: {off}"
+        );
+    }
+}

@@ -255,8 +255,8 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// Smallest Bernstein ellipse of an element. Cutting in two costs a node; at 1.3 a single element still converges, with
-/// twice the degree, and below 2 every slack cable would be cut.
+/// Smallest Bernstein ellipse of an element, by the sum of its semi-axes: coefficients of C fall by at least this factor
+/// a degree. Nearer to 1 the degree grows without bound, further away cables of little slack would be cut.
 const SMOOTH_ENOUGH: f64 = 1.5;
 
 /// ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
