@@ -246,14 +246,24 @@ pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
 /// # References
 /// docs/theory.md, equation (14).
 pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    let parts: Option<Vec<_>> = equilibrium
+        .cables
+        .iter()
+        .map(|cable| Some((cable.tangent_w()?, cable.force_on_platform_w, cable.lever_w)))
+        .collect();
+    Some(assembled(robot, &equilibrium.pose, parts?.into_iter()))
+}
+
+/// Stiffness of cables (3×3, force on the platform, lever arm) and of the platform's weight at a pose.
+fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
     let mut total = Mat6::zeros();
-    for cable in &equilibrium.cables {
-        add_congruent(&mut total, &cable.tangent_w()?, &cable.lever_w);
-        add_lever_term(&mut total, &cable.force_on_platform_w, &cable.lever_w);
+    for (stiffness, force, lever) in cables {
+        add_congruent(&mut total, &stiffness, &lever);
+        add_lever_term(&mut total, &force, &lever);
     }
-    let com_w = equilibrium.pose.rot_wp * robot.platform.center_of_mass_p;
+    let com_w = pose.rot_wp * robot.platform.center_of_mass_p;
     add_lever_term(&mut total, &(robot.gravity_w * robot.platform.mass), &com_w);
-    Some(total)
+    total
 }
 
 /// Total wrench on the platform at any pose, cables and weight, about the platform origin [N, N·m]; the residual of
@@ -264,10 +274,11 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
 pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Result<Vec6, StaticsError> {
     check_lengths(robot, lengths)?;
     let up_w = robot.up_w();
-    Ok(lengths.iter().enumerate().fold(weight_wrench(robot, pose), |sum, (i, &length)| {
+    let forces = lengths.iter().enumerate().map(|(i, &length)| {
         let cable = hang(robot, i, pose, up_w, rope(robot, i, length, model));
-        sum + wrench_of(&cable.force_on_start_w(), &(cable.start_w - pose.position_w))
-    }))
+        (cable.force_on_start_w(), cable.start_w - pose.position_w)
+    });
+    Ok(balance(robot, pose, forces).0)
 }
 
 fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError> {
@@ -323,9 +334,18 @@ fn collect(
 
 /// Scaled residual of a set of cable states at a pose.
 fn residual_of(robot: &Robot, pose: &Pose, cables: &[CableState]) -> f64 {
+    let (wrench, scale) = balance(robot, pose, cables.iter().map(|c| (c.force_on_platform_w, c.lever_w)));
+    scaled_residual(robot, &wrench, scale)
+}
+
+/// Sum of the platform's weight and of cable forces at their lever arms, as a wrench about the platform origin; and the
+/// sum of the sizes of all these forces [N], which residuals are measured by.
+fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)>) -> (Vec6, f64) {
     let weight = weight_wrench(robot, pose);
-    let sum = cables.iter().fold(weight, |sum, c| sum + wrench_of(&c.force_on_platform_w, &c.lever_w));
-    scaled_residual(robot, &sum, cables.iter().map(|c| c.tension_platform.abs()).sum::<f64>() + weight.norm())
+    let scale = weight.fixed_rows::<3>(0).norm();
+    forces.fold((weight, scale), |(wrench, scale), (force, lever)| {
+        (wrench + wrench_of(&force, &lever), scale + force.norm())
+    })
 }
 
 fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {

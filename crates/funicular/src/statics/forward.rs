@@ -1,8 +1,8 @@
 //! Unstrained lengths to pose.
 
 use super::{
-    CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, add_congruent, add_lever_term,
-    check_lengths, collect, hang, residual_of, rope, scaled, scaled_residual, start, weight_wrench, wrench_of,
+    CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance, check_lengths,
+    collect, hang, residual_of, rope, scaled, scaled_residual, start, weight_wrench, wrench_of,
 };
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
@@ -76,19 +76,13 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn at(&self, pose: Pose) -> Trial {
-        let weight_w = self.robot.gravity_w * self.robot.platform.mass;
-        let com_w = pose.rot_wp * self.robot.platform.center_of_mass_p;
-        let mut wrench = weight_wrench(self.robot, &pose);
-        let mut energy = -weight_w.dot(&(pose.position_w + com_w));
-        let mut force_scale = weight_w.norm();
         let cables: Vec<HangingCable> =
             self.ropes.iter().enumerate().map(|(i, &rope)| hang(self.robot, i, &pose, self.up_w, rope)).collect();
-        for cable in &cables {
-            let force = cable.force_on_start_w();
-            wrench += wrench_of(&force, &(cable.start_w - pose.position_w));
-            energy += cable.energy();
-            force_scale += force.norm();
-        }
+        let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
+        let (mut wrench, force_scale) = balance(self.robot, &pose, forces);
+        let weight_w = self.robot.gravity_w * self.robot.platform.mass;
+        let com_w = pose.point_w(&self.robot.platform.center_of_mass_p);
+        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - weight_w.dot(&com_w);
         let residual = scaled_residual(self.robot, &wrench, force_scale);
         let stiffest: f64 = self.ropes.iter().map(|rope| rope.axial_stiffness).sum();
         let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
@@ -101,14 +95,9 @@ impl Search<'_> {
 
     /// Symmetric part of the tangent stiffness, scaled; freedoms the platform lacks get a unit diagonal.
     fn stiffness(&self, trial: &Trial) -> Mat6 {
-        let mut total = Mat6::zeros();
-        for cable in &trial.cables {
-            let lever = cable.start_w - trial.pose.position_w;
-            add_congruent(&mut total, &cable.tangent_w(), &lever);
-            add_lever_term(&mut total, &cable.force_on_start_w(), &lever);
-        }
-        let com_w = trial.pose.rot_wp * self.robot.platform.center_of_mass_p;
-        add_lever_term(&mut total, &(self.robot.gravity_w * self.robot.platform.mass), &com_w);
+        let parts =
+            trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
+        let total = assembled(self.robot, &trial.pose, parts);
         let mut total = scaled(&((total + total.transpose()) * 0.5), self.ell);
         for row in self.freedoms..6 {
             total.row_mut(row).fill(0.0);

@@ -2,8 +2,8 @@
 
 use super::forward::{collect_ideal, straight_tensions};
 use super::{
-    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, collect, hang, rope, scaled_residual, weight_wrench,
-    wrench_of,
+    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, balance, collect, hang, rope, scaled_residual,
+    weight_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
@@ -91,7 +91,7 @@ fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, 
         lengths[i] = length_for_tension(robot, pose, i, lengths[i], tension);
     }
     let mut hanging = hang_all(robot, pose, &lengths, StaticModel::Catenary);
-    let (mut wrench, mut residual) = balance(robot, pose, &hanging);
+    let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
     let mut iterations = 0;
     let mut damping = 1.0;
     while iterations < 100 && residual > 1e-14 {
@@ -115,7 +115,7 @@ fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, 
             })
             .collect();
         let next = hang_all(robot, pose, &trial, StaticModel::Catenary);
-        let (next_wrench, next_residual) = balance(robot, pose, &next);
+        let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
         if next_residual < residual {
             (hanging, wrench, residual, lengths) = (next, next_wrench, next_residual, trial);
             damping = (2.0 * damping).min(1.0);
@@ -145,14 +145,10 @@ fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, 
     Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z })
 }
 
-fn balance(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f64) {
-    let weight = weight_wrench(robot, pose);
-    let mut scale = weight.fixed_rows::<3>(0).norm();
-    let wrench = hanging.iter().fold(weight, |sum, cable| {
-        let force = cable.force_on_start_w();
-        scale += force.norm();
-        sum + wrench_of(&force, &(cable.start_w - pose.position_w))
-    });
+/// Wrench that is left, and its scaled size.
+fn unbalanced(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f64) {
+    let forces = hanging.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
+    let (wrench, scale) = balance(robot, pose, forces);
     (wrench, scaled_residual(robot, &wrench, scale))
 }
 
