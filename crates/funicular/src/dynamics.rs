@@ -1,13 +1,21 @@
 //! The robot linearised about a static equilibrium: stiffness at a frequency, mass, and the number of natural
 //! frequencies below a frequency.
 
-use crate::cable::closed_form::{ClosedForm, Entire};
+mod count;
+mod pencil;
+
+pub(crate) use pencil::NullVector;
+
 use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
-use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, inertia, skew};
+use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, skew};
 use crate::robot::{Damping, Freedoms, Robot};
 use crate::statics::{Equilibrium, add_congruent, add_lever_term, scaled};
 use thiserror::Error;
+
+/// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown
+/// of its own. Counts and modes are the same at 1e-2 and at 1e-6.
+const POLE_PART: f64 = 1e-3;
 
 /// Which terms of the tangent stiffness are summed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -80,6 +88,8 @@ pub struct Dynamics {
     pub(crate) constant: Mat6,
     /// Scaled mass [kg].
     pub(crate) mass: Mat6,
+    /// Scaled viscous damping of the platform [N s/m].
+    pub(crate) platform_damping: Mat6,
     pub(crate) terms: Vec<Term>,
     /// How it was made.
     pub linearisation: Linearisation,
@@ -95,6 +105,13 @@ pub(crate) struct Term {
     pub(crate) along: Vec6,
     pub(crate) normal: Vec6,
     pub(crate) out: Vec6,
+}
+
+impl Term {
+    /// The scaled 6-vector of a direction (e, n, b).
+    fn vector(&self, [e, n, b]: [f64; 3]) -> Vec6 {
+        self.along * e + self.normal * n + self.out * b
+    }
 }
 
 impl Dynamics {
@@ -146,6 +163,7 @@ impl Dynamics {
             freedoms: robot.platform.freedoms.count(),
             constant,
             mass: scaled(&mass_matrix(robot, equilibrium), ell),
+            platform_damping: scaled(&damping_matrix(robot, equilibrium), ell),
             terms,
             linearisation,
             cable_count: robot.cables.len(),
@@ -158,7 +176,7 @@ impl Dynamics {
         self.freedoms
     }
 
-    /// Stiffness with damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m].
+    /// Stiffness with all damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m].
     pub fn stiffness(&self, omega: f64) -> CMat6 {
         self.unscaled(&self.scaled_stiffness(omega))
     }
@@ -180,7 +198,7 @@ impl Dynamics {
     }
 
     pub(crate) fn scaled_stiffness(&self, omega: f64) -> CMat6 {
-        let mut total = self.constant.map(|k| Complex::new(k, 0.0));
+        let mut total = self.constant.zip_map(&self.platform_damping, |k, c| Complex::new(k, omega * c));
         for term in &self.terms {
             let k = term.form.damped(omega);
             add_local(&mut total, term, &k, |z, product| z * product);
@@ -216,66 +234,6 @@ impl Dynamics {
         damping_ratio(omega, damping, mass_per_length)
     }
 
-    /// Number of natural frequencies below ω [rad/s], undamped, with multiplicity:
-    /// `J(ω) = Σ J0_i(ω) + s{D(ω)}` (Wittrick and Williams 1971). Directions in which an unstable equilibrium falls
-    /// away count as frequencies below every ω > 0.
-    ///
-    /// # References
-    /// W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl. Math. 24(3), 1971; docs/theory.md, equation (28).
-    pub fn modes_below(&self, omega: f64) -> usize {
-        let clamped: usize = self.terms.iter().map(|t| t.form.clamped_modes_below(omega)).sum();
-        clamped + self.negative_eigenvalues(omega)
-    }
-
-    /// s{D(ω)}. A cable near one of its poles would put a very large rank-one term into D; such a term κ w wᵀ becomes
-    /// a bordering row, `[[D, w], [wᵀ, −1/κ]]`, whose last entry passes through zero where κ has its pole, so that
-    /// nothing overflows and nothing is lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
-    fn negative_eigenvalues(&self, omega: f64) -> usize {
-        let mut matrix = self.constant - self.mass * (omega * omega);
-        let mut borders: Vec<(Vec6, f64)> = Vec::new();
-        for term in &self.terms {
-            match &term.form {
-                DynamicCable::ClosedForm(form) => {
-                    let of = Entire::real(omega * omega * form.gamma_by_square);
-                    if is_regular(&of, form) {
-                        add_local(&mut matrix, term, &form.undamped(omega), |k, product| k * product);
-                    } else {
-                        add_bordered(&mut matrix, &mut borders, term, form, &of);
-                    }
-                }
-                DynamicCable::Exact(form) => {
-                    let (regular, poles) = form.beside_poles(omega * omega, POLE_PART);
-                    add_local(&mut matrix, term, &regular, |k, product| k * product);
-                    borders.extend(
-                        poles
-                            .into_iter()
-                            .map(|([e, n, b], inverse)| (term.along * e + term.normal * n + term.out * b, inverse)),
-                    );
-                }
-            }
-        }
-        if borders.is_empty() {
-            return inertia::negative_eigenvalues(&matrix, self.freedoms);
-        }
-        let (m, n) = (self.freedoms, self.freedoms + borders.len());
-        let size = matrix.amax().max(f64::MIN_POSITIVE);
-        let mut a = vec![0.0; n * n];
-        for j in 0..m {
-            for i in 0..m {
-                a[j * n + i] = matrix[(i, j)] / size;
-            }
-            for (k, (w, _)) in borders.iter().enumerate() {
-                a[j * n + m + k] = w[j];
-                a[(m + k) * n + j] = w[j];
-            }
-        }
-        for (k, (_, inverse)) in borders.iter().enumerate() {
-            a[(m + k) * n + m + k] = -inverse * size;
-        }
-        let positive = borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();
-        inertia::negative_eigenvalues_in(&mut a, n) - positive
-    }
-
     /// Whether every exact cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies below
     /// 1e-9; true for the models that are not discretised.
     pub fn resolves(&self, omega: f64) -> bool {
@@ -300,69 +258,6 @@ impl Dynamics {
 
 /// Estimated relative error of the clamped frequencies up to which an exact cable counts as resolved.
 const RESOLUTION: f64 = 1e-9;
-
-/// Quotients above this count as near a pole. Between 1e1 (every second evaluation bordered) and 1e6 (six digits of
-/// the soft directions lost in the sum) the counts are the same.
-const NEAR_POLE: f64 = 1e3;
-
-/// The same for exact cables: distance of ω² to a pole, relative, below which its term is bordered.
-const POLE_PART: f64 = 1e-3;
-
-fn is_regular(of: &Entire<f64>, form: &ClosedForm) -> bool {
-    let determinant = of.c + 0.25 * form.sag.lambda2 * of.q;
-    let (antisymmetric, symmetric) = (of.c / of.sigma, of.gamma * of.sigma / of.c);
-    let across = 1.0 + of.gamma.abs();
-    (of.c / determinant).abs() < NEAR_POLE
-        && (of.gamma * (of.sigma + 0.25 * form.sag.lambda2 * of.q) / determinant).abs() < NEAR_POLE * across
-        && antisymmetric.abs() < NEAR_POLE * across
-        && (form.in_plane_only || symmetric.abs() < NEAR_POLE * across)
-}
-
-/// Adds a cable near a pole: regular parts into `matrix`, the others as borders (w, 1/κ).
-///
-/// With t = c/σ − γσ/c, the string's stiffness across, the cable in its plane is `k_a w wᵀ + (τ/l) t n nᵀ` with
-/// `w = a + (ε/2)(γq/c) n`: a spring with λ²-softening beside a taut string (docs/theory.md, equation (25)).
-fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, form: &ClosedForm, of: &Entire<f64>) {
-    let sag = &form.sag;
-    let (along, across) = (sag.axial_stiffness / sag.effective_length, sag.tension / sag.chord);
-    let Entire { gamma, c, sigma, q } = *of;
-    let sagging = 0.25 * sag.lambda2 * q;
-    let determinant = c + sagging;
-    // c t and σ t are regular where t is not.
-    let string = |w: &Vec6, matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>| {
-        let numerator = c * c - gamma * sigma * sigma;
-        let inverse = sigma * c / numerator;
-        if inverse.abs() * NEAR_POLE < 1.0 {
-            borders.push((*w, inverse / across));
-        } else {
-            *matrix += w * w.transpose() * (across / inverse);
-        }
-    };
-    if !form.in_plane_only {
-        string(&term.out, matrix, borders);
-    }
-    let turn = 0.5 * sag.epsilon * gamma * q;
-    if sigma.abs() * NEAR_POLE < c.abs() {
-        // Antisymmetric: only c/σ of k_c is large.
-        borders.push((term.normal, sigma / c / across));
-        let normal = -gamma * (sigma + sagging) / determinant * across;
-        let (axial, coupling) = (c / determinant * along, turn / determinant * along);
-        let k = LocalStiffness { axial, coupling, normal, out_of_plane: 0.0 };
-        add_local(matrix, term, &k, |k, product| k * product);
-    } else if turn.abs() <= c.abs() {
-        // Symmetric, the chord carries the pole.
-        let w = term.along + term.normal * (turn / c);
-        borders.push((w, determinant / (c * along)));
-        string(&term.normal, matrix, borders);
-    } else {
-        // Symmetric, a cable with little sag near (2j − 1)π: the normal carries it.
-        let numerator = determinant * c / sigma - gamma * (sigma + sagging);
-        let w = term.normal + term.along * (turn * along / (numerator * across));
-        borders.push((w, determinant / (numerator * across)));
-        let axial = along * (c * c / sigma - gamma * sigma) / numerator;
-        *matrix += term.along * term.along.transpose() * axial;
-    }
-}
 
 /// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.
 fn add_local<T: Copy + std::ops::AddAssign + nalgebra::Scalar>(
@@ -398,4 +293,15 @@ fn mass_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
         put(3, 3, inertia_w - com * com * platform.mass);
     }
     mass
+}
+
+/// Viscous damping of the platform about its origin, world axes; it acts in the platform's axes.
+fn damping_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
+    let rot = equilibrium.pose.rot_wp.to_rotation_matrix();
+    let mut damping = Mat6::zeros();
+    for (at, along_p) in [(0, robot.platform.translational_damping_p), (3, robot.platform.rotational_damping_p)] {
+        let block = rot.matrix() * Mat3::from_diagonal(&along_p) * rot.matrix().transpose();
+        damping.fixed_view_mut::<3, 3>(at, at).copy_from(&block);
+    }
+    damping
 }

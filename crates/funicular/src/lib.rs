@@ -47,6 +47,7 @@
 //! The equations are in docs/theory.md, the comparisons with others' numbers in docs/validation.md.
 
 pub mod cable;
+pub mod cable_motion;
 pub mod catenary;
 pub mod compare;
 pub mod dynamics;

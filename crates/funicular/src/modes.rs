@@ -4,8 +4,8 @@
 //! so the count J tells how many natural frequencies lie there, and bisection on J separates them. What J jumps by
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
-use crate::dynamics::Dynamics;
-use crate::math::{Mat6, Vec6, inertia, roots};
+use crate::dynamics::{Dynamics, NullVector};
+use crate::math::{Vec6, roots};
 use std::f64::consts::TAU;
 
 /// Whose vibration a mode is, by kinetic energy.
@@ -58,12 +58,27 @@ pub struct Mode {
     pub platform_energy_fraction: f64,
     /// Kinetic energy of each cable over that of the robot, file order.
     pub cable_energy_fractions: Vec<f64>,
-    /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1 (or
-    /// −1). Zero if the platform is at rest.
+    /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
+    /// if the platform is at rest.
     pub shape: [f64; 6],
+    /// Mass that moves with `shape` [kg]: platform and cables, `Σ ∫ |u|² dm`. With the platform at rest the motion of
+    /// the cables has a modal mass of 1 kg.
+    pub modal_mass: f64,
     /// |xᵀ D x| over ω² times the moving mass, dimensionless: twice the relative change of the frequency that another
-    /// Newton step on the Rayleigh quotient would make. Zero for a platform at rest.
+    /// Newton step on the Rayleigh quotient would make.
     pub residual: f64,
+    /// Unit modal mass.
+    pub(crate) motion: NullVector,
+}
+
+impl Mode {
+    /// How a force along `input` excites this mode and `output` sees it: r in the receptance's sum
+    /// `Σ r/(ω_n² − ω²)` over all modes [1/kg]. Both are 6-vectors about the platform origin, as of
+    /// [`Direction::vector`](crate::response::Direction::vector).
+    pub fn residue(&self, input: &Vec6, output: &Vec6) -> f64 {
+        let shape = Vec6::from(self.shape);
+        shape.dot(input) * shape.dot(output) / self.modal_mass
+    }
 }
 
 /// All modes below a frequency.
@@ -201,31 +216,34 @@ impl List<'_> {
         if self.dynamics.freedoms == 6 { d.determinant() } else { d.fixed_view::<3, 3>(0, 0).determinant() }
     }
 
-    /// `several` modes at ω, with the null vectors of D as platform shapes.
+    /// `several` modes at ω.
     fn multiple(&mut self, omega: f64, several: usize) {
-        let d = self.dynamics.dynamic_stiffness(omega);
-        let (values, vectors) = null_vectors(&d, self.dynamics.freedoms, several);
-        for (value, x) in values.into_iter().zip(vectors) {
-            let (platform, cables) = self.dynamics.moving_masses(omega, &x);
-            let total = platform + cables.iter().sum::<f64>();
-            let cable_energy_fractions: Vec<f64> = cables.iter().map(|m| m / total).collect();
-            let damping_ratio = cable_energy_fractions
-                .iter()
-                .enumerate()
-                .map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega))
-                .sum();
-            let platform_energy_fraction = platform / total;
-            self.modes.push(Mode {
-                frequency_hz: omega / TAU,
-                multiplicity: several,
-                damping_ratio,
-                kind: Kind::of(platform_energy_fraction),
-                platform_energy_fraction,
-                cable_energy_fractions,
-                shape: self.shape(&x),
-                residual: value.abs() / (omega * omega * total),
-            });
+        for motion in self.dynamics.null_vectors(omega, several) {
+            let largest = motion.platform[motion.platform.iamax()];
+            let ell = self.dynamics.ell;
+            let shape = std::array::from_fn(|i| motion.platform[i] / largest / if i < 3 { 1.0 } else { ell });
+            self.add(omega, several, motion, shape, (1.0 / largest).powi(2));
         }
+    }
+
+    /// One mode, whose platform moves by `shape` where `motion` has unit modal mass.
+    fn add(&mut self, omega: f64, several: usize, motion: NullVector, shape: [f64; 6], modal_mass: f64) {
+        let NullVector { platform_energy, ref cable_energies, residual, .. } = motion;
+        let by_cables: f64 =
+            cable_energies.iter().enumerate().map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega)).sum();
+        let by_platform = motion.platform.dot(&(self.dynamics.platform_damping * motion.platform)) / (2.0 * omega);
+        self.modes.push(Mode {
+            frequency_hz: omega / TAU,
+            multiplicity: several,
+            damping_ratio: by_cables + by_platform,
+            kind: Kind::of(platform_energy),
+            platform_energy_fraction: platform_energy,
+            cable_energy_fractions: cable_energies.clone(),
+            shape,
+            modal_mass,
+            residual,
+            motion,
+        });
     }
 
     /// Modes with the platform at rest: what the count gains across a cluster of coinciding poles.
@@ -239,43 +257,24 @@ impl List<'_> {
             return;
         }
         let omega = cluster.iter().map(|p| p.0).sum::<f64>() / cluster.len() as f64;
-        // The cables of the cluster share the motion; which combinations keep the platform at rest is not asked here.
-        let mut cable_energy_fractions = vec![0.0; self.dynamics.cable_count];
-        for (_, cable) in cluster {
-            cable_energy_fractions[*cable] += 1.0 / cluster.len() as f64;
-        }
-        let damping_ratio = cable_energy_fractions
-            .iter()
-            .enumerate()
-            .map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega))
-            .sum();
-        for _ in 0..several {
-            self.modes.push(Mode {
-                frequency_hz: omega / TAU,
-                multiplicity: several,
-                damping_ratio,
-                kind: Kind::Cable,
-                platform_energy_fraction: 0.0,
-                cable_energy_fractions: cable_energy_fractions.clone(),
-                shape: [0.0; 6],
+        let mut motions = self.dynamics.null_vectors(omega, several);
+        if motions.iter().all(|motion| motion.near.is_empty()) {
+            // The closed form has no amplitudes of its poles: the cables of the cluster share the energy.
+            let mut cable_energies = vec![0.0; self.dynamics.cable_count];
+            for (_, cable) in cluster {
+                cable_energies[*cable] += 1.0 / cluster.len() as f64;
+            }
+            let still = NullVector {
+                platform: Vec6::zeros(),
+                near: Vec::new(),
+                platform_energy: 0.0,
+                cable_energies,
                 residual: 0.0,
-            });
+            };
+            motions = vec![still; several];
+        }
+        for motion in motions {
+            self.add(omega, several, NullVector { platform: Vec6::zeros(), ..motion }, [0.0; 6], 1.0);
         }
     }
-
-    /// Unscaled, with the largest scaled component ±1 → the first of the largest positive.
-    fn shape(&self, x: &Vec6) -> [f64; 6] {
-        let largest = x[x.iamax()];
-        let ell = self.dynamics.ell;
-        std::array::from_fn(|i| x[i] / largest / if i < 3 { 1.0 } else { ell })
-    }
-}
-
-/// The `several` eigenpairs of D of least magnitude.
-fn null_vectors(d: &Mat6, freedoms: usize, several: usize) -> (Vec<f64>, Vec<Vec6>) {
-    let (values, vectors) = inertia::eigen(d, freedoms);
-    let mut order: Vec<usize> = (0..freedoms).collect();
-    order.sort_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs()));
-    order.truncate(several);
-    (order.iter().map(|&i| values[i]).collect(), order.iter().map(|&i| vectors[i]).collect())
 }

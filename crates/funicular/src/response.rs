@@ -9,8 +9,9 @@ mod peaks;
 
 pub use peaks::{Peak, peaks};
 
+use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, Complex, Vec3, Vec6};
+use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6};
 use crate::robot::Pose;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -72,6 +73,46 @@ pub enum ResponseError {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
+    /// A force on a cable and a point of the same cable.
+    #[error(
+        "a force on a cable and the motion of a point of the same cable are not supported: choose another cable, or the platform"
+    )]
+    SameCable,
+}
+
+/// Where a force acts or a motion is measured: on the platform, or on a cable.
+#[derive(Debug, Clone)]
+pub enum Port<'a> {
+    /// On the platform; a vector of [`Direction::vector`].
+    Platform(Vec6),
+    /// At a station of a cable.
+    Cable {
+        /// Its stations.
+        stations: &'a CableStations,
+        /// Which of them.
+        station: usize,
+        /// Direction in world axes, a unit vector.
+        direction_w: Vec3,
+    },
+}
+
+impl Port<'_> {
+    /// The vector about the platform origin at ω [rad/s].
+    fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
+        match self {
+            Self::Platform(vector) => vector.map(Complex::from),
+            Self::Cable { stations, station, direction_w } => {
+                stations.transmission(dynamics, *station, direction_w, omega)
+            }
+        }
+    }
+
+    fn cable(&self) -> Option<usize> {
+        match self {
+            Self::Platform(_) => None,
+            Self::Cable { stations, .. } => Some(stations.cable),
+        }
+    }
 }
 
 /// Response of one output to one input at each frequency [Hz]: motion per force [m/N] or moment, and so on by the
@@ -91,7 +132,43 @@ pub fn frf(
     output: &Vec6,
     quantity: Quantity,
 ) -> Result<Vec<Complex>, ResponseError> {
-    let mut values = kernel::one_entry(dynamics, frequencies_hz, input, output);
+    finished(kernel::one_entry(dynamics, frequencies_hz, input, output), frequencies_hz, quantity)
+}
+
+/// The same between any two ports: `v_outᵀ X v_in`, with vectors that depend on frequency where a port is on a cable.
+///
+/// # Errors
+/// [`ResponseError`]: also for a force and a motion on the same cable, whose local answer is not part of it.
+///
+/// # References
+/// docs/theory.md, section 10.
+pub fn between(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    input: &Port,
+    output: &Port,
+    quantity: Quantity,
+) -> Result<Vec<Complex>, ResponseError> {
+    if let (Port::Platform(input), Port::Platform(output)) = (input, output) {
+        return frf(dynamics, frequencies_hz, input, output, quantity);
+    }
+    if input.cable() == output.cable() {
+        return Err(ResponseError::SameCable);
+    }
+    let all = kernel::all_entries(dynamics, frequencies_hz);
+    let entry = |(receptance, frequency_hz): (&CMat6, &f64)| {
+        let omega = frequency_hz * TAU;
+        (output.vector(dynamics, omega).transpose() * receptance * input.vector(dynamics, omega))[0]
+    };
+    finished(all.iter().zip(frequencies_hz).map(entry).collect(), frequencies_hz, quantity)
+}
+
+/// Receptances as the quantity asked.
+fn finished(
+    mut values: Vec<Complex>,
+    frequencies_hz: &[f64],
+    quantity: Quantity,
+) -> Result<Vec<Complex>, ResponseError> {
     for (value, &frequency_hz) in values.iter_mut().zip(frequencies_hz) {
         let omega = frequency_hz * TAU;
         *value = match quantity {

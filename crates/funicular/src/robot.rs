@@ -55,6 +55,10 @@ pub struct Platform {
     pub center_of_mass_p: Vec3,
     /// Which motions it has.
     pub freedoms: Freedoms,
+    /// Viscous damping of its translation along the platform's axes, at the platform origin [N s/m].
+    pub translational_damping_p: Vec3,
+    /// Viscous damping of its rotation about the platform's axes [N m s].
+    pub rotational_damping_p: Vec3,
 }
 
 /// Material damping of a rope; enters the cable's frequency only (theory, section 4).

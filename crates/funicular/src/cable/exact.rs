@@ -15,16 +15,19 @@
 
 mod mesh;
 mod poles;
+mod shape;
 
 pub(crate) use poles::EndSeries;
 pub use poles::PoleResidue;
+pub(crate) use shape::Swing;
+pub use shape::{Displacements, Stations};
 
 use super::{LocalAxes, LocalStiffness, damped_square};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::Complex;
 use crate::robot::Damping;
-use mesh::Mesh;
+use mesh::{Condensed, Mesh};
 use thiserror::Error;
 
 /// One cable as poles and residues, in plane and out of plane.
@@ -139,27 +142,47 @@ impl ExactEnd {
         all
     }
 
-    /// The undamped stiffness at x = ω² without the poles nearer to it than the part `width`, and those poles: for each
-    /// its direction in (e, n, b) and 1/κ of the term κ g gᵀ that was left out [m/N].
-    pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<([f64; 3], f64)>) {
+    /// The undamped stiffness at x = ω² without the poles nearer to it than the part `width`, and those poles.
+    pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<NearPole>) {
         let mut poles = Vec::new();
         let near = self.plane.near(x, width);
-        for k in near.clone() {
-            let g = self.exact.in_plane.participation[k];
-            poles.push(([g[0], g[1], 0.0], (x - self.plane.poles[k]) / (x * x)));
+        for index in near.clone() {
+            let [e, n, ..] = self.exact.in_plane.participation[index];
+            poles.push(NearPole { direction: [e, n, 0.0], pole: self.plane.poles[index], across: false, index });
         }
         let [axial, coupling, normal] = self.plane.undamped(x, near);
         let mut out_of_plane = 0.0;
         if !self.in_plane_only {
             let near = self.across.near(x, width);
-            for k in near.clone() {
-                let g = self.exact.out_of_plane.participation[k];
-                poles.push(([0.0, 0.0, g[0]], (x - self.across.poles[k]) / (x * x)));
+            for index in near.clone() {
+                let [b, _] = self.exact.out_of_plane.participation[index];
+                poles.push(NearPole { direction: [0.0, 0.0, b], pole: self.across.poles[index], across: true, index });
             }
             [out_of_plane] = self.across.undamped(x, near);
         }
         (LocalStiffness { axial, coupling, normal, out_of_plane }, poles)
     }
+
+    /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], the poles of
+    /// [`beside_poles`](Self::beside_poles) being amplitudes of their own.
+    pub(crate) fn moving_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
+        let Exact { in_plane, out_of_plane, .. } = &self.exact;
+        let [axial, coupling, normal] = in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x, self.plane.near(x, width));
+        let [out_of_plane] = out_of_plane.moving_mass([(0, 0)], x, self.across.near(x, width));
+        self.in_plane_if_asked(LocalStiffness { axial, coupling, normal, out_of_plane })
+    }
+}
+
+/// A pole near a frequency.
+pub(crate) struct NearPole {
+    /// g_k of the platform end in (e, n, b) [√kg].
+    pub(crate) direction: [f64; 3],
+    /// ω_k² [rad²/s²].
+    pub(crate) pole: f64,
+    /// Out of plane.
+    pub(crate) across: bool,
+    /// Its place in the cable's list.
+    pub(crate) index: usize,
 }
 
 /// Most unknowns of one cable in its plane; they take about two seconds.
@@ -187,6 +210,19 @@ impl Exact {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(catenary: &Catenary, mass_per_length: f64, limit: f64) -> Result<Self, ExactError> {
+        Ok(Self::with_stations(catenary, mass_per_length, limit, Vec::new())?.0)
+    }
+
+    /// The same, and how the points at unstrained arc lengths from the start [m] move.
+    ///
+    /// # Errors
+    /// [`ExactError`].
+    pub fn with_stations(
+        catenary: &Catenary,
+        mass_per_length: f64,
+        limit: f64,
+        arc_lengths: Vec<f64>,
+    ) -> Result<(Self, Stations), ExactError> {
         let mut mesh = Mesh::new(catenary, mass_per_length, limit)?;
         loop {
             let unknowns = mesh.unknowns();
@@ -197,11 +233,14 @@ impl Exact {
             let o = catenary.out_of_plane_stiffness();
             let still = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
             let tables = mesh.tables();
-            let (in_plane, error_in) = mesh.condense::<2, 4>(&tables, still, limit)?;
-            let (out_of_plane, error_out) = mesh.condense::<1, 2>(&tables, [[o, -o], [-o, o]], limit)?;
-            let error = error_in.max(error_out);
+            let plane: Condensed<2, 4> = mesh.condense(&tables, still, limit, &arc_lengths)?;
+            let across: Condensed<1, 2> = mesh.condense(&tables, [[o, -o], [-o, o]], limit, &arc_lengths)?;
+            let error = plane.error.max(across.error);
             if error <= WANTED_ERROR || mesh.refined == MOST_REFINEMENTS {
-                return Ok(Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() });
+                let (in_plane, out_of_plane) = (plane.ends, across.ends);
+                let exact = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() };
+                let (in_plane, out_of_plane) = (plane.stations, across.stations);
+                return Ok((exact, Stations { arc_lengths, in_plane, out_of_plane }));
             }
             mesh.refine();
         }
@@ -225,8 +264,8 @@ impl Exact {
     /// Minus the derivative of the undamped stiffness by ω² [kg], same axes.
     pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        let [axial, coupling, normal] = self.in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x);
-        let [out_of_plane] = self.out_of_plane.moving_mass([(0, 0)], x);
+        let [axial, coupling, normal] = self.in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x, 0..0);
+        let [out_of_plane] = self.out_of_plane.moving_mass([(0, 0)], x, 0..0);
         LocalStiffness { axial, coupling, normal, out_of_plane }
     }
 }

@@ -31,6 +31,7 @@ struct Prepared<'a> {
     dynamics: &'a Dynamics,
     constant: [f64; 21],
     mass: [f64; 21],
+    platform_damping: [f64; 21],
     products: Vec<Products>,
 }
 
@@ -52,6 +53,7 @@ impl<'a> Prepared<'a> {
             (true, false) => 0.0,
             _ => dynamics.constant[(i, j)],
         });
+        let (mass, damping) = (&dynamics.mass, &dynamics.platform_damping);
         let products = dynamics
             .terms
             .iter()
@@ -66,7 +68,13 @@ impl<'a> Prepared<'a> {
                 }
             })
             .collect();
-        Self { dynamics, constant, mass: lower(&|i, j| dynamics.mass[(i, j)]), products }
+        Self {
+            dynamics,
+            constant,
+            mass: lower(&|i, j| mass[(i, j)]),
+            platform_damping: lower(&|i, j| damping[(i, j)]),
+            products,
+        }
     }
 
     /// D(ω) of each lane, lower triangle.
@@ -74,7 +82,7 @@ impl<'a> Prepared<'a> {
     fn dynamic_stiffness(&self, omega: &Reals) -> [Complexes; 21] {
         let mut d: [Complexes; 21] = from_fn(|k| Complexes {
             re: from_fn(|i| self.constant[k] - self.mass[k] * (omega[i] * omega[i])),
-            im: [0.0; LANES],
+            im: from_fn(|i| omega[i] * self.platform_damping[k]),
         });
         for (term, products) in self.dynamics.terms.iter().zip(&self.products) {
             let (k, in_plane_only) = match &term.form {

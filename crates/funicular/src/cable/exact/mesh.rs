@@ -1,5 +1,6 @@
 //! A cable as a few elements of high polynomial degree, condensed onto its ends.
 
+use super::shape::Displacements;
 use super::{ExactError, PoleResidue};
 use crate::catenary::Catenary;
 use crate::math::{Complex, DMat, legendre, projected};
@@ -124,25 +125,28 @@ impl<'a> Mesh<'a> {
         ([across + extra * c * c, extra * c * s, across + extra * s * s], across)
     }
 
-    /// Condenses D components a point onto the two ends (N = 2D) with the static stiffness `still`; also the estimated
-    /// relative error of the clamped frequencies below the limit.
+    /// Condenses D components a point onto the two ends (N = 2D) with the static stiffness `still`, and finds how the
+    /// points at the arc lengths `stations` move.
     pub(super) fn condense<const D: usize, const N: usize>(
         &self,
         tables: &[Table],
         still: [[f64; N]; N],
         limit: f64,
-    ) -> Result<(PoleResidue<N>, f64), ExactError> {
+        stations: &[f64],
+    ) -> Result<Condensed<D, N>, ExactError> {
         // Scalar functions: inner ones (nodes, then bubbles), the two ends, then those beyond the degree.
         let inner = self.elements.iter().map(|e| e.degree).sum::<usize>() - 1;
         let beyond = BEYOND * self.elements.len();
         let total = inner + 2 + beyond;
-        let (n, count) = (D * inner, 2 * D * (2 + beyond));
+        let (n, half) = (D * inner, D * (2 + beyond));
+        let count = 2 * half + D * stations.len();
         let mut stiffness = vec![0.0; n * n];
         let mut mass = vec![0.0; n * n];
-        // Columns of K for ends and beyond, then the same of M, by rows.
+        // Columns of K for ends and beyond, then the same of M, then the functions' values at the stations, by rows.
         let mut columns = vec![0.0; n * count];
         let mut end_mass = [[0.0; N]; N];
         let mut own = vec![(0.0, 0.0); D * beyond];
+        let mut values_at_ends = vec![[0.0; 2]; stations.len()];
         let nodes = self.elements.len() - 1;
         let mut bubble = nodes;
         for (e, element) in self.elements.iter().enumerate() {
@@ -154,6 +158,15 @@ impl<'a> Mesh<'a> {
                 .chain((0..BEYOND).map(|k| inner + 2 + BEYOND * e + k))
                 .collect();
             bubble += element.degree - 1;
+            for (station, s) in stations.iter().enumerate().filter(|(_, s)| self.holds(e, **s)) {
+                for (&row, value) in functions.iter().zip(element.values_at(*s)) {
+                    if row < inner {
+                        (0..D).for_each(|d| columns[(D * row + d) * count + 2 * half + D * station + d] = value);
+                    } else {
+                        values_at_ends[station][row - inner] = value;
+                    }
+                }
+            }
             let (k, m) = self.element_matrices::<D>(element, &tables[e]);
             for (b, &column) in functions.iter().enumerate() {
                 for (a, &row) in functions.iter().enumerate() {
@@ -167,7 +180,7 @@ impl<'a> Mesh<'a> {
                             } else if row < inner {
                                 let at = (D * row + di) * count + D * (column - inner) + dj;
                                 columns[at] += entry;
-                                columns[at + count / 2] += inertia;
+                                columns[at + half] += inertia;
                             } else if column < inner {
                                 // The transpose of what the branch above takes.
                             } else if row < inner + 2 && column < inner + 2 {
@@ -182,50 +195,13 @@ impl<'a> Mesh<'a> {
         }
         debug_assert!(total == inner + 2 + beyond && bubble == inner);
         let (values, products) = projected::pencil(stiffness, mass, columns, count).ok_or(ExactError::NoTension)?;
-        Ok(Self::pole_residue(&values, &products, still, end_mass, &own, limit))
+        Ok(Condensed::new(&values, &products, still, end_mass, &own, limit, &values_at_ends))
     }
 
-    /// Poles and residues from the eigenvalues μ = 1/ω² and the products of the eigenvectors, normalised to φᵀKφ = 1,
-    /// with the columns a = K_ib and b = M_ib of the ends: `g = (b − μ a)/√μ`, `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`.
-    fn pole_residue<const N: usize>(
-        values: &[f64],
-        products: &[f64],
-        still: [[f64; N]; N],
-        end_mass: [[f64; N]; N],
-        own: &[(f64, f64)],
-        limit: f64,
-    ) -> (PoleResidue<N>, f64) {
-        let count = products.len() / values.len().max(1);
-        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
-        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-        let mut mass = end_mass;
-        let mut error = 0.0_f64;
-        let mut poles = Vec::with_capacity(order.len());
-        let mut participation = Vec::with_capacity(order.len());
-        for k in order {
-            let mu = values[k];
-            let (stiff, heavy) = products[k * count..(k + 1) * count].split_at(count / 2);
-            for i in 0..N {
-                for j in 0..N {
-                    mass[i][j] -= heavy[i] * stiff[j] + stiff[i] * heavy[j] - mu * stiff[i] * stiff[j];
-                }
-            }
-            poles.push(1.0 / mu);
-            participation.push(std::array::from_fn(|i| (heavy[i] - mu * stiff[i]) / mu.sqrt()));
-            if 1.0 / mu < limit * limit {
-                // What the functions beyond would take off ω², to first order in each, over ω² (φᵀKφ = 1).
-                let lost: f64 = own
-                    .iter()
-                    .enumerate()
-                    .map(|(e, (k_own, m_own))| {
-                        let answer = stiff[N + e] - heavy[N + e] / mu;
-                        answer * answer / (k_own - m_own / mu).abs().max(f64::MIN_POSITIVE)
-                    })
-                    .sum();
-                error = error.max(0.5 * lost);
-            }
-        }
-        (PoleResidue { stiffness: still, mass, poles, participation }, error)
+    /// Whether a station lies on element `e`; one between two elements lies on the first.
+    fn holds(&self, e: usize, s: f64) -> bool {
+        let Element { from, to, .. } = self.elements[e];
+        (s > from || e == 0) && (s <= to || e + 1 == self.elements.len())
     }
 
     /// K of each component (hh, hv, vv, or one) and M of an element over its hats and bubbles, [`BEYOND`] included.
@@ -252,6 +228,76 @@ impl<'a> Mesh<'a> {
             })
             .collect();
         (stiffness, bubble_mass(element.degree + BEYOND) * (half * self.mass_per_length))
+    }
+}
+
+/// A cable condensed onto its ends.
+pub(super) struct Condensed<const D: usize, const N: usize> {
+    pub(super) ends: PoleResidue<N>,
+    /// Estimated relative error of the clamped frequencies below the limit.
+    pub(super) error: f64,
+    pub(super) stations: Displacements<D, N>,
+}
+
+impl<const D: usize, const N: usize> Condensed<D, N> {
+    /// Poles and residues from the eigenvalues μ = 1/ω² and the products of the eigenvectors, normalised to φᵀKφ = 1,
+    /// with the columns a = K_ib and b = M_ib of the ends: `g = (b − μ a)/√μ`, `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`;
+    /// and with the values at the stations: `Ψ = N_b − Σ φ aᵀ`.
+    fn new(
+        values: &[f64],
+        products: &[f64],
+        still: [[f64; N]; N],
+        end_mass: [[f64; N]; N],
+        own: &[(f64, f64)],
+        limit: f64,
+        values_at_ends: &[[f64; 2]],
+    ) -> Self {
+        let (half, count) = (N + own.len(), 2 * (N + own.len()) + D * values_at_ends.len());
+        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
+        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+        let mut mass = end_mass;
+        let mut error = 0.0_f64;
+        let mut poles = Vec::with_capacity(order.len());
+        let mut participation = Vec::with_capacity(order.len());
+        let mut stations = Displacements::of_ends(values_at_ends);
+        for k in order {
+            let mu = values[k];
+            let (ends, at_stations) = products[k * count..(k + 1) * count].split_at(2 * half);
+            let (stiff, heavy) = ends.split_at(half);
+            for i in 0..N {
+                for j in 0..N {
+                    mass[i][j] -= heavy[i] * stiff[j] + stiff[i] * heavy[j] - mu * stiff[i] * stiff[j];
+                }
+            }
+            poles.push(1.0 / mu);
+            participation.push(std::array::from_fn(|i| (heavy[i] - mu * stiff[i]) / mu.sqrt()));
+            stations.add_mode(at_stations, stiff, mu);
+            if 1.0 / mu < limit * limit {
+                // What the functions beyond would take off ω², to first order in each, over ω² (φᵀKφ = 1).
+                let lost: f64 = own
+                    .iter()
+                    .enumerate()
+                    .map(|(e, (k_own, m_own))| {
+                        let answer = stiff[N + e] - heavy[N + e] / mu;
+                        answer * answer / (k_own - m_own / mu).abs().max(f64::MIN_POSITIVE)
+                    })
+                    .sum();
+                error = error.max(0.5 * lost);
+            }
+        }
+        Self { ends: PoleResidue { stiffness: still, mass, poles, participation }, error, stations }
+    }
+}
+
+impl Element {
+    /// Values of hats and bubbles at arc length s.
+    fn values_at(&self, s: f64) -> Vec<f64> {
+        let xi = (2.0 * s - self.from - self.to) / (self.to - self.from);
+        let p = legendre::orthonormal(xi, self.degree);
+        // P_k from the orthonormal ones.
+        let p = |k: usize| p[k] / (k as f64 + 0.5).sqrt();
+        let bubble = |j: usize| (p(j) - p(j - 2)) / (2.0 * (2.0 * j as f64 - 1.0)).sqrt();
+        [0.5 * (1.0 - xi), 0.5 * (1.0 + xi)].into_iter().chain((2..=self.degree).map(bubble)).collect()
     }
 }
 

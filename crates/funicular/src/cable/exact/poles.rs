@@ -48,10 +48,17 @@ impl<const N: usize> PoleResidue<N> {
     }
 
     /// Entries (i, j) of minus the derivative of the undamped stiffness by ω² [kg]:
-    /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω².
-    pub fn moving_mass<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
+    /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω², without the poles `left_out`.
+    pub fn moving_mass<const E: usize>(
+        &self,
+        entries: [(usize, usize); E],
+        x: f64,
+        left_out: Range<usize>,
+    ) -> [f64; E] {
         let mut sums = entries.map(|(i, j)| self.mass[i][j]);
-        for (pole, g) in self.poles.iter().zip(&self.participation) {
+        let kept = |k: &usize| !left_out.contains(k);
+        for k in (0..self.poles.len()).filter(kept) {
+            let (pole, g) = (self.poles[k], &self.participation[k]);
             let gap = pole - x;
             let factor = x * (2.0 * pole - x) / (gap * gap);
             for (sum, (i, j)) in sums.iter_mut().zip(entries) {

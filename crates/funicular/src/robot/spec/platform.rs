@@ -15,6 +15,8 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "freedoms", example: r#"freedoms = "rigid""# },
     Key { name: "inertia_kg_m2", example: "inertia_kg_m2 = [0.1, 0.1, 0.2]" },
     Key { name: "center_of_mass_m", example: "center_of_mass_m = [0.0, 0.0, 0.0]" },
+    Key { name: "translational_damping_n_s_m", example: "translational_damping_n_s_m = [10.0, 10.0, 10.0]" },
+    Key { name: "rotational_damping_n_m_s", example: "rotational_damping_n_m_s = [0.1, 0.1, 0.1]" },
 ];
 
 const WORDS: [(&str, Freedoms); 2] = [("rigid", Freedoms::Rigid), ("point-mass", Freedoms::PointMass)];
@@ -70,12 +72,29 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
         }
         None => Some([0.0; 3]),
     };
+    let translational = damping(reader, &section, "translational_damping_n_s_m", "N s/m");
+    let rotational = damping(reader, &section, "rotational_damping_n_m_s", "N m s");
+    if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| freedoms == Some(Freedoms::PointMass)) {
+        reader
+            .issue(value.span(), "a point mass does not turn, `rotational_damping_n_m_s` must be absent")
+            .help("remove the line, or set `freedoms = \"rigid\"`");
+    }
     Some(Platform {
+        translational_damping_p: translational?,
+        rotational_damping_p: rotational?,
         mass: mass?,
         inertia_p: inertia?,
         center_of_mass_p: Vec3::from(center_of_mass?),
         freedoms: freedoms?,
     })
+}
+
+/// Viscous damping along the platform's three axes, none where the key is absent.
+fn damping(reader: &mut Reader, section: &Section, key: &str, unit: &str) -> Option<Vec3> {
+    let Some(value) = section.get(key) else { return Some(Vec3::zeros()) };
+    let label = format!("`{key}`");
+    let three = reader.three(&label, &format!("three numbers in {unit}"), value)?;
+    reader.three_numbers(&label, Sign::NotNegative, three).map(Vec3::from)
 }
 
 /// Three principal moments or a full tensor; symmetric, positive definite, and possible for a body.

@@ -1,0 +1,98 @@
+//! How the points along a cable move with its ends and its clamped modes.
+
+use super::{Exact, PoleResidue};
+use crate::math::Complex;
+
+/// Displacement of stations along an exact cable, D components a point, by motions of the ends, N = 2D components.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Displacements<const D: usize, const N: usize> {
+    /// Ψ: of each station, components by end components, in slow motion [-].
+    pub still: Vec<[[f64; N]; D]>,
+    /// φ_k at each station for each pole, normalised to φᵀMφ = 1 [1/√kg].
+    pub modes: Vec<Vec<[f64; D]>>,
+}
+
+/// Stations along an exact cable, from its start, and how they move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stations {
+    /// Unstrained arc length of each [m].
+    pub arc_lengths: Vec<f64>,
+    /// Components (horizontal, up).
+    pub in_plane: Displacements<2, 4>,
+    /// Component across.
+    pub out_of_plane: Displacements<1, 2>,
+}
+
+impl<const D: usize, const N: usize> Displacements<D, N> {
+    /// Without inner functions: the hats at the two ends.
+    pub(super) fn of_ends(values_at_ends: &[[f64; 2]]) -> Self {
+        let hats = |values: &[f64; 2]| {
+            std::array::from_fn(|d| std::array::from_fn(|n| if n % D == d { values[n / D] } else { 0.0 }))
+        };
+        Self { still: values_at_ends.iter().map(hats).collect(), modes: Vec::new() }
+    }
+
+    /// Adds a clamped mode: its values at the stations and its products `K_ibᵀ φ` with the ends, φᵀKφ = 1, μ = 1/ω².
+    pub(super) fn add_mode(&mut self, values: &[f64], stiff: &[f64], mu: f64) {
+        for (still, value) in self.still.iter_mut().zip(values.chunks_exact(D)) {
+            for (row, value) in still.iter_mut().zip(value) {
+                for (entry, stiff) in row.iter_mut().zip(stiff) {
+                    *entry -= value * stiff;
+                }
+            }
+        }
+        let root = mu.sqrt();
+        self.modes.push(values.chunks_exact(D).map(|value| std::array::from_fn(|d| value[d] / root)).collect());
+    }
+
+    /// Displacement of station `at`, for motions `ends` of the ends and amplitudes of the clamped modes.
+    fn at(&self, at: usize, ends: &[Complex; N], amplitudes: &[Complex]) -> [Complex; D] {
+        let mut sum = self.still[at].map(|row| ends.iter().zip(row).map(|(u, psi)| u * psi).sum());
+        for (mode, amplitude) in self.modes.iter().zip(amplitudes) {
+            for (sum, value) in sum.iter_mut().zip(&mode[at]) {
+                *sum += amplitude * *value;
+            }
+        }
+        sum
+    }
+}
+
+impl<const N: usize> PoleResidue<N> {
+    /// Amplitudes of the clamped modes, normalised to unit modal mass, for motions of the ends at the square ω_c² [m √kg]:
+    /// `q_k = ω_c² g_kᵀ u/(ω_k² − ω_c²)`.
+    fn amplitudes(&self, ends: &[Complex; N], square: Complex) -> Vec<Complex> {
+        let amplitude = |(pole, g): (&f64, &[f64; N])| {
+            let drive: Complex = ends.iter().zip(g).map(|(u, g)| u * g).sum();
+            square * drive / (*pole - square)
+        };
+        self.poles.iter().zip(&self.participation).map(amplitude).collect()
+    }
+}
+
+/// Motion of a cable whose start moves and whose end is held.
+pub(crate) struct Swing {
+    plane: [Complex; 4],
+    across: [Complex; 2],
+    pub(crate) in_plane: Vec<Complex>,
+    pub(crate) out_of_plane: Vec<Complex>,
+}
+
+impl Swing {
+    /// By the start's motion (horizontal towards the end, up, across) at the complex square ω_c² [rad²/s²].
+    pub(crate) fn new(exact: &Exact, start: [Complex; 3], square: Complex) -> Self {
+        let held = Complex::new(0.0, 0.0);
+        let (plane, across) = ([start[0], start[1], held, held], [start[2], held]);
+        let in_plane = exact.in_plane.amplitudes(&plane, square);
+        let out_of_plane = exact.out_of_plane.amplitudes(&across, square);
+        Self { plane, across, in_plane, out_of_plane }
+    }
+}
+
+impl Stations {
+    /// Displacement (horizontal, up, across) of station `at`.
+    pub(crate) fn displacement(&self, at: usize, swing: &Swing) -> [Complex; 3] {
+        let [horizontal, up] = self.in_plane.at(at, &swing.plane, &swing.in_plane);
+        let [across] = self.out_of_plane.at(at, &swing.across, &swing.out_of_plane);
+        [horizontal, up, across]
+    }
+}

@@ -1,0 +1,162 @@
+//! How the points along the cables move: in a natural mode, and in a response to a force.
+//!
+//! A cable whose platform end moves by u answers along its length with `Ψ(s) u + Σ φ_k(s) q_k`: the slow shape and its
+//! clamped modes, the amplitudes following from u and the frequency (docs/theory.md, section 10).
+
+use crate::cable::exact::{Exact, ExactError, Stations, Swing};
+use crate::cable::{CableModel, DynamicCable, LocalAxes, damped_square};
+use crate::dynamics::Dynamics;
+use crate::math::{CVec6, Complex, Vec3};
+use crate::modes::Mode;
+use crate::robot::Robot;
+use crate::statics::Equilibrium;
+use thiserror::Error;
+
+/// Why the motion along cables is not known.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum CableMotionError {
+    /// The model knows the cable's end only.
+    #[error("the {0} model knows the end of a cable only: the motion along it needs the model `exact`")]
+    Model(CableModel),
+    /// The exact cable cannot be discretised.
+    #[error("cable \"{cable}\": {reason}")]
+    Exact {
+        /// Name of the cable.
+        cable: String,
+        /// Why.
+        reason: ExactError,
+    },
+}
+
+/// Stations along one cable, and what moves them.
+#[derive(Debug, Clone)]
+pub struct CableStations {
+    /// Which cable, file order.
+    pub cable: usize,
+    /// Unstrained arc length of each station from the platform [m].
+    pub arc_lengths: Vec<f64>,
+    /// Where they are at rest, world axes [m].
+    pub points_w: Vec<Vec3>,
+    /// Axes of the displacements: for a hanging cable e horizontal towards the anchor, n up, b across.
+    pub axes: LocalAxes,
+    lever_w: Vec3,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone)]
+enum Kind {
+    /// A massless cable moves as a straight line: the part of the platform end's motion at each station.
+    Straight(Vec<f64>),
+    Exact {
+        exact: Box<Exact>,
+        stations: Stations,
+        /// Its place among the cables whose stiffness depends on frequency.
+        term: usize,
+    },
+}
+
+impl CableStations {
+    /// Stations at fractions of the unstrained length from the platform (0 to 1), on cable `i` of a robot linearised
+    /// about an equilibrium.
+    ///
+    /// # Errors
+    /// [`CableMotionError`]: the closed form has no motion along the cable.
+    pub fn new(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        dynamics: &Dynamics,
+        i: usize,
+        fractions: &[f64],
+    ) -> Result<Self, CableMotionError> {
+        let state = &equilibrium.cables[i];
+        let arc_lengths: Vec<f64> = fractions.iter().map(|part| part * state.unstrained_length).collect();
+        let term = dynamics.terms.iter().position(|term| term.cable == i);
+        let chord_w = state.anchor_w - state.attachment_w;
+        let (kind, axes) = match term.map(|at| (at, &dynamics.terms[at].form)) {
+            Some((_, DynamicCable::ClosedForm(_))) => return Err(CableMotionError::Model(CableModel::ClosedForm)),
+            Some((term, DynamicCable::Exact(end))) => {
+                let hanging = state.hanging.as_ref().expect("an exact cable hangs");
+                let (m, limit) = (end.mass_per_length, end.exact.limit);
+                let (exact, stations) = Exact::with_stations(&hanging.catenary, m, limit, arc_lengths.clone())
+                    .map_err(|reason| CableMotionError::Exact { cable: robot.cables[i].name.clone(), reason })?;
+                (Kind::Exact { exact: Box::new(exact), stations, term }, end.axes)
+            }
+            None => {
+                let parts = fractions.iter().map(|part| 1.0 - part).collect();
+                (Kind::Straight(parts), LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w()))
+            }
+        };
+        let points_w = fractions
+            .iter()
+            .zip(&arc_lengths)
+            .map(|(part, s)| match &state.hanging {
+                Some(hanging) => hanging.point_w(*s),
+                None => state.attachment_w + chord_w * *part,
+            })
+            .collect();
+        Ok(Self { cable: i, arc_lengths, points_w, axes, lever_w: state.lever_w, kind })
+    }
+
+    /// Displacement (e, n, b) of each station in a mode [m, as `Mode::shape`]: with the platform at rest that of a
+    /// modal mass of 1 kg. The mode is one of the same `dynamics` as the stations.
+    pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> Vec<[f64; 3]> {
+        let motion = &mode.motion;
+        let largest = motion.platform[motion.platform.iamax()];
+        let scale = if largest == 0.0 { 1.0 } else { 1.0 / largest };
+        match &self.kind {
+            Kind::Straight(parts) => {
+                let shape = mode.shape;
+                let end_w = Vec3::new(shape[0], shape[1], shape[2])
+                    + Vec3::new(shape[3], shape[4], shape[5]).cross(&self.lever_w);
+                let LocalAxes { e, n, b } = self.axes;
+                parts.iter().map(|part| [e, n, b].map(|axis| part * axis.dot(&end_w))).collect()
+            }
+            Kind::Exact { exact, stations, term } => {
+                let of = &dynamics.terms[*term];
+                let start = [&of.along, &of.normal, &of.out].map(|axis| Complex::from(axis.dot(&motion.platform)));
+                let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
+                let mut swing = Swing::new(exact, start, square.into());
+                if dynamics.linearisation.in_plane_only {
+                    swing.out_of_plane.fill(0.0.into());
+                }
+                for near in motion.near.iter().filter(|near| near.term == *term) {
+                    let family = if near.across { &mut swing.out_of_plane } else { &mut swing.in_plane };
+                    family[near.pole] = near.amplitude.into();
+                }
+                let at = |k: usize| stations.displacement(k, &swing).map(|u| u.re * scale);
+                (0..self.arc_lengths.len()).map(at).collect()
+            }
+        }
+    }
+
+    /// What the motion of station `at` along `direction_w` (unit) is of the platform's motion at ω [rad/s], damped: the
+    /// 6-vector v(ω) about the platform origin with `u = vᵀ x`. By reciprocity a force f at the station acts on the
+    /// platform as `v f`.
+    pub fn transmission(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3, omega: f64) -> CVec6 {
+        let LocalAxes { e, n, b } = self.axes;
+        let towards = [e, n, b].map(|axis| axis.dot(direction_w));
+        // Row of the displacement along the direction by the end's displacement in (e, n, b).
+        let row: [Complex; 3] = match &self.kind {
+            Kind::Straight(parts) => towards.map(|part| Complex::from(part * parts[at])),
+            Kind::Exact { exact, stations, term } => {
+                let DynamicCable::Exact(end) = &dynamics.terms[*term].form else { unreachable!("made of this term") };
+                let (re, im) = damped_square(omega, end.damping, end.mass_per_length);
+                std::array::from_fn(|axis| {
+                    let start = std::array::from_fn(|k| Complex::from(f64::from(u8::from(k == axis))));
+                    let swing = Swing::new(exact, start, Complex::new(re, im));
+                    let moved = stations.displacement(at, &swing);
+                    moved.iter().zip(towards).map(|(u, part)| u * part).sum()
+                })
+            }
+        };
+        let mut vector = CVec6::zeros();
+        for (axis, part) in [e, n, b].into_iter().zip(row) {
+            let moment = self.lever_w.cross(&axis);
+            for k in 0..3 {
+                vector[k] += part * axis[k];
+                vector[3 + k] += part * moment[k];
+            }
+        }
+        vector
+    }
+}

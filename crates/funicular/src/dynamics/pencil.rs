@@ -1,0 +1,145 @@
+//! Modes at a frequency that is known: null vectors of D, with the poles beside it as unknowns of their own.
+//!
+//! A mode that lies at a cable's clamped frequency, or a hair beside it, is almost all that cable's, and D there is all
+//! pole. So a pole ω_k² near x = ω² is not summed but kept as the amplitude q_k of its clamped mode (unit modal mass):
+//!
+//! ```text
+//! A(x) = [ D_regular   −x g_k  ]      −dA/dx = [ M_regular   g_k ]
+//!        [ −x g_kᵀ     ω_k² − x ]               [ g_kᵀ         1  ]
+//! ```
+//!
+//! which is regular, and whose null vectors say how the platform and that cable share the motion.
+
+use super::{Dynamics, POLE_PART, add_local};
+use crate::cable::DynamicCable;
+use crate::math::{DMat, Mat6, Vec6, inertia};
+
+/// Amplitude of one clamped mode of one cable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NearMotion {
+    /// Which of the cables whose stiffness depends on frequency.
+    pub(crate) term: usize,
+    /// Out of plane.
+    pub(crate) across: bool,
+    /// Which pole of the cable in its plane or across.
+    pub(crate) pole: usize,
+    /// Amplitude q_k, in the scale of the platform's motion [m √kg].
+    pub(crate) amplitude: f64,
+}
+
+/// A natural motion, normalised to unit modal mass.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NullVector {
+    /// Scaled motion of the platform [m].
+    pub(crate) platform: Vec6,
+    /// Clamped modes whose poles lie near.
+    pub(crate) near: Vec<NearMotion>,
+    /// Energy of the platform, and of each cable; their sum is 1.
+    pub(crate) platform_energy: f64,
+    pub(crate) cable_energies: Vec<f64>,
+    /// |vᵀ A v|/x: twice the relative change of the frequency that another Newton step would make.
+    pub(crate) residual: f64,
+}
+
+impl Dynamics {
+    /// The `several` natural motions at ω [rad/s].
+    pub(crate) fn null_vectors(&self, omega: f64, several: usize) -> Vec<NullVector> {
+        if self.terms.iter().any(|term| matches!(term.form, DynamicCable::ClosedForm(_))) {
+            self.null_vectors_of_closed_form(omega, several)
+        } else {
+            self.null_vectors_beside_poles(omega, several)
+        }
+    }
+
+    /// Null vectors of D itself.
+    fn null_vectors_of_closed_form(&self, omega: f64, several: usize) -> Vec<NullVector> {
+        let d = self.dynamic_stiffness(omega);
+        let (values, vectors) = inertia::eigen(&d, self.freedoms);
+        least(&values, several)
+            .map(|k| {
+                let (platform, cables) = self.moving_masses(omega, &vectors[k]);
+                let total = platform + cables.iter().sum::<f64>();
+                NullVector {
+                    platform: vectors[k] / total.sqrt(),
+                    near: Vec::new(),
+                    platform_energy: platform / total,
+                    cable_energies: cables.iter().map(|mass| mass / total).collect(),
+                    residual: values[k].abs() / (omega * omega * total),
+                }
+            })
+            .collect()
+    }
+
+    fn null_vectors_beside_poles(&self, omega: f64, several: usize) -> Vec<NullVector> {
+        let x = omega * omega;
+        let mut stiffness = self.constant - self.mass * x;
+        let mut mass = self.mass;
+        let (mut borders, mut cable_masses): (Vec<(NearMotion, Vec6, f64)>, Vec<Mat6>) = (Vec::new(), Vec::new());
+        for (t, term) in self.terms.iter().enumerate() {
+            let mut moving = Mat6::zeros();
+            if let DynamicCable::Exact(form) = &term.form {
+                let (regular, poles) = form.beside_poles(x, POLE_PART);
+                add_local(&mut stiffness, term, &regular, |k, product| k * product);
+                add_local(&mut moving, term, &form.moving_mass_beside_poles(x, POLE_PART), |m, product| m * product);
+                borders.extend(poles.iter().map(|near| {
+                    let motion = NearMotion { term: t, across: near.across, pole: near.index, amplitude: 0.0 };
+                    (motion, term.vector(near.direction), near.pole)
+                }));
+            }
+            mass += moving;
+            cable_masses.push(moving);
+        }
+        let (f, n) = (self.freedoms, self.freedoms + borders.len());
+        let (mut a, mut m) = (DMat::zeros(n, n), DMat::identity(n, n));
+        a.view_mut((0, 0), (f, f)).copy_from(&stiffness.view((0, 0), (f, f)));
+        m.view_mut((0, 0), (f, f)).copy_from(&mass.view((0, 0), (f, f)));
+        for (k, (_, g, pole)) in borders.iter().enumerate() {
+            a[(f + k, f + k)] = pole - x;
+            for i in 0..f {
+                (a[(i, f + k)], a[(f + k, i)]) = (-x * g[i], -x * g[i]);
+                (m[(i, f + k)], m[(f + k, i)]) = (g[i], g[i]);
+            }
+        }
+        // Positive definite: it is the mass of platform and cables for motions that are independent.
+        let Some(factor) = m.cholesky() else { return Vec::new() };
+        let l = factor.l();
+        let half = l.solve_lower_triangular(&a).unwrap_or(a);
+        let standard = l.solve_lower_triangular(&half.transpose()).unwrap_or(half);
+        let all = standard.symmetric_eigen();
+        least(all.eigenvalues.as_slice(), several)
+            .map(|k| {
+                let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
+                let platform = Vec6::from_fn(|i, _| if i < f { v[i] } else { 0.0 });
+                let mut cable_energies = vec![0.0; self.cable_count];
+                for (term, moving) in self.terms.iter().zip(&cable_masses) {
+                    cable_energies[term.cable] = platform.dot(&(moving * platform));
+                }
+                let mut near = Vec::with_capacity(borders.len());
+                for (at, (motion, g, _)) in borders.iter().enumerate() {
+                    let amplitude = v[f + at];
+                    cable_energies[self.terms[motion.term].cable] += amplitude * (amplitude + 2.0 * g.dot(&platform));
+                    near.push(NearMotion { amplitude, ..*motion });
+                }
+                let platform_energy = platform.dot(&(self.mass * platform));
+                // 1 but for rounding; so the fractions add up.
+                let total = platform_energy + cable_energies.iter().sum::<f64>();
+                cable_energies.iter_mut().for_each(|energy| *energy /= total);
+                NullVector {
+                    platform,
+                    near,
+                    platform_energy: platform_energy / total,
+                    cable_energies,
+                    residual: all.eigenvalues[k].abs() / x,
+                }
+            })
+            .collect()
+    }
+}
+
+/// Places of the `several` values of least magnitude, in their order.
+fn least(values: &[f64], several: usize) -> impl Iterator<Item = usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs()));
+    order.truncate(several);
+    order.into_iter()
+}
