@@ -207,6 +207,14 @@ pub enum DynamicCable {
 }
 
 impl DynamicCable {
+    /// Squares of the clamped frequencies below ω [rad²/s²], in no order.
+    pub(crate) fn poles_below(&self, omega: f64) -> Vec<f64> {
+        match self {
+            Self::ClosedForm(cable) => cable.clamped_frequencies_below(omega).into_iter().map(|f| f * f).collect(),
+            Self::Exact(cable) => cable.poles_below(omega * omega).collect(),
+        }
+    }
+
     /// Its local axes.
     pub fn axes(&self) -> &LocalAxes {
         match self {
@@ -308,6 +316,33 @@ pub fn damped_square(omega: f64, damping: Damping, mass_per_length: f64) -> (f64
         Damping::Ratio(xi) => (square, -2.0 * xi * square),
         Damping::Viscous(c) if mass_per_length > 0.0 => (square, -omega * c / mass_per_length),
         Damping::Viscous(_) => (square, 0.0),
+    }
+}
+
+/// The same at a complex ω of positive real part, and its derivative by ω.
+pub(crate) fn damped_square_with_slope(omega: Complex, damping: Damping, mass_per_length: f64) -> (Complex, Complex) {
+    match damping {
+        Damping::Ratio(xi) => {
+            let loss = Complex::new(1.0, -2.0 * xi);
+            (omega * omega * loss, 2.0 * omega * loss)
+        }
+        Damping::Viscous(c) if mass_per_length > 0.0 => {
+            let rate = Complex::new(0.0, c / mass_per_length);
+            (omega * (omega - rate), 2.0 * omega - rate)
+        }
+        Damping::Viscous(_) => (omega * omega, 2.0 * omega),
+    }
+}
+
+/// The complex ω of positive real or imaginary part at which `ω_c²` is the square of an undamped frequency [rad/s].
+pub(crate) fn damped_zero(undamped: f64, damping: Damping, mass_per_length: f64) -> Complex {
+    match damping {
+        Damping::Ratio(xi) => undamped / Complex::new(1.0, -2.0 * xi).sqrt(),
+        Damping::Viscous(c) if mass_per_length > 0.0 => {
+            let half = c / (2.0 * mass_per_length);
+            Complex::new(0.0, half) + Complex::from(undamped * undamped - half * half).sqrt()
+        }
+        Damping::Viscous(_) => undamped.into(),
     }
 }
 

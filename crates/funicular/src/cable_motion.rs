@@ -57,7 +57,7 @@ enum Kind {
 
 impl CableStations {
     /// Stations at fractions of the unstrained length from the platform (0 to 1), on cable `i` of a robot linearised
-    /// about an equilibrium.
+    /// about an equilibrium. Forces act on stations that are `loaded`.
     ///
     /// # Errors
     /// [`CableMotionError`]: the closed form has no motion along the cable.
@@ -67,6 +67,7 @@ impl CableStations {
         dynamics: &Dynamics,
         i: usize,
         fractions: &[f64],
+        loaded: bool,
     ) -> Result<Self, CableMotionError> {
         let state = &equilibrium.cables[i];
         let arc_lengths: Vec<f64> = fractions.iter().map(|part| part * state.unstrained_length).collect();
@@ -77,7 +78,7 @@ impl CableStations {
             Some((term, DynamicCable::Exact(end))) => {
                 let hanging = state.hanging.as_ref().expect("an exact cable hangs");
                 let (m, limit) = (end.mass_per_length, end.exact.limit);
-                let (exact, stations) = Exact::with_stations(&hanging.catenary, m, limit, arc_lengths.clone())
+                let (exact, stations) = Exact::with_stations(&hanging.catenary, m, limit, arc_lengths.clone(), loaded)
                     .map_err(|reason| CableMotionError::Exact { cable: robot.cables[i].name.clone(), reason })?;
                 (Kind::Exact { exact: Box::new(exact), stations, term }, end.axes)
             }
@@ -134,16 +135,15 @@ impl CableStations {
     /// platform as `v f`.
     pub fn transmission(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3, omega: f64) -> CVec6 {
         let LocalAxes { e, n, b } = self.axes;
-        let towards = [e, n, b].map(|axis| axis.dot(direction_w));
+        let towards = self.local(direction_w);
         // Row of the displacement along the direction by the end's displacement in (e, n, b).
         let row: [Complex; 3] = match &self.kind {
             Kind::Straight(parts) => towards.map(|part| Complex::from(part * parts[at])),
             Kind::Exact { exact, stations, term } => {
-                let DynamicCable::Exact(end) = &dynamics.terms[*term].form else { unreachable!("made of this term") };
-                let (re, im) = damped_square(omega, end.damping, end.mass_per_length);
+                let square = damped_square_of(dynamics, *term, omega);
                 std::array::from_fn(|axis| {
                     let start = std::array::from_fn(|k| Complex::from(f64::from(u8::from(k == axis))));
-                    let swing = Swing::new(exact, start, Complex::new(re, im));
+                    let swing = Swing::new(exact, start, square);
                     let moved = stations.displacement(at, &swing);
                     moved.iter().zip(towards).map(|(u, part)| u * part).sum()
                 })
@@ -159,4 +159,42 @@ impl CableStations {
         }
         vector
     }
+
+    /// Displacement of station `at` along a unit vector per force along another at station `loaded`, with the platform
+    /// held, at ω [rad/s], damped [m/N]; what the stations' cable adds to the answer through the platform.
+    pub(crate) fn own_receptance(
+        &self,
+        dynamics: &Dynamics,
+        (at, direction_w): (usize, &Vec3),
+        (loaded, force_w): (usize, &Vec3),
+        omega: f64,
+    ) -> Complex {
+        let (out, force) = (self.local(direction_w), self.local(force_w));
+        match &self.kind {
+            // A taut massless string: its end forces fix where a force on it acts, and no model here says how it yields.
+            Kind::Straight(_) => Complex::new(f64::NAN, 0.0),
+            Kind::Exact { exact, stations, term } => {
+                let square = damped_square_of(dynamics, *term, omega);
+                stations.receptance(exact, (at, out), (loaded, force), square)
+            }
+        }
+    }
+
+    /// Whether a force on a station has an answer of the cable's own.
+    pub(crate) fn is_exact(&self) -> bool {
+        matches!(self.kind, Kind::Exact { .. })
+    }
+
+    /// Components (e, n, b).
+    fn local(&self, direction_w: &Vec3) -> [f64; 3] {
+        let LocalAxes { e, n, b } = self.axes;
+        [e, n, b].map(|axis| axis.dot(direction_w))
+    }
+}
+
+/// ω_c² of a cable whose stiffness depends on frequency.
+fn damped_square_of(dynamics: &Dynamics, term: usize, omega: f64) -> Complex {
+    let (damping, mass_per_length) = dynamics.damping[dynamics.terms[term].cable];
+    let (re, im) = damped_square(omega, damping, mass_per_length);
+    Complex::new(re, im)
 }

@@ -1,9 +1,11 @@
 //! The robot linearised about a static equilibrium: stiffness at a frequency, mass, and the number of natural
 //! frequencies below a frequency.
 
+mod complex;
 mod count;
 mod pencil;
 
+pub(crate) use complex::Losses;
 pub(crate) use pencil::NullVector;
 
 use crate::cable::exact::ExactError;
@@ -94,7 +96,8 @@ pub struct Dynamics {
     /// How it was made.
     pub linearisation: Linearisation,
     pub(crate) cable_count: usize,
-    damping: Vec<(Damping, f64)>,
+    /// Of each cable: damping and mass per length [kg/m].
+    pub(crate) damping: Vec<(Damping, f64)>,
 }
 
 /// A cable whose stiffness depends on frequency: its local axes as scaled 6-vectors (u; r × u/ℓ).

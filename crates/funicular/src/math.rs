@@ -35,3 +35,5 @@ pub fn skew(v: &Vec3) -> Mat3 {
 
 /// Matrix of any size.
 pub type DMat = nalgebra::DMatrix<f64>;
+/// Complex matrix of any size.
+pub type CDMat = nalgebra::DMatrix<Complex>;

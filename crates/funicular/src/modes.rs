@@ -4,6 +4,8 @@
 //! so the count J tells how many natural frequencies lie there, and bisection on J separates them. What J jumps by
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
+pub mod damped;
+
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};
 use std::f64::consts::TAU;

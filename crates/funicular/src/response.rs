@@ -73,9 +73,10 @@ pub enum ResponseError {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
-    /// A force on a cable and a point of the same cable.
+    /// A force on a cable and a point of the same cable, whose own answer is not known.
     #[error(
-        "a force on a cable and the motion of a point of the same cable are not supported: choose another cable, or the platform"
+        "the answer of a cable to a force on itself needs the model `exact`, a cable with mass, and both points among \
+         the same loaded stations"
     )]
     SameCable,
 }
@@ -106,13 +107,6 @@ impl Port<'_> {
             }
         }
     }
-
-    fn cable(&self) -> Option<usize> {
-        match self {
-            Self::Platform(_) => None,
-            Self::Cable { stations, .. } => Some(stations.cable),
-        }
-    }
 }
 
 /// Response of one output to one input at each frequency [Hz]: motion per force [m/N] or moment, and so on by the
@@ -138,7 +132,7 @@ pub fn frf(
 /// The same between any two ports: `v_outᵀ X v_in`, with vectors that depend on frequency where a port is on a cable.
 ///
 /// # Errors
-/// [`ResponseError`]: also for a force and a motion on the same cable, whose local answer is not part of it.
+/// [`ResponseError`]; a force and a motion on the same cable must be given as stations of one [`CableStations`], loaded.
 ///
 /// # References
 /// docs/theory.md, section 10.
@@ -152,13 +146,23 @@ pub fn between(
     if let (Port::Platform(input), Port::Platform(output)) = (input, output) {
         return frf(dynamics, frequencies_hz, input, output, quantity);
     }
-    if input.cable() == output.cable() {
-        return Err(ResponseError::SameCable);
-    }
+    let own = match (input, output) {
+        (
+            Port::Cable { stations, station: loaded, direction_w: force_w },
+            Port::Cable { stations: of_output, station, direction_w },
+        ) if stations.cable == of_output.cable => {
+            if !(std::ptr::eq(*stations, *of_output) && stations.is_exact()) {
+                return Err(ResponseError::SameCable);
+            }
+            Some((stations, (*station, direction_w), (*loaded, force_w)))
+        }
+        _ => None,
+    };
     let all = kernel::all_entries(dynamics, frequencies_hz);
     let entry = |(receptance, frequency_hz): (&CMat6, &f64)| {
         let omega = frequency_hz * TAU;
-        (output.vector(dynamics, omega).transpose() * receptance * input.vector(dynamics, omega))[0]
+        let through = (output.vector(dynamics, omega).transpose() * receptance * input.vector(dynamics, omega))[0];
+        own.map_or(through, |(stations, to, from)| through + stations.own_receptance(dynamics, to, from, omega))
     };
     finished(all.iter().zip(frequencies_hz).map(entry).collect(), frequencies_hz, quantity)
 }

@@ -102,12 +102,16 @@ impl Entire<f64> {
     /// dq/dγ = (σ − 3q)/(2γ).
     fn q_slope(&self) -> f64 {
         if self.gamma < SERIES_BELOW {
-            let power = |n: usize| n as f64 * Q_SERIES[n];
-            (1..Q_SERIES.len()).rev().fold(0.0, |sum, n| sum * self.gamma + power(n))
+            (1..Q_SERIES.len()).rev().fold(0.0, |sum, n| sum * self.gamma + q_slope_coefficient(n))
         } else {
             (self.sigma - 3.0 * self.q) / (2.0 * self.gamma)
         }
     }
+}
+
+/// Coefficient of γ^(n−1) in dq/dγ.
+fn q_slope_coefficient(n: usize) -> f64 {
+    n as f64 * Q_SERIES[n]
 }
 
 impl Entire<Complex> {
@@ -124,6 +128,17 @@ impl Entire<Complex> {
         } else {
             let sigma = s / h;
             Self { gamma, c, sigma, q: (sigma - c) / gamma }
+        }
+    }
+
+    /// dq/dγ over the same cosh.
+    fn q_slope(&self) -> Complex {
+        if self.gamma.norm_sqr() < SERIES_BELOW * SERIES_BELOW {
+            let zero = Complex::new(0.0, 0.0);
+            let sum = (1..Q_SERIES.len()).rev().fold(zero, |sum, n| sum * self.gamma + q_slope_coefficient(n));
+            sum / self.gamma.sqrt().im.cosh()
+        } else {
+            (self.sigma - self.q * 3.0) / (self.gamma * 2.0)
         }
     }
 }
@@ -160,29 +175,44 @@ impl ClosedForm {
         k
     }
 
+    /// Stiffness at the complex square ω_c² [rad²/s²], and minus its derivative by ω_c² [kg].
+    pub(crate) fn at(&self, square: Complex) -> (LocalStiffness<Complex>, LocalStiffness<Complex>) {
+        let of = Entire::complex(square * self.gamma_by_square);
+        let (mut k, mut mass) = (stiffness(of, &self.sag), self.mass_of(of, of.q_slope()));
+        if self.in_plane_only {
+            (k.out_of_plane, mass.out_of_plane) = (0.0.into(), 0.0.into());
+        }
+        (k, mass)
+    }
+
     /// Minus the derivative of the undamped stiffness by ω² [kg]: the mass that the cable moves, per unit of motion of
     /// its end. Positive semidefinite as a 3×3.
     pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let of = Entire::real(omega * omega * self.gamma_by_square);
+        let mut mass = self.mass_of(of, of.q_slope());
+        if self.in_plane_only {
+            mass.out_of_plane = 0.0;
+        }
+        mass
+    }
+
+    /// The quotients of the module head, differentiated, with c' = −σ/2, σ' = −q/2 and q' given; of degree zero in
+    /// (c, σ, q, q') as they are.
+    fn mass_of<T: Number>(&self, of: Entire<T>, q_by: T) -> LocalStiffness<T> {
         let Entire { gamma, c, sigma, q } = of;
-        // c' = −σ/2, σ' = −q/2.
-        let (c_by, sigma_by, q_by) = (-0.5 * sigma, -0.5 * q, of.q_slope());
+        let (c_by, sigma_by) = (sigma * -0.5, q * -0.5);
         let weight = 0.25 * self.sag.lambda2;
-        let (d, d_by) = (c + weight * q, c_by + weight * q_by);
-        let (p, p_by) = (sigma + weight * q, sigma_by + weight * q_by);
+        let (d, d_by) = (c + q * weight, c_by + q_by * weight);
+        let (p, p_by) = (sigma + q * weight, sigma_by + q_by * weight);
         let along = self.sag.axial_stiffness / self.sag.effective_length * self.gamma_by_square;
         let across = self.sag.tension / self.sag.chord * self.gamma_by_square;
-        let quotient = |n: f64, n_by: f64, d: f64, d_by: f64| (n_by * d - n * d_by) / (d * d);
+        let quotient = |n: T, n_by: T, d: T, d_by: T| (n_by * d - n * d_by) / (d * d);
         let string_by = quotient(c, c_by, sigma, sigma_by);
         LocalStiffness {
-            axial: -along * quotient(c, c_by, d, d_by),
-            coupling: -along * 0.5 * self.sag.epsilon * quotient(gamma * q, q + gamma * q_by, d, d_by),
-            normal: -across * (string_by - quotient(gamma * p, p + gamma * p_by, d, d_by)),
-            out_of_plane: if self.in_plane_only {
-                0.0
-            } else {
-                -across * (string_by - quotient(gamma * sigma, sigma + gamma * sigma_by, c, c_by))
-            },
+            axial: quotient(c, c_by, d, d_by) * -along,
+            coupling: quotient(gamma * q, q + gamma * q_by, d, d_by) * (-along * 0.5 * self.sag.epsilon),
+            normal: (string_by - quotient(gamma * p, p + gamma * p_by, d, d_by)) * -across,
+            out_of_plane: (string_by - quotient(gamma * sigma, sigma + gamma * sigma_by, c, c_by)) * -across,
         }
     }
 

@@ -28,6 +28,7 @@ use crate::catenary::space::HangingCable;
 use crate::math::Complex;
 use crate::robot::Damping;
 use mesh::{Condensed, Mesh};
+use std::ops::Range;
 use thiserror::Error;
 
 /// One cable as poles and residues, in plane and out of plane.
@@ -133,42 +134,65 @@ impl ExactEnd {
 
     /// The clamped-clamped frequencies below ω [rad/s], ascending.
     pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<f64> {
-        let x = omega * omega;
-        let (in_plane, across) = (&self.exact.in_plane, &self.exact.out_of_plane);
-        let count = if self.in_plane_only { 0 } else { across.poles_below(x) };
-        let mut all: Vec<f64> =
-            in_plane.poles[..in_plane.poles_below(x)].iter().chain(&across.poles[..count]).map(|p| p.sqrt()).collect();
+        let mut all: Vec<f64> = self.poles_below(omega * omega).map(f64::sqrt).collect();
         all.sort_by(f64::total_cmp);
         all
     }
 
+    /// The poles below x, in plane and then across.
+    pub(crate) fn poles_below(&self, x: f64) -> impl Iterator<Item = f64> + '_ {
+        let Exact { in_plane, out_of_plane, .. } = &self.exact;
+        let count = if self.in_plane_only { 0 } else { out_of_plane.poles_below(x) };
+        in_plane.poles[..in_plane.poles_below(x)].iter().chain(&out_of_plane.poles[..count]).copied()
+    }
+
     /// The undamped stiffness at x = ω² without the poles nearer to it than the part `width`, and those poles.
     pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<NearPole>) {
-        let mut poles = Vec::new();
-        let near = self.plane.near(x, width);
-        for index in near.clone() {
-            let [e, n, ..] = self.exact.in_plane.participation[index];
-            poles.push(NearPole { direction: [e, n, 0.0], pole: self.plane.poles[index], across: false, index });
-        }
-        let [axial, coupling, normal] = self.plane.undamped(x, near);
-        let mut out_of_plane = 0.0;
-        if !self.in_plane_only {
-            let near = self.across.near(x, width);
-            for index in near.clone() {
-                let [b, _] = self.exact.out_of_plane.participation[index];
-                poles.push(NearPole { direction: [0.0, 0.0, b], pole: self.across.poles[index], across: true, index });
-            }
-            [out_of_plane] = self.across.undamped(x, near);
-        }
-        (LocalStiffness { axial, coupling, normal, out_of_plane }, poles)
+        let (plane, across) = self.near(x, width);
+        let [axial, coupling, normal] = self.plane.undamped(x, plane.clone());
+        let [out_of_plane] = if self.in_plane_only { [0.0] } else { self.across.undamped(x, across.clone()) };
+        (LocalStiffness { axial, coupling, normal, out_of_plane }, self.near_poles(plane, across))
+    }
+
+    /// The same at the complex x = ω_c², with minus its derivative by x [kg].
+    pub(crate) fn complex_beside_poles(
+        &self,
+        x: Complex,
+        width: f64,
+    ) -> (LocalStiffness<Complex>, LocalStiffness<Complex>, Vec<NearPole>) {
+        let (plane, across) = self.near(x.re, width);
+        let Exact { in_plane, out_of_plane, .. } = &self.exact;
+        let ([ka, kb, kc], [ma, mb, mc]) = in_plane.with_derivative([(0, 0), (0, 1), (1, 1)], x, plane.clone());
+        let ([ko], [mo]) = out_of_plane.with_derivative([(0, 0)], x, across.clone());
+        let k = LocalStiffness { axial: ka, coupling: kb, normal: kc, out_of_plane: ko };
+        let mass = LocalStiffness { axial: ma, coupling: mb, normal: mc, out_of_plane: mo };
+        (self.in_plane_if_asked(k), self.in_plane_if_asked(mass), self.near_poles(plane, across))
+    }
+
+    /// Places of the poles nearer to x than the part `width`, in plane and across.
+    fn near(&self, x: f64, width: f64) -> (Range<usize>, Range<usize>) {
+        (self.plane.near(x, width), if self.in_plane_only { 0..0 } else { self.across.near(x, width) })
+    }
+
+    fn near_poles(&self, plane: Range<usize>, across: Range<usize>) -> Vec<NearPole> {
+        let Exact { in_plane, out_of_plane, .. } = &self.exact;
+        let in_plane = plane.map(|index| {
+            let [e, n, ..] = in_plane.participation[index];
+            NearPole { direction: [e, n, 0.0], pole: in_plane.poles[index], across: false, index }
+        });
+        let out_of_plane = across.map(|index| {
+            let [b, _] = out_of_plane.participation[index];
+            NearPole { direction: [0.0, 0.0, b], pole: out_of_plane.poles[index], across: true, index }
+        });
+        in_plane.chain(out_of_plane).collect()
     }
 
     /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], the poles of
     /// [`beside_poles`](Self::beside_poles) being amplitudes of their own.
     pub(crate) fn moving_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
-        let Exact { in_plane, out_of_plane, .. } = &self.exact;
-        let [axial, coupling, normal] = in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x, self.plane.near(x, width));
-        let [out_of_plane] = out_of_plane.moving_mass([(0, 0)], x, self.across.near(x, width));
+        let (plane, across) = self.near(x, width);
+        let [axial, coupling, normal] = self.exact.in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x, plane);
+        let [out_of_plane] = self.exact.out_of_plane.moving_mass([(0, 0)], x, across);
         self.in_plane_if_asked(LocalStiffness { axial, coupling, normal, out_of_plane })
     }
 }
@@ -210,10 +234,11 @@ impl Exact {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(catenary: &Catenary, mass_per_length: f64, limit: f64) -> Result<Self, ExactError> {
-        Ok(Self::with_stations(catenary, mass_per_length, limit, Vec::new())?.0)
+        Ok(Self::with_stations(catenary, mass_per_length, limit, Vec::new(), false)?.0)
     }
 
-    /// The same, and how the points at unstrained arc lengths from the start [m] move.
+    /// The same, and how the points at unstrained arc lengths from the start [m] move: also under forces at those points
+    /// if they are `loaded`, which each cost an element.
     ///
     /// # Errors
     /// [`ExactError`].
@@ -222,8 +247,9 @@ impl Exact {
         mass_per_length: f64,
         limit: f64,
         arc_lengths: Vec<f64>,
+        loaded: bool,
     ) -> Result<(Self, Stations), ExactError> {
-        let mut mesh = Mesh::new(catenary, mass_per_length, limit)?;
+        let mut mesh = Mesh::new(catenary, mass_per_length, limit, if loaded { &arc_lengths } else { &[] })?;
         loop {
             let unknowns = mesh.unknowns();
             if unknowns > MOST_UNKNOWNS {

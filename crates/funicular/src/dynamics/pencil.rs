@@ -123,7 +123,9 @@ impl Dynamics {
                 let platform_energy = platform.dot(&(self.mass * platform));
                 // 1 but for rounding; so the fractions add up.
                 let total = platform_energy + cable_energies.iter().sum::<f64>();
-                cable_energies.iter_mut().for_each(|energy| *energy /= total);
+                for energy in &mut cable_energies {
+                    *energy /= total;
+                }
                 NullVector {
                     platform,
                     near,

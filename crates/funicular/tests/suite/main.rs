@@ -4,6 +4,7 @@
 
 mod cable;
 mod catenary;
+mod damped;
 mod exact;
 mod independent;
 mod modes;

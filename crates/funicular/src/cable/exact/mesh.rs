@@ -48,7 +48,13 @@ impl Table {
 const BEYOND: usize = 2;
 
 impl<'a> Mesh<'a> {
-    pub(super) fn new(catenary: &'a Catenary, mass_per_length: f64, limit: f64) -> Result<Self, ExactError> {
+    /// Good up to ω = `limit`; cut at the arc lengths `cuts`, where the motion has a kink under a force.
+    pub(super) fn new(
+        catenary: &'a Catenary,
+        mass_per_length: f64,
+        limit: f64,
+        cuts: &[f64],
+    ) -> Result<Self, ExactError> {
         let rope = catenary.rope();
         let w = rope.weight_per_length;
         let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
@@ -63,7 +69,12 @@ impl<'a> Mesh<'a> {
         if least.is_nan() || least <= 1e-9 * catenary.tension_at_end().max(catenary.tension_at_start()) {
             return Err(ExactError::NoTension);
         }
-        let mut cuts = vec![(0.0, rope.unstrained_length)];
+        let mut nodes: Vec<f64> = cuts.iter().copied().filter(|s| *s > 0.0 && *s < rope.unstrained_length).collect();
+        nodes.extend([0.0, rope.unstrained_length]);
+        nodes.sort_by(|a, b| b.total_cmp(a));
+        nodes.dedup();
+        // The last one is worked on first: elements are in ascending order.
+        let mut cuts: Vec<(f64, f64)> = nodes.windows(2).map(|pair| (pair[1], pair[0])).collect();
         let mut elements = Vec::new();
         while let Some((from, to)) = cuts.pop() {
             let (center, half) = (0.5 * (from + to), 0.5 * (to - from));

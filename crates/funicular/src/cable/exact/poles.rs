@@ -68,6 +68,33 @@ impl<const N: usize> PoleResidue<N> {
         sums
     }
 
+    /// Entries (i, j) of the stiffness at the complex x = ω_c² [N/m] and of minus its derivative by x [kg], without the
+    /// poles `left_out`.
+    pub(crate) fn with_derivative<const E: usize>(
+        &self,
+        entries: [(usize, usize); E],
+        x: Complex,
+        left_out: Range<usize>,
+    ) -> ([Complex; E], [Complex; E]) {
+        let mut sums = [Complex::new(0.0, 0.0); E];
+        let mut masses = entries.map(|(i, j)| Complex::from(self.mass[i][j]));
+        let kept = |k: &usize| !left_out.contains(k);
+        for k in (0..self.poles.len()).filter(kept) {
+            let (pole, g) = (self.poles[k], &self.participation[k]);
+            let factor = (pole - x).inv();
+            let by_square = factor * factor * x * (2.0 * pole - x);
+            for (e, (i, j)) in entries.into_iter().enumerate() {
+                sums[e] += factor * (g[i] * g[j]);
+                masses[e] += by_square * (g[i] * g[j]);
+            }
+        }
+        let stiffness = std::array::from_fn(|e| {
+            let (i, j) = entries[e];
+            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
+        });
+        (stiffness, masses)
+    }
+
     /// Number of poles below ω² = x.
     pub fn poles_below(&self, x: f64) -> usize {
         self.poles.partition_point(|pole| *pole < x)

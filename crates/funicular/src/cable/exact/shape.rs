@@ -95,4 +95,23 @@ impl Stations {
         let [across] = self.out_of_plane.at(at, &swing.across, &swing.out_of_plane);
         [horizontal, up, across]
     }
+
+    /// Displacement of station `at` along `out` per force along `force` at station `loaded`, both (horizontal, up,
+    /// across), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
+    pub(crate) fn receptance(
+        &self,
+        exact: &Exact,
+        (at, out): (usize, [f64; 3]),
+        (loaded, force): (usize, [f64; 3]),
+        square: Complex,
+    ) -> Complex {
+        let plane = |mode: &[[f64; 2]], k: usize, u: [f64; 3]| mode[k][0] * u[0] + mode[k][1] * u[1];
+        let in_plane = exact.in_plane.poles.iter().zip(&self.in_plane.modes);
+        let across = exact.out_of_plane.poles.iter().zip(&self.out_of_plane.modes);
+        let first: Complex =
+            in_plane.map(|(pole, mode)| plane(mode, at, out) * plane(mode, loaded, force) / (*pole - square)).sum();
+        let second: Complex =
+            across.map(|(pole, mode)| mode[at][0] * out[2] * mode[loaded][0] * force[2] / (*pole - square)).sum();
+        first + second
+    }
 }

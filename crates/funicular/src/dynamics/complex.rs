@@ -1,0 +1,111 @@
+//! D at a complex frequency, for the damped natural frequencies.
+//!
+//! As in [`pencil`](super::pencil), poles near the frequency are unknowns of their own, so that nothing is large:
+//!
+//! ```text
+//! B(ω) = [ D_regular   −s g_k  ]
+//!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
+//! ```
+
+use super::{Dynamics, POLE_PART, Term, add_local};
+use crate::cable::{DynamicCable, LocalStiffness, damped_square_with_slope};
+use crate::math::{CDMat, CMat6, Complex};
+use crate::robot::Damping;
+
+/// The damping with which D is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Losses {
+    /// As the robot has it.
+    Damped,
+    /// None.
+    Undamped,
+}
+
+/// D at a complex frequency, bordered by near poles, and its derivative.
+struct Bordered {
+    value: CDMat,
+    slope: CDMat,
+    /// Product over the poles below a limit that are not in the border: the sum of (d/dω) ln(ω_k² − s), and the phase of
+    /// the product.
+    pole_slope: Complex,
+    pole_phase: f64,
+}
+
+impl Dynamics {
+    /// Squares of the clamped frequencies below ω [rad/s] of each cable whose stiffness depends on frequency.
+    pub(crate) fn poles_below(&self, omega: f64) -> Vec<Vec<f64>> {
+        self.terms.iter().map(|term| term.form.poles_below(omega)).collect()
+    }
+
+    /// (d/dω) ln f at ω, where f is det D times ω_k² − ω_c² over the `poles` of [`poles_below`](Self::poles_below): f has
+    /// the damped natural frequencies as its zeros, each as often as it counts, and no pole in their region.
+    pub(crate) fn logarithmic_slope(&self, omega: Complex, poles: &[Vec<f64>]) -> Complex {
+        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, Losses::Damped, poles);
+        match value.lu().solve(&slope) {
+            Some(solved) => solved.trace() + pole_slope,
+            None => Complex::new(f64::INFINITY, 0.0),
+        }
+    }
+
+    /// Phase of the same f [rad], up to whole turns.
+    pub(crate) fn phase(&self, omega: Complex, losses: Losses, poles: &[Vec<f64>]) -> f64 {
+        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles);
+        value.lu().determinant().arg() + pole_phase
+    }
+
+    fn bordered(&self, omega: Complex, losses: Losses, poles: &[Vec<f64>]) -> Bordered {
+        let i = Complex::i();
+        let platform_damping = match losses {
+            Losses::Damped => self.platform_damping,
+            Losses::Undamped => self.platform_damping * 0.0,
+        };
+        let mut value = CMat6::from_fn(|r, c| {
+            self.constant[(r, c)] + i * omega * platform_damping[(r, c)] - omega * omega * self.mass[(r, c)]
+        });
+        let mut slope = CMat6::from_fn(|r, c| i * platform_damping[(r, c)] - 2.0 * omega * self.mass[(r, c)]);
+        let (mut pole_slope, mut pole_phase) = (Complex::new(0.0, 0.0), 0.0);
+        let mut borders = Vec::new();
+        for (term, poles) in self.terms.iter().zip(poles) {
+            let (damping, mass_per_length) = match losses {
+                Losses::Damped => self.damping[term.cable],
+                Losses::Undamped => (Damping::Ratio(0.0), 1.0),
+            };
+            let (square, square_slope) = damped_square_with_slope(omega, damping, mass_per_length);
+            let (stiffness, mass, near) = match &term.form {
+                DynamicCable::ClosedForm(form) => {
+                    let (stiffness, mass) = form.at(square);
+                    (stiffness, mass, Vec::new())
+                }
+                DynamicCable::Exact(form) => form.complex_beside_poles(square, POLE_PART),
+            };
+            add_scaled(&mut value, term, &stiffness, Complex::new(1.0, 0.0));
+            add_scaled(&mut slope, term, &mass, -square_slope);
+            let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
+            for pole in poles.iter().filter(|pole| !is_near(**pole)) {
+                let gap = pole - square;
+                pole_slope -= square_slope / gap;
+                pole_phase += gap.arg();
+            }
+            borders.extend(near.iter().map(|near| (term.vector(near.direction), near.pole, square, square_slope)));
+        }
+        let (f, n) = (self.freedoms, self.freedoms + borders.len());
+        let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
+        all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));
+        all_slope.view_mut((0, 0), (f, f)).copy_from(&slope.view((0, 0), (f, f)));
+        for (k, (g, pole, square, square_slope)) in borders.into_iter().enumerate() {
+            all[(f + k, f + k)] = pole - square;
+            all_slope[(f + k, f + k)] = -square_slope;
+            for r in 0..f {
+                for (entry, at) in [(&mut all, -square * g[r]), (&mut all_slope, -square_slope * g[r])] {
+                    entry[(r, f + k)] = at;
+                    entry[(f + k, r)] = at;
+                }
+            }
+        }
+        Bordered { value: all, slope: all_slope, pole_slope, pole_phase }
+    }
+}
+
+fn add_scaled(total: &mut CMat6, term: &Term, k: &LocalStiffness<Complex>, factor: Complex) {
+    add_local(total, term, k, |k, product| k * factor * product);
+}

@@ -1,0 +1,295 @@
+//! Damped natural frequencies: one for each undamped mode, none lost.
+//!
+//! With damping D(ω) is complex and its zeros ω leave the real axis: the motion is e^{iωt}, so `λ = iω` and decay is
+//! Im ω > 0. All are sought at once: each undamped frequency, with its damping of first order, is a start, and every
+//! Newton step on det D is taken as if all the other zeros were divided out (Aberth), so that no two end at the same one.
+//! Afterwards the zeros inside a contour are counted: the phase of det D with damping over that without turns by nothing
+//! around it exactly if the region holds as many damped zeros as undamped ones, whose number Wittrick and Williams know.
+
+use super::{Mode, Modes};
+use crate::cable::damped_zero;
+use crate::dynamics::{Dynamics, Losses};
+use crate::math::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// A damped natural frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DampedMode {
+    /// Complex angular frequency ω [rad/s], motion e^{iωt}; λ = iω.
+    pub omega: Complex,
+    /// Relative size of the last step of its search: it is not known better.
+    pub error: f64,
+}
+
+impl DampedMode {
+    /// |ω|/2π [Hz]: the natural frequency of an oscillator with this eigenvalue.
+    pub fn frequency_hz(&self) -> f64 {
+        self.omega.norm() / TAU
+    }
+
+    /// Re ω/2π [Hz]: at which it rings, `√(1 − ζ²)` times the natural one.
+    pub fn ringing_hz(&self) -> f64 {
+        self.omega.re / TAU
+    }
+
+    /// ζ = Im ω/|ω|.
+    pub fn damping_ratio(&self) -> f64 {
+        self.omega.im / self.omega.norm()
+    }
+
+    /// λ = iω = −ζ|ω| + i|ω|√(1 − ζ²) [1/s].
+    pub fn eigenvalue(&self) -> Complex {
+        Complex::new(-self.omega.im, self.omega.re)
+    }
+}
+
+/// The damped partners of undamped modes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DampedModes {
+    /// One for each undamped mode, in their order.
+    pub modes: Vec<DampedMode>,
+    /// Modes so strongly damped that they do not ring; ω is one of their two decay rates, and no count confirms them.
+    pub overdamped: usize,
+    /// The undamped list is certified, every search has settled, and as many zeros lie in their region as are listed.
+    pub certified: bool,
+}
+
+/// Largest error of a certified zero.
+const WANTED_ERROR: f64 = 1e-9;
+/// Relative spread, from the second moment, up to which zeros that belong to a multiple undamped mode are one.
+const ONE_ZERO: f64 = 1e-8;
+/// Relative step below which a zero has settled.
+const SETTLED: f64 = 4e-15;
+/// Poles up to this part of the limit are divided out of det D: so none is near a zero that is sought.
+const POLES_BEYOND: f64 = 1.3;
+
+/// The damped partner of every mode of a list.
+///
+/// # Example
+/// ```
+/// # use funicular::{dynamics::{Dynamics, Linearisation}, modes, robot::Robot, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0)?;
+/// let undamped = modes::below(&dynamics, 5.0);
+/// let damped = modes::damped::of(&dynamics, &undamped);
+/// assert!(damped.certified && damped.modes.len() == undamped.modes.len());
+/// // Its ropes have ξ = 0.003, which a mode of the cables alone gets in full.
+/// assert!(damped.modes.iter().all(|mode| mode.damping_ratio() > 0.0 && mode.damping_ratio() < 0.003_001));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// O. Aberth, Math. Comp. 27(122), 1973; D. A. Bini, V. Noferini, Linear Algebra Appl. 439(4), 2013; docs/theory.md,
+/// section 11.
+pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
+    let limit = undamped.below_hz * TAU;
+    let search = Search { dynamics, poles: dynamics.poles_below(POLES_BEYOND * limit) };
+    let mut zeros = search.starts(&undamped.modes);
+    search.converge(&mut zeros);
+    search.separate(&mut zeros, &undamped.modes);
+
+    let mut modes = vec![DampedMode { omega: Complex::new(0.0, 0.0), error: 0.0 }; undamped.modes.len()];
+    for zero in &zeros {
+        for member in &zero.members {
+            modes[*member] = DampedMode { omega: zero.omega, error: zero.error };
+        }
+    }
+    // A rate without oscillation is imaginary but for rounding.
+    let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= 1e-7 * mode.omega.norm()).count();
+    let certified = undamped.certified
+        && overdamped == 0
+        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0)
+        && search.as_many_as_undamped(&modes, limit);
+    DampedModes { modes, overdamped, certified }
+}
+
+struct Search<'a> {
+    dynamics: &'a Dynamics,
+    /// Of each cable whose stiffness depends on frequency.
+    poles: Vec<Vec<f64>>,
+}
+
+/// A zero, of as many undamped modes as share it.
+struct Zero {
+    omega: Complex,
+    error: f64,
+    members: Vec<usize>,
+}
+
+impl Search<'_> {
+    /// A start for each mode, multiple ones together; modes with the platform at rest in closed form.
+    fn starts(&self, modes: &[Mode]) -> Vec<Zero> {
+        let mut zeros: Vec<Zero> = Vec::with_capacity(modes.len());
+        let mut next = 0;
+        while next < modes.len() {
+            let mode = &modes[next];
+            let members: Vec<usize> = (next..modes.len().min(next + mode.multiplicity)).collect();
+            next += members.len();
+            let undamped = mode.frequency_hz * TAU;
+            zeros.push(if let Some(omega) = self.of_cables_alone(mode) {
+                Zero { omega, error: 0.0, members }
+            } else {
+                let zeta = members.iter().map(|i| modes[*i].damping_ratio).sum::<f64>() / members.len() as f64;
+                Zero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
+            });
+        }
+        zeros
+    }
+
+    /// Of a mode with the platform at rest whose cables are damped alike.
+    fn of_cables_alone(&self, mode: &Mode) -> Option<Complex> {
+        if mode.platform_energy_fraction > 0.0 {
+            return None;
+        }
+        let mut damped =
+            mode.cable_energy_fractions.iter().zip(&self.dynamics.damping).filter(|(part, _)| **part > 0.0).map(
+                |(_, (damping, mass_per_length))| damped_zero(mode.frequency_hz * TAU, *damping, *mass_per_length),
+            );
+        let first = damped.next()?;
+        damped.all(|omega| omega == first).then_some(first)
+    }
+
+    /// Newton's steps on f over all the other zeros, until none moves.
+    fn converge(&self, zeros: &mut [Zero]) {
+        // Some four rounds; 60 is a guard for clusters, where convergence is linear at first.
+        for _ in 0..60 {
+            let mut moved = false;
+            for i in 0..zeros.len() {
+                if zeros[i].error <= SETTLED {
+                    continue;
+                }
+                let omega = zeros[i].omega;
+                let others: Complex = zeros
+                    .iter()
+                    .filter(|other| other.omega != omega)
+                    .map(|other| other.members.len() as f64 / (omega - other.omega))
+                    .sum();
+                let slope = self.dynamics.logarithmic_slope(omega, &self.poles) - others;
+                let step = zeros[i].members.len() as f64 / slope;
+                if !(step.re.is_finite() && step.im.is_finite()) {
+                    // Exactly at a zero, as far as rounding shows.
+                    zeros[i].error = 0.0;
+                    continue;
+                }
+                // No start is thrown out of its region by a flat place of f.
+                let size = step.norm() / omega.norm();
+                let step = if size > LONGEST_STEP { step * (LONGEST_STEP / size) } else { step };
+                zeros[i].omega -= step;
+                zeros[i].error = size;
+                moved = true;
+            }
+            if !moved {
+                break;
+            }
+        }
+    }
+
+    /// Splits those shared zeros that damping has drawn apart.
+    fn separate(&self, zeros: &mut Vec<Zero>, modes: &[Mode]) {
+        let (apart, mut all): (Vec<Zero>, Vec<Zero>) =
+            zeros.drain(..).partition(|zero| zero.members.len() > 1 && zero.error > 0.0 && !self.is_one(zero));
+        let any = !apart.is_empty();
+        for zero in apart {
+            for (k, &member) in zero.members.iter().enumerate() {
+                // Starts of their own around the undamped one, at the distance of what damping does.
+                let mode = &modes[member];
+                let turn =
+                    Complex::from_polar(0.3 * mode.damping_ratio, TAU * (k as f64 + 0.3) / zero.members.len() as f64);
+                let omega = mode.frequency_hz * TAU * (Complex::new(1.0, mode.damping_ratio) + turn);
+                all.push(Zero { omega, error: f64::INFINITY, members: vec![member] });
+            }
+        }
+        *zeros = all;
+        if any {
+            self.converge(zeros);
+        }
+    }
+
+    /// Whether all zeros that were sought together are one: the zeros in a small circle about it, their number and the
+    /// moments of their places, from the logarithmic slope on the circle.
+    fn is_one(&self, zero: &Zero) -> bool {
+        const POINTS: usize = 8;
+        let radius = 1e-4 * zero.omega.norm();
+        let mut moments = [Complex::new(0.0, 0.0); 3];
+        for k in 0..POINTS {
+            let at = Complex::from_polar(radius, TAU * k as f64 / POINTS as f64);
+            let mut power = self.dynamics.logarithmic_slope(zero.omega + at, &self.poles) * at / POINTS as f64;
+            for moment in &mut moments {
+                *moment += power;
+                power *= at;
+            }
+        }
+        let many = zero.members.len() as f64;
+        let [count, first, second] = moments;
+        let mean = first / many;
+        let variance = second / many - mean * mean;
+        (count - many).norm() < 0.1 && variance.norm().sqrt() <= ONE_ZERO * zero.omega.norm()
+    }
+
+    /// Whether as many damped zeros as undamped ones lie around the list: the phase of the quotient of both determinants
+    /// does not turn on the way around.
+    fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64) -> bool {
+        const PIECES: usize = 16;
+        let Some(least) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
+        let most = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
+        // Far enough from all zeros for a slow phase.
+        let margin = (2.0 * most).max(0.01 * limit);
+        let corner = |re, im| Complex::new(re, im);
+        let corners = [
+            corner(0.5 * least, -margin),
+            corner(limit, -margin),
+            corner(limit, most + margin),
+            corner(0.5 * least, most + margin),
+        ];
+        let phase = |omega: Complex| {
+            self.dynamics.phase(omega, Losses::Damped, &self.poles)
+                - self.dynamics.phase(omega, Losses::Undamped, &self.poles)
+        };
+        let mut turned = 0.0;
+        for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let mut last = (*from, phase(*from));
+            for piece in 1..=PIECES {
+                let point = from + (to - from) * (piece as f64 / PIECES as f64);
+                let next = (point, phase(point));
+                match turn_between(&phase, last, next, 0) {
+                    Some(turn) => turned += turn,
+                    None => return false,
+                }
+                last = next;
+            }
+        }
+        turned.abs() < PI
+    }
+}
+
+/// Longest step of a search, relative to its frequency.
+const LONGEST_STEP: f64 = 0.1;
+
+/// The least change of a phase.
+fn wrapped(phase: f64) -> f64 {
+    phase - TAU * (phase / TAU).round()
+}
+
+/// Change of phase between two points; halved until it is small and both halves agree with the whole.
+fn turn_between(
+    phase: &impl Fn(Complex) -> f64,
+    from: (Complex, f64),
+    to: (Complex, f64),
+    depth: usize,
+) -> Option<f64> {
+    // A zero on the path itself would halve for ever.
+    const DEEPEST: usize = 30;
+    let middle = 0.5 * (from.0 + to.0);
+    let middle = (middle, phase(middle));
+    let whole = wrapped(to.1 - from.1);
+    let (first, second) = (wrapped(middle.1 - from.1), wrapped(to.1 - middle.1));
+    if !(whole.is_finite() && first.is_finite()) || depth > DEEPEST {
+        return None;
+    }
+    if whole.abs() < 1.0 && (first + second - whole).abs() < 0.1 {
+        return Some(whole);
+    }
+    Some(turn_between(phase, from, middle, depth + 1)? + turn_between(phase, middle, to, depth + 1)?)
+}
