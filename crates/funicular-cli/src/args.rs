@@ -42,12 +42,14 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv")]
     Modes(ModesArgs),
-    /// Frequency response of the platform, and its peaks
+    /// Frequency response of the platform or of points on cables, and its peaks
     #[command(after_help = "Examples:\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
         --input fz --output ay\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    \
-        --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv")]
+        --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
+        --input fz --output cable:3@0.5:az")]
     Frf(FrfArgs),
     /// Every cable model side by side, and the simplest that is good enough
     #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
@@ -117,7 +119,7 @@ pub(crate) struct StateArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct ModelArgs {
-    /// How cables answer motion of the platform [default: closed-form]
+    /// How cables answer motion of the platform [default: exact; closed-form for static models other than catenary]
     #[arg(long, value_name = "MODEL", value_enum)]
     pub(crate) cable_model: Option<CableModelName>,
     #[command(flatten)]
@@ -193,7 +195,7 @@ pub(crate) struct StiffnessArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Frequency [Hz]. At 0 the exact tangent of the static model, above 0 the closed form, unless --cable-model says otherwise
+    /// Frequency [Hz]. At 0 the exact tangent of the static model, unless --cable-model says otherwise
     #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0")]
     pub(crate) at_hz: f64,
 
@@ -229,11 +231,11 @@ pub(crate) struct FrfArgs {
     #[command(flatten)]
     pub(crate) range: RangeArgs,
 
-    /// Force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction; world axes
+    /// Force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction; world axes; a force on a cable as in cable:3@0.5:fz
     #[arg(long, value_name = "INPUT", value_parser = values::input)]
     pub(crate) input: Input,
 
-    /// Displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…, a:… along a direction; world axes
+    /// Displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…, a:… along a direction; world axes; a point of a cable (name, part of its length from the platform) as in cable:3@0.5:az
     #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
     pub(crate) output: Output,
     #[command(flatten)]
@@ -315,9 +317,9 @@ pub(crate) struct CableArgs {
     #[command(flatten)]
     pub(crate) state: StateArgs,
 
-    /// How the cable answers motion of its platform end
-    #[arg(long, value_name = "MODEL", value_enum, default_value_t)]
-    pub(crate) cable_model: CableModelName,
+    /// How the cable answers motion of its platform end [default: exact; closed-form for static models other than catenary]
+    #[arg(long, value_name = "MODEL", value_enum)]
+    pub(crate) cable_model: Option<CableModelName>,
 
     /// Leave out the stiffness out of the cable's plane, as Yuan et al. 2014
     #[arg(long)]
@@ -406,12 +408,11 @@ impl From<StaticModelName> for StaticModel {
 }
 
 /// Names of [`CableModel`].
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum CableModelName {
     /// Vibration about the elastic catenary: any sag, axial waves included
     Exact,
     /// Dynamic stiffness of a shallow sagging cable (Starossek 1991)
-    #[default]
     ClosedForm,
     /// Static stiffness of a shallow sagging cable (Irvine 1981)
     StaticSag,

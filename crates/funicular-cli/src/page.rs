@@ -70,7 +70,7 @@ mod tests {
     }
 
     fn page_of(text: &str, model: StaticModel) -> String {
-        page_with(text, model, Linearisation::default())
+        page_with(text, model, Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() })
     }
 
     fn page_with(text: &str, model: StaticModel, linearisation: Linearisation) -> String {

@@ -1,6 +1,6 @@
 //! The static state that an analysis starts from: as the robot file says, or as the options say.
 
-use crate::args::{ModelArgs, StateArgs};
+use crate::args::{CableModelName, ModelArgs, StateArgs};
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
@@ -96,10 +96,20 @@ impl SagNumbers {
     }
 }
 
-/// The linearisation that the options ask for, the closed form without a word on it.
-pub(crate) fn linearisation(args: &ModelArgs) -> Linearisation {
+/// The cable model that an option asks for; without a word on it the exact one, or, for cables that do not hang, the closed
+/// form of those that hardly sag.
+pub(crate) fn cable_model(asked: Option<CableModelName>, static_model: StaticModel) -> CableModel {
+    match (asked, static_model) {
+        (Some(name), _) => name.into(),
+        (None, StaticModel::Catenary) => CableModel::Exact,
+        (None, StaticModel::Ideal | StaticModel::Spring) => CableModel::ClosedForm,
+    }
+}
+
+/// The linearisation that the options ask for.
+pub(crate) fn linearisation(args: &ModelArgs, static_model: StaticModel) -> Linearisation {
     Linearisation {
-        cable_model: args.cable_model.unwrap_or_default().into(),
+        cable_model: cable_model(args.cable_model, static_model),
         assembly: args.terms.assembly.into(),
         in_plane_only: args.terms.in_plane_only,
     }

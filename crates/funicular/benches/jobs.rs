@@ -54,7 +54,8 @@ fn statics_both_ways(c: &mut Criterion) {
 
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
-    (Dynamics::about(robot, &rest, Linearisation::default(), 20.0).expect("taut"), rest.pose)
+    let closed_form = Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() };
+    (Dynamics::about(robot, &rest, closed_form, 20.0).expect("taut"), rest.pose)
 }
 
 fn responses(c: &mut Criterion) {
@@ -85,16 +86,24 @@ fn natural_frequencies(c: &mut Criterion) {
 
 fn exact_cables(c: &mut Criterion) {
     let (robot, lengths) = robot();
-    let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
     let linearised = |up_to_hz| {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
-        (Dynamics::about(&robot, &rest, linearisation, up_to_hz).expect("taut"), rest.pose)
+        (Dynamics::about(&robot, &rest, Linearisation::default(), up_to_hz).expect("taut"), rest.pose)
     };
     c.bench_function("exact: statics and set-up below 20 Hz", |b| b.iter(|| linearised(black_box(20.0))));
     c.bench_function("exact: statics, set-up and all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let (dynamics, _) = linearised(black_box(20.0));
             let found = modes::below(&dynamics, 20.0);
+            assert!(found.certified);
+            found.modes.len()
+        });
+    });
+    let (dynamics, _) = linearised(20.0);
+    let undamped = modes::below(&dynamics, 20.0);
+    c.bench_function("exact: damped partners of all modes below 20 Hz, certified", |b| {
+        b.iter(|| {
+            let found = modes::damped::of(black_box(&dynamics), &undamped);
             assert!(found.certified);
             found.modes.len()
         });

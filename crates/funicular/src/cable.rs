@@ -30,9 +30,9 @@ pub enum CableModel {
     /// The exact static stiffness of the elastic catenary; constant.
     CatenaryTangent,
     /// Starossek's dynamic stiffness of a shallow sagging cable.
-    #[default]
     ClosedForm,
     /// Linear vibration about the elastic catenary, of any sag, with axial inertia.
+    #[default]
     Exact,
 }
 

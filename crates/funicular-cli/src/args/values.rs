@@ -91,21 +91,53 @@ fn axis(name: &str) -> Option<Vec3> {
     }
 }
 
-/// What drives the platform.
+/// A point on a cable.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct OnCable {
+    /// Name of the cable.
+    pub(crate) name: String,
+    /// Part of the unstrained length from the platform.
+    pub(crate) fraction: f64,
+}
+
+/// `cable:NAME@FRACTION:WHAT`: the point, and WHAT. `None` if it does not begin so. The name may hold any character; the
+/// last `@` ends it.
+fn on_cable(text: &str) -> Result<Option<(OnCable, &str)>, String> {
+    let Some(rest) = text.strip_prefix("cable:") else { return Ok(None) };
+    let form = "a point on a cable is cable:NAME@FRACTION:DIRECTION, as in cable:3@0.5:z";
+    let (name, rest) = rest.rsplit_once('@').ok_or(format!("`@` is missing: {form}"))?;
+    let (fraction, what) = rest.split_once(':').ok_or(format!("the direction is missing: {form}"))?;
+    let fraction = finite(fraction)?;
+    if !(0.0..=1.0).contains(&fraction) {
+        return Err(format!("{fraction} is not a part of the cable's length: 0 is the platform, 1 the anchor"));
+    }
+    Ok(Some((OnCable { name: name.to_owned(), fraction }, what)))
+}
+
+/// What drives the platform or a cable.
 #[derive(Debug, Clone)]
 pub(crate) struct Input {
     /// As the user wrote it.
     pub(crate) name: String,
+    /// Where, if not on the platform.
+    pub(crate) on_cable: Option<OnCable>,
     /// A moment, not a force.
     pub(crate) is_moment: bool,
     /// Direction in world axes.
     pub(crate) direction_w: Vec3,
 }
 
-/// `fx` … `mz`, `f:ux,uy,uz`, `m:ux,uy,uz`
+/// `fx` … `mz`, `f:ux,uy,uz`, `m:ux,uy,uz`; forces also after `cable:NAME@FRACTION:`
 pub(crate) fn input(text: &str) -> Result<Input, String> {
     let name = text.trim().to_owned();
-    let of = |is_moment, direction_w| Ok(Input { name: name.clone(), is_moment, direction_w });
+    if let Some((place, what)) = on_cable(&name)? {
+        let force = input(what)?;
+        if force.is_moment || force.on_cable.is_some() {
+            return Err(format!("{what} is not a force, and only forces act on a cable"));
+        }
+        return Ok(Input { name, on_cable: Some(place), ..force });
+    }
+    let of = |is_moment, direction_w| Ok(Input { name: name.clone(), on_cable: None, is_moment, direction_w });
     if let Some(rest) = name.strip_prefix("f:") {
         return of(false, direction(rest)?);
     }
@@ -119,15 +151,17 @@ pub(crate) fn input(text: &str) -> Result<Input, String> {
         return of(true, about);
     }
     Err("not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
-         axes)"
+         axes), or a force on a cable as in cable:3@0.5:fz"
         .to_owned())
 }
 
-/// What is measured of the platform.
+/// What is measured of the platform or a cable.
 #[derive(Debug, Clone)]
 pub(crate) struct Output {
     /// As the user wrote it.
     pub(crate) name: String,
+    /// Where, if not on the platform.
+    pub(crate) on_cable: Option<OnCable>,
     /// A rotation, not a translation.
     pub(crate) is_rotation: bool,
     /// Displacement, velocity or acceleration.
@@ -136,10 +170,19 @@ pub(crate) struct Output {
     pub(crate) direction_w: Vec3,
 }
 
-/// `x` … `rz`, with `v` or `a` before it, or `x:ux,uy,uz`, `v:…`, `a:…`
+/// `x` … `rz`, with `v` or `a` before it, or `x:ux,uy,uz`, `v:…`, `a:…`; translations also after `cable:NAME@FRACTION:`
 pub(crate) fn output(text: &str) -> Result<Output, String> {
     let name = text.trim().to_owned();
-    let of = |quantity, is_rotation, direction_w| Ok(Output { name: name.clone(), is_rotation, quantity, direction_w });
+    if let Some((place, what)) = on_cable(&name)? {
+        let motion = output(what)?;
+        if motion.is_rotation || motion.on_cable.is_some() {
+            return Err(format!("{what} is not a translation, and the points of a cable do not turn"));
+        }
+        return Ok(Output { name, on_cable: Some(place), ..motion });
+    }
+    let of = |quantity, is_rotation, direction_w| {
+        Ok(Output { name: name.clone(), on_cable: None, is_rotation, quantity, direction_w })
+    };
     for (prefix, quantity) in
         [("x:", Quantity::Displacement), ("v:", Quantity::Velocity), ("a:", Quantity::Acceleration)]
     {
@@ -159,7 +202,8 @@ pub(crate) fn output(text: &str) -> Result<Output, String> {
         return of(quantity, true, about);
     }
     Err("not an output: x, y, z, rx, ry, rz (displacement, rotation), with v (velocity) or a (acceleration) before it \
-         as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes)"
+         as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), or a point \
+         of a cable as in cable:3@0.5:az"
         .to_owned())
 }
 
@@ -234,6 +278,18 @@ mod tests {
         for bad in ["", "a", "v", "r", "rw", "fz", "a:0,0,0", "é"] {
             assert!(output(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn a_point_on_a_cable_is_its_name_and_a_part_of_its_length() {
+        let found = output("cable:left @ rope:2@0.25:a:0,1,1").unwrap();
+        assert_eq!(found.on_cable, Some(OnCable { name: "left @ rope:2".to_owned(), fraction: 0.25 }));
+        assert!(found.quantity == Quantity::Acceleration && found.direction_w == Vec3::new(0.0, 1.0, 1.0));
+        assert_eq!(input("cable:3@1:fz").unwrap().on_cable.unwrap().fraction.to_bits(), 1.0_f64.to_bits());
+        for bad in ["cable:3", "cable:3@0.5", "cable:3@1.5:z", "cable:3@-0.1:z", "cable:3@x:z", "cable:3@0.5:rz"] {
+            assert!(output(bad).is_err(), "{bad}");
+        }
+        assert!(input("cable:3@0.5:mz").is_err() && output("cable:3@0.5:cable:4@0.5:z").is_err());
     }
 
     #[test]

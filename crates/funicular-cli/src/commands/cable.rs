@@ -81,7 +81,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
     };
     let at_rest = state::equilibrium(robot, &args.state)?;
     let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);
-    let model: CableModel = args.cable_model.into();
+    let model: CableModel = state::cable_model(args.cable_model, at_rest.equilibrium.model);
     let stiffness = EndStiffness::new(robot, i, state, model, args.in_plane_only, args.range.to_hz)
         .map_err(|reason| DynamicsError::of_cable(&args.name, model, reason))?;
     let sag = Sag::of(robot, i, state);
@@ -204,7 +204,7 @@ fn warnings(state: &CableState, sag: &Sag, model: CableModel, args: &CableArgs) 
         warnings.push(Warning::DeepSag { cables: vec![(cable.clone(), sag.ratio())], model });
     }
     let (axial_hz, below_hz) = (sag.axial_frequency_hz(), args.range.to_hz);
-    if below_hz > AXIAL_PART * axial_hz {
+    if model != CableModel::Exact && below_hz > AXIAL_PART * axial_hz {
         warnings.push(Warning::AxialWaves { cable, axial_hz, below_hz });
     }
     warnings.iter().map(ToString::to_string).collect()

@@ -1,17 +1,21 @@
 //! `frf`: one frequency response and its peaks.
 
-use crate::args::values::{Input, Output};
+use crate::args::values::{Input, OnCable, Output};
 use crate::args::{FrfArgs, PointArgs};
 use crate::grid;
 use crate::output::Results;
 use crate::progress::Progress;
-use crate::state::{self, Models};
+use crate::set;
+use crate::state::{self, AtRest, Models};
 use crate::table::{Table, counted, decimals, significant, vector};
-use anyhow::{Result, bail};
-use funicular::math::{Complex, Vec3};
-use funicular::response::{self, Direction, Peak, Quantity};
+use anyhow::{Result, anyhow, bail};
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::Dynamics;
+use funicular::math::{Complex, Vec3, Vec6};
+use funicular::response::{self, Direction, Peak, Port, Quantity};
 use funicular::robot::{Freedoms, Robot};
-use serde::Serialize;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
 /// Frequencies between two looks at the clock: some 10 ms. A multiple of every number of lanes, so that the numbers do
 /// not depend on it.
@@ -24,9 +28,11 @@ pub(crate) struct Frf {
     #[serde(flatten)]
     models: Models,
     input: String,
-    input_point_m: [f64; 3],
+    #[serde(flatten, serialize_with = "input_place")]
+    input_place: PlaceRow,
     output: String,
-    output_point_m: [f64; 3],
+    #[serde(flatten, serialize_with = "output_place")]
+    output_place: PlaceRow,
     unit: String,
     prominence_db: f64,
     peaks: Vec<PeakRow>,
@@ -55,15 +61,17 @@ pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
     let frequencies = grid::frequencies(&args.range)?;
     let (input, output) = directions(&robot, &args.input, &args.output, &args.points)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
-    let linearisation = state::linearisation(&args.model);
+    let linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, args.range.to_hz)?;
 
+    let places = Places::new(&at_rest, &dynamics, args.input.on_cable.as_ref(), args.output.on_cable.as_ref())?;
     let pose = &at_rest.equilibrium.pose;
-    let (input, output) = (input.vector(pose), output.vector(pose));
+    let input = places.port(places.input, input.vector(pose), args.input.direction_w);
+    let output = places.port(places.output, output.vector(pose), args.output.direction_w);
     let mut values: Vec<Complex> = Vec::with_capacity(frequencies.len());
     let mut progress = Progress::new(frequencies.len(), "frequencies");
     for chunk in frequencies.chunks(CHUNK) {
-        values.extend(response::frf(&dynamics, chunk, &input, &output, args.output.quantity)?);
+        values.extend(response::between(&dynamics, chunk, &input, &output, args.output.quantity)?);
         progress.advance(chunk.len());
     }
     let peaks = response::peaks(&frequencies, &values, args.prominence_db);
@@ -71,9 +79,9 @@ pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
         robot: at_rest.robot.name.clone(),
         models: Models::of(&at_rest.equilibrium, linearisation),
         input: args.input.name.clone(),
-        input_point_m: args.points.input_point_m.unwrap_or_default().into(),
+        input_place: places.row(places.input, args.points.input_point_m),
         output: args.output.name.clone(),
-        output_point_m: args.points.output_point_m.unwrap_or_default().into(),
+        output_place: places.row(places.output, args.points.output_point_m),
         unit: unit(&args.input, &args.output),
         prominence_db: args.prominence_db,
         peaks: peaks.into_iter().map(PeakRow::from).collect(),
@@ -84,6 +92,89 @@ pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
     })
 }
 
+/// The points on cables where a response begins or ends.
+struct Places {
+    stations: Vec<CableStations>,
+    /// Which stations, and which of them; `None` on the platform.
+    input: Option<(usize, usize)>,
+    output: Option<(usize, usize)>,
+}
+
+impl Places {
+    fn new(at_rest: &AtRest, dynamics: &Dynamics, input: Option<&OnCable>, output: Option<&OnCable>) -> Result<Self> {
+        let AtRest { robot, equilibrium } = at_rest;
+        let stations =
+            |i: usize, fractions: &[f64]| CableStations::new(robot, equilibrium, dynamics, i, fractions, true);
+        let cable = |place: &OnCable| cable_of(robot, place);
+        let mut places = Self { stations: Vec::new(), input: None, output: None };
+        if let (Some(from), Some(to)) = (input, output)
+            && from.name == to.name
+        {
+            places.stations.push(stations(cable(from)?, &[from.fraction, to.fraction])?);
+            return Ok(Self { input: Some((0, 0)), output: Some((0, 1)), ..places });
+        }
+        for (place, end) in [(input, &mut places.input), (output, &mut places.output)] {
+            if let Some(place) = place {
+                *end = Some((places.stations.len(), 0));
+                places.stations.push(stations(cable(place)?, &[place.fraction])?);
+            }
+        }
+        Ok(places)
+    }
+
+    /// The port at a place: with the platform's vector if it is not on a cable.
+    fn port(&self, place: Option<(usize, usize)>, vector: Vec6, direction_w: Vec3) -> Port<'_> {
+        match place {
+            None => Port::Platform(vector),
+            Some((at, station)) => {
+                let stations = &self.stations[at];
+                Port::Cable { stations, station, direction_w: direction_w.normalize() }
+            }
+        }
+    }
+
+    fn row(&self, place: Option<(usize, usize)>, point: Option<Vec3>) -> PlaceRow {
+        match place {
+            None => PlaceRow { on_cable: false, point_m: point.unwrap_or_default().into() },
+            Some((at, station)) => PlaceRow { on_cable: true, point_m: self.stations[at].points_w[station].into() },
+        }
+    }
+}
+
+fn cable_of(robot: &Robot, place: &OnCable) -> Result<usize> {
+    robot.cables.iter().position(|cable| cable.name == place.name).ok_or_else(|| {
+        let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+        anyhow!("the robot has no cable \"{}\"{}", place.name, set::suggestion(&place.name, &names))
+    })
+}
+
+/// Where one end of a response is.
+struct PlaceRow {
+    /// The point is one of the world, at rest, and not of the platform frame.
+    on_cable: bool,
+    point_m: [f64; 3],
+}
+
+impl PlaceRow {
+    fn serialize<S: Serializer>(&self, keys: [&'static str; 2], to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(1))?;
+        map.serialize_entry(keys[usize::from(self.on_cable)], &self.point_m)?;
+        map.end()
+    }
+
+    fn text(&self) -> String {
+        format!("({}) m{}", vector(&self.point_m, 3), if self.on_cable { " of the world" } else { "" })
+    }
+}
+
+fn input_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
+    place.serialize(["input_point_m", "input_point_w_m"], to)
+}
+
+fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
+    place.serialize(["output_point_m", "output_point_w_m"], to)
+}
+
 /// Input and output of a response, checked against what the robot can do.
 pub(crate) fn directions(
     robot: &Robot,
@@ -91,9 +182,20 @@ pub(crate) fn directions(
     output: &Output,
     points: &PointArgs,
 ) -> Result<(Direction, Direction)> {
-    let from = Side { option: "--input", name: &input.name, turns: input.is_moment, direction_w: input.direction_w };
-    let to =
-        Side { option: "--output", name: &output.name, turns: output.is_rotation, direction_w: output.direction_w };
+    let from = Side {
+        option: "--input",
+        name: &input.name,
+        turns: input.is_moment,
+        on_cable: input.on_cable.is_some(),
+        direction_w: input.direction_w,
+    };
+    let to = Side {
+        option: "--output",
+        name: &output.name,
+        turns: output.is_rotation,
+        on_cable: output.on_cable.is_some(),
+        direction_w: output.direction_w,
+    };
     Ok((from.direction(robot, points.input_point_m)?, to.direction(robot, points.output_point_m)?))
 }
 
@@ -103,12 +205,16 @@ struct Side<'a> {
     name: &'a str,
     /// A moment or a rotation.
     turns: bool,
+    on_cable: bool,
     direction_w: Vec3,
 }
 
 impl Side<'_> {
     fn direction(&self, robot: &Robot, point: Option<Vec3>) -> Result<Direction> {
-        let Self { option, name, turns, direction_w } = *self;
+        let Self { option, name, turns, on_cable, direction_w } = *self;
+        if on_cable && point.is_some() {
+            bail!("{option}-point-m is a point of the platform: {option} {name} is on a cable; remove it");
+        }
         if turns && point.is_some() {
             bail!("{option}-point-m has no effect: {option} {name} is the same at every point; remove it");
         }
@@ -175,14 +281,14 @@ impl Results for Frf {
             .max_by(|&i, &j| self.real[i].hypot(self.imag[i]).total_cmp(&self.real[j].hypot(self.imag[j])))
             .unwrap_or(0);
         format!(
-            "{}: response of {} at ({}) m to {} at ({}) m\n{}\n\n\
+            "{}: response of {} at {} to {} at {}\n{}\n\n\
              {points} frequencies from {} to {} Hz; largest magnitude {} {} at {} Hz\n\n{}\
              {} of at least {} dB. The whole curve: --format csv or --format json.\n",
             self.robot,
             self.output,
-            vector(&self.output_point_m, 3),
+            self.output_place.text(),
             self.input,
-            vector(&self.input_point_m, 3),
+            self.input_place.text(),
             self.models.line(),
             self.frequency_hz[0],
             self.frequency_hz[points - 1],

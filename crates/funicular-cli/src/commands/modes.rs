@@ -100,7 +100,7 @@ pub(crate) fn uncertified(found: &modes::Modes) -> Option<String> {
 
 pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
     let at_rest = state::equilibrium(robot, &args.state)?;
-    let linearisation = state::linearisation(&args.model);
+    let linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
     check_count(&dynamics, args.below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, args.below_hz);

@@ -10,7 +10,7 @@ use crate::page::table::listed;
 use crate::progress::Waiting;
 use crate::robot_file::{self, RobotFile};
 use crate::state;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use funicular::math::Vec3;
 use funicular::response::Quantity;
 use std::path::Path;
@@ -20,6 +20,12 @@ pub(crate) fn run(args: &ReportArgs) -> Result<()> {
     let RobotFile { robot, name, text } = robot_file::read(path, &args.changes)?;
     let target = Target::open(Some(&args.output_file), path)?;
     let waiting = Waiting::for_("the robot's figures and tables");
+    if let Some(name) = [(&args.input.on_cable, &args.input.name), (&args.output.on_cable, &args.output.name)]
+        .into_iter()
+        .find_map(|(place, name)| place.is_some().then_some(name))
+    {
+        bail!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
+    }
     let (input, output) = frf::directions(&robot, &args.input, &args.output, &args.points)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
     let pose = &at_rest.equilibrium.pose;
@@ -27,7 +33,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<()> {
         at_rest: &at_rest,
         file_label: &name,
         robot_text: &text,
-        linearisation: state::linearisation(&args.model),
+        linearisation: state::linearisation(&args.model, at_rest.equilibrium.model),
         below_hz: args.below_hz,
         frf_input: (input_in_words(&args.input, args.points.input_point_m), input.vector(pose)),
         frf_output: (

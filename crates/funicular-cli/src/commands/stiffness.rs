@@ -28,9 +28,9 @@ pub(crate) struct Stiffness {
 
 pub(crate) fn run(robot: Robot, args: &StiffnessArgs) -> Result<Stiffness> {
     let at_rest = state::equilibrium(robot, &args.state)?;
-    let mut linearisation = state::linearisation(&args.model);
+    let mut linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
     if args.model.cable_model.is_none() && args.at_hz == 0.0 {
-        // At rest the tangent of the static model is exact; the closed form is that of a shallow cable.
+        // The tangent of the static model, which the exact model has at rest, whatever the static model is.
         linearisation.cable_model = CableModel::CatenaryTangent;
     }
     if linearisation.cable_model == CableModel::CatenaryTangent && at_rest.equilibrium.model == StaticModel::Ideal {
