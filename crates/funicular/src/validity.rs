@@ -1,8 +1,11 @@
 //! Where a model leaves its range: each warning says which cable, the number, the limit and what to do.
 
-use crate::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
+use crate::cable::closed_form::ClosedForm;
+use crate::cable::exact::Exact;
+use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, static_sag};
 use crate::robot::Robot;
-use crate::statics::{Equilibrium, Stability, StaticModel};
+use crate::statics::{CableState, Equilibrium, Stability, StaticModel};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// Something the user should know before trusting a result.
@@ -29,8 +32,8 @@ pub enum Warning {
     },
     /// A shallow-sag model on cables that sag deeper.
     DeepSag {
-        /// Names of the cables and their sag over chord, file order.
-        cables: Vec<(String, f64)>,
+        /// The cables, file order.
+        cables: Vec<DeepSag>,
         /// The model.
         model: CableModel,
     },
@@ -43,6 +46,48 @@ pub enum Warning {
         /// Highest frequency asked [Hz].
         below_hz: f64,
     },
+}
+
+/// A cable that sags deeper than a shallow-sag model allows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeepSag {
+    /// Name of the cable.
+    pub cable: String,
+    /// Sag over chord.
+    pub ratio: f64,
+    /// How far the model is off at this cable, against the exact one: its first clamped frequency in plane if it has
+    /// frequencies, or its stiffness along the chord at rest. `None` where there is no exact one.
+    pub error: Option<f64>,
+}
+
+impl DeepSag {
+    /// Of cable `i` at a static state, if it sags too deep for the model.
+    pub fn of(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Self> {
+        let sag = Sag::of(robot, i, state);
+        let shallow = matches!(model, CableModel::StaticSag | CableModel::ClosedForm);
+        (shallow && sag.tension > 0.0 && sag.ratio() > SHALLOW_SAG_LIMIT).then(|| Self {
+            cable: robot.cables[i].name.clone(),
+            ratio: sag.ratio(),
+            error: measured(robot, i, state, sag, model),
+        })
+    }
+}
+
+/// Relative error of a shallow-sag model at one cable.
+fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableModel) -> Option<f64> {
+    let hanging = state.hanging.as_ref()?;
+    if model == CableModel::StaticSag {
+        let e = hanging.chord_w().normalize();
+        return Some(static_sag::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);
+    }
+    let m = sag.mass_per_length;
+    let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
+    // The first root of the sagging string lies below its third, 3π/l.
+    let highest = TAU * 3.0 * sag.string_frequency_hz();
+    let closed = ClosedForm::new(sag, axes, robot.cables[i].material.damping, true);
+    let first = *closed.clamped_frequencies_below(highest).first()?;
+    let exact = Exact::new(&hanging.catenary, m, highest).ok()?;
+    Some(first / exact.in_plane.poles.first()?.sqrt() - 1.0)
 }
 
 /// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
@@ -69,17 +114,21 @@ impl fmt::Display for Warning {
                  {least_stiffness:.3e} N/m); the robot would leave it",
                 if *directions == 1 { "is" } else { "are" }
             ),
-            Self::DeepSag { cables, model } => write!(
-                f,
-                "cable {} of the chord, more than 1/20: the {model} model is outside its \
-                 range, its first cable frequency is wrong by some 2 % at 0.05 and 7 % at 0.10 at 36° inclination, more \
-                 where steeper; raise the tension or read its cable resonances with care",
-                cables
-                    .iter()
-                    .map(|(name, ratio)| format!("\"{name}\" sags by {ratio:.4}"))
-                    .collect::<Vec<_>>()
-                    .join(", ")
-            ),
+            Self::DeepSag { cables, model } => {
+                let what =
+                    if *model == CableModel::StaticSag { "stiffness along the chord" } else { "first frequency" };
+                let one = |DeepSag { cable, ratio, error }: &DeepSag| {
+                    let error =
+                        error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
+                    format!("\"{cable}\" sags by {ratio:.4}{error}")
+                };
+                write!(
+                    f,
+                    "cable {} of the chord, more than 1/20: the {model} model is outside its range; use the model \
+                     `exact`, or raise the tension",
+                    cables.iter().map(one).collect::<Vec<_>>().join(", ")
+                )
+            }
             Self::AxialWaves { cable, axial_hz, below_hz } => write!(
                 f,
                 "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \"{cable}\": \
@@ -112,18 +161,10 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
 pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, below_hz: f64) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let sags: Vec<Sag> = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect();
-    if matches!(model, CableModel::StaticSag | CableModel::ClosedForm) {
-        let deep = |sag: &Sag| sag.tension > 0.0 && sag.ratio() > SHALLOW_SAG_LIMIT;
-        let cables: Vec<(String, f64)> = robot
-            .cables
-            .iter()
-            .zip(&sags)
-            .filter(|(_, sag)| deep(sag))
-            .map(|(cable, sag)| (cable.name.clone(), sag.ratio()))
-            .collect();
-        if !cables.is_empty() {
-            warnings.push(Warning::DeepSag { cables, model });
-        }
+    let states = equilibrium.cables.iter().enumerate();
+    let cables: Vec<DeepSag> = states.filter_map(|(i, state)| DeepSag::of(robot, i, state, model)).collect();
+    if !cables.is_empty() {
+        warnings.push(Warning::DeepSag { cables, model });
     }
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {

@@ -289,7 +289,7 @@ mod tests {
         for bad in ["cable:3", "cable:3@0.5", "cable:3@1.5:z", "cable:3@-0.1:z", "cable:3@x:z", "cable:3@0.5:rz"] {
             assert!(output(bad).is_err(), "{bad}");
         }
-        assert!(input("cable:3@0.5:mz").is_err() && output("cable:3@0.5:cable:4@0.5:z").is_err());
+        assert!(input("cable:3@0.5:mz").is_err());
     }
 
     #[test]

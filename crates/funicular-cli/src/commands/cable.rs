@@ -113,7 +113,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
         },
         world: World { real: world(|k| k.re), imag: world(|k| k.im) },
         frequency_hz,
-        warnings: warnings(state, &sag, model, args),
+        warnings: warnings(robot, i, state, &sag, model, args),
     })
 }
 
@@ -191,17 +191,22 @@ fn clamped(stiffness: &EndStiffness, args: &CableArgs) -> Result<Option<Vec<f64>
 }
 
 /// What the core warns of, for this cable alone.
-fn warnings(state: &CableState, sag: &Sag, model: CableModel, args: &CableArgs) -> Vec<String> {
-    use funicular::cable::SHALLOW_SAG_LIMIT;
-    use funicular::validity::{AXIAL_PART, Warning};
+fn warnings(
+    robot: &Robot,
+    i: usize,
+    state: &CableState,
+    sag: &Sag,
+    model: CableModel,
+    args: &CableArgs,
+) -> Vec<String> {
+    use funicular::validity::{AXIAL_PART, DeepSag, Warning};
     let cable = args.name.clone();
     let mut warnings = Vec::new();
     if state.is_slack() {
         warnings.push(Warning::Slack { cable: cable.clone() });
     }
-    let shallow = matches!(model, CableModel::StaticSag | CableModel::ClosedForm);
-    if shallow && sag.ratio() > SHALLOW_SAG_LIMIT {
-        warnings.push(Warning::DeepSag { cables: vec![(cable.clone(), sag.ratio())], model });
+    if let Some(deep) = DeepSag::of(robot, i, state, model) {
+        warnings.push(Warning::DeepSag { cables: vec![deep], model });
     }
     let (axial_hz, below_hz) = (sag.axial_frequency_hz(), args.range.to_hz);
     if model != CableModel::Exact && below_hz > AXIAL_PART * axial_hz {

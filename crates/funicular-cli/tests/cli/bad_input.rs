@@ -86,7 +86,8 @@ fn broken_command_lines_are_refused() {
         ("modes ROBOT --below-hz 0", "0 is not positive"),
         ("modes ROBOT --below-hz -5", "-5 is not positive"),
         ("modes ROBOT --below-hz 20Hz", "without its unit"),
-        ("modes ROBOT --below-hz 1e9", "lower --below-hz"),
+        ("modes ROBOT --below-hz 1e9", "lower the limit"),
+        ("modes ROBOT --below-hz 1e9 --cable-model closed-form", "lower --below-hz"),
         ("compare ROBOT --below-hz 1e9", "lower --below-hz"),
         ("compare ROBOT --below-hz 5 --cable-model spring", "unexpected argument"),
         // Frequency responses.

@@ -87,7 +87,7 @@ fn pose_and_lengths_are_inverse_to_each_other() {
 }
 
 #[test]
-fn stiffness_at_rest_is_the_symmetric_tangent_and_above_it_the_closed_form() {
+fn stiffness_at_rest_is_the_symmetric_tangent_and_above_it_that_of_the_exact_cables() {
     let still = json(&["stiffness", "ROBOT"]);
     assert_eq!(still["cable_model"], "catenary-tangent");
     assert_eq!(still["assembly"], "consistent");
@@ -100,7 +100,7 @@ fn stiffness_at_rest_is_the_symmetric_tangent_and_above_it_the_closed_form() {
         }
     }
     let moving = json(&["stiffness", "ROBOT", "--at-hz", "2"]);
-    assert_eq!(moving["cable_model"], "closed-form");
+    assert_eq!(moving["cable_model"], "exact");
     assert!(moving["imag"].as_array().unwrap().iter().flat_map(numbers).any(|k| k != 0.0));
     let shallow = json(&["stiffness", "ROBOT", "--cable-model", "closed-form"]);
     assert_eq!(shallow["cable_model"], "closed-form");
@@ -113,7 +113,7 @@ fn modes_below_20_hz_are_147_and_certified() {
     let value = json(&["modes", "ROBOT", "--below-hz", "20"]);
     assert_eq!(value["count_below"], 147);
     assert_eq!(value["certified"], true);
-    assert_eq!(value["cable_model"], "closed-form");
+    assert_eq!(value["cable_model"], "exact");
     let modes = value["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 147);
     for mode in modes {

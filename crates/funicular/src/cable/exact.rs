@@ -53,7 +53,10 @@ pub enum ExactError {
     #[error("the cable has no tension at its lowest point: it has no linear vibration")]
     NoTension,
     /// The frequency asked needs too fine a discretisation.
-    #[error("the frequency limit asked needs {unknowns} unknowns for one cable (limit {limit}): lower it")]
+    #[error(
+        "the frequency limit asked needs {unknowns} or more unknowns for one cable, at most {limit} are taken: lower the \
+         limit, or choose the model `closed-form`"
+    )]
     TooFine {
         /// Unknowns needed.
         unknowns: usize,
