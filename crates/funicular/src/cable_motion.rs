@@ -6,7 +6,7 @@
 use crate::cable::exact::{Exact, ExactError, Stations, Swing};
 use crate::cable::{CableModel, DynamicCable, LocalAxes, damped_square};
 use crate::dynamics::Dynamics;
-use crate::math::{CVec6, Complex, Vec3};
+use crate::math::{CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
@@ -78,8 +78,15 @@ impl CableStations {
             Some((term, DynamicCable::Exact(end))) => {
                 let hanging = state.hanging.as_ref().expect("an exact cable hangs");
                 let (m, limit) = (end.mass_per_length, end.exact.limit);
-                let (exact, stations) = Exact::with_stations(&hanging.catenary, m, limit, arc_lengths.clone(), loaded)
-                    .map_err(|reason| CableMotionError::Exact { cable: robot.cables[i].name.clone(), reason })?;
+                let (mut exact, mut stations) =
+                    Exact::with_stations(&hanging.catenary, m, limit, arc_lengths.clone(), loaded)
+                        .map_err(|reason| CableMotionError::Exact { cable: robot.cables[i].name.clone(), reason })?;
+                if !loaded {
+                    // The same cable as in `dynamics`, with as many of its clamped modes.
+                    stations.in_plane.truncate(end.exact.in_plane.poles.len());
+                    stations.out_of_plane.truncate(end.exact.out_of_plane.poles.len());
+                    exact = end.exact.clone();
+                }
                 (Kind::Exact { exact: Box::new(exact), stations, term }, end.axes)
             }
             None => {
@@ -116,10 +123,7 @@ impl CableStations {
                 let of = &dynamics.terms[*term];
                 let start = [&of.along, &of.normal, &of.out].map(|axis| Complex::from(axis.dot(&motion.platform)));
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
-                let mut swing = Swing::new(exact, start, square.into());
-                if dynamics.linearisation.in_plane_only {
-                    swing.out_of_plane.fill(0.0.into());
-                }
+                let mut swing = swing(dynamics, exact, start, square.into());
                 for near in motion.near.iter().filter(|near| near.term == *term) {
                     let family = if near.across { &mut swing.out_of_plane } else { &mut swing.in_plane };
                     family[near.pole] = near.amplitude.into();
@@ -143,7 +147,7 @@ impl CableStations {
                 let square = damped_square_of(dynamics, *term, omega);
                 std::array::from_fn(|axis| {
                     let start = std::array::from_fn(|k| Complex::from(f64::from(u8::from(k == axis))));
-                    let swing = Swing::new(exact, start, square);
+                    let swing = swing(dynamics, exact, start, square);
                     let moved = stations.displacement(at, &swing);
                     moved.iter().zip(towards).map(|(u, part)| u * part).sum()
                 })
@@ -158,6 +162,35 @@ impl CableStations {
             }
         }
         vector
+    }
+
+    /// The motion of station `at` along `direction_w` (unit) by the platform's slow motion and by the amplitudes of the
+    /// cable's clamped modes, in plane and then across: the platform's 6-vector, and for an exact cable its place among the
+    /// terms of the dynamics and the amplitudes' row.
+    pub(crate) fn row(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3) -> (Vec6, Option<usize>, Vec<f64>) {
+        let towards = self.local(direction_w);
+        match &self.kind {
+            Kind::Straight(parts) => (self.of_end(towards.map(|part| part * parts[at])), None, Vec::new()),
+            Kind::Exact { stations, term, .. } => {
+                let (plane, across) = (&stations.in_plane, &stations.out_of_plane);
+                let [h, v, b] = towards;
+                let psi = &plane.still[at];
+                let still = [0, 1].map(|n| h * psi[0][n] + v * psi[1][n]);
+                let of_end = self.of_end([still[0], still[1], b * across.still[at][0][0]]);
+                let in_plane = plane.modes.iter().map(|mode| h * mode[at][0] + v * mode[at][1]);
+                let sideways = if dynamics.linearisation.in_plane_only { &[] } else { &across.modes[..] };
+                let amplitudes = in_plane.chain(sideways.iter().map(|mode| b * mode[at][0]));
+                (of_end, Some(*term), amplitudes.collect())
+            }
+        }
+    }
+
+    /// The 6-vector about the platform origin of a row over the end's displacement in (e, n, b).
+    fn of_end(&self, row: [f64; 3]) -> Vec6 {
+        let LocalAxes { e, n, b } = self.axes;
+        let force_w = e * row[0] + n * row[1] + b * row[2];
+        let moment_w = self.lever_w.cross(&force_w);
+        Vec6::new(force_w.x, force_w.y, force_w.z, moment_w.x, moment_w.y, moment_w.z)
     }
 
     /// Displacement of station `at` along a unit vector per force along another at station `loaded`, with the platform
@@ -190,6 +223,15 @@ impl CableStations {
         let LocalAxes { e, n, b } = self.axes;
         [e, n, b].map(|axis| axis.dot(direction_w))
     }
+}
+
+/// Motion of a cable by its start's; across it is as slow as can be where only the plane counts.
+fn swing(dynamics: &Dynamics, exact: &Exact, start: [Complex; 3], square: Complex) -> Swing {
+    let mut swing = Swing::new(exact, start, square);
+    if dynamics.linearisation.in_plane_only {
+        swing.out_of_plane.fill(0.0.into());
+    }
+    swing
 }
 
 /// ω_c² of a cable whose stiffness depends on frequency.

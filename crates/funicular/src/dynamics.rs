@@ -174,6 +174,22 @@ impl Dynamics {
         })
     }
 
+    /// Without the clamped modes of exact cables from ω [rad/s] on; their static stiffness and mass stay.
+    pub(crate) fn with_poles_below(&self, omega: f64) -> Self {
+        let mut cut = self.clone();
+        for term in &mut cut.terms {
+            if let DynamicCable::Exact(end) = &mut term.form {
+                **end = end.with_poles_below(omega * omega);
+            }
+        }
+        cut
+    }
+
+    /// Some cable with mass is damped in constant ratio.
+    pub(crate) fn has_damping_ratios(&self) -> bool {
+        self.terms.iter().any(|term| matches!(self.damping[term.cable].0, Damping::Ratio(xi) if xi > 0.0))
+    }
+
     /// Number of freedoms of the platform.
     pub fn freedoms(&self) -> usize {
         self.freedoms

@@ -54,6 +54,7 @@ pub mod dynamics;
 pub mod math;
 pub mod modes;
 pub mod pose_error;
+pub mod reduction;
 pub mod response;
 pub mod robot;
 pub mod statics;

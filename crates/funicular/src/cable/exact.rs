@@ -102,6 +102,17 @@ impl ExactEnd {
         Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, plane, across })
     }
 
+    /// With the poles below x only.
+    pub(crate) fn with_poles_below(&self, x: f64) -> Self {
+        let mut cut = self.clone();
+        let (plane, across) = (self.exact.in_plane.poles_below(x), self.exact.out_of_plane.poles_below(x));
+        cut.exact.in_plane.truncate(plane);
+        cut.exact.out_of_plane.truncate(across);
+        cut.plane = EndSeries::of(&cut.exact.in_plane, [(0, 0), (0, 1), (1, 1)]);
+        cut.across = EndSeries::of(&cut.exact.out_of_plane, [(0, 0)]);
+        cut
+    }
+
     fn in_plane_if_asked<T: Default>(&self, mut k: LocalStiffness<T>) -> LocalStiffness<T> {
         if self.in_plane_only {
             k.out_of_plane = T::default();

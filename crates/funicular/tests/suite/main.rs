@@ -10,6 +10,7 @@ mod independent;
 mod modes;
 mod oracle;
 mod random;
+mod reduction;
 mod reference;
 mod response;
 mod robot_files;

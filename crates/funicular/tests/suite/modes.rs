@@ -1,8 +1,8 @@
 //! Natural frequencies against published models, other algorithms and identities.
 
 use crate::random::any_robot;
-use funicular::cable::{CableModel, EndStiffness};
 use funicular::cable::exact::ExactError;
+use funicular::cable::{CableModel, EndStiffness};
 use funicular::catenary::Rope;
 use funicular::catenary::space::HangingCable;
 use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};

@@ -95,6 +95,12 @@ impl<const N: usize> PoleResidue<N> {
         (stiffness, masses)
     }
 
+    /// Leaves the first `count` poles.
+    pub(super) fn truncate(&mut self, count: usize) {
+        self.poles.truncate(count);
+        self.participation.truncate(count);
+    }
+
     /// Number of poles below ω² = x.
     pub fn poles_below(&self, x: f64) -> usize {
         self.poles.partition_point(|pole| *pole < x)

@@ -24,6 +24,11 @@ pub struct Stations {
 }
 
 impl<const D: usize, const N: usize> Displacements<D, N> {
+    /// Leaves the first `count` clamped modes.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        self.modes.truncate(count);
+    }
+
     /// Without inner functions: the hats at the two ends.
     pub(super) fn of_ends(values_at_ends: &[[f64; 2]]) -> Self {
         let hats = |values: &[f64; 2]| {

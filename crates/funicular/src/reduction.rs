@@ -1,0 +1,495 @@
+//! A small second-order model of the whole robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
+//!
+//! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. In them the exact cable is
+//! no approximation (K is block diagonal, M couples the platform to each amplitude); what is approximated is that modes
+//! far above the limit are left out, their static stiffness and mass kept, and that damping in proportion to frequency
+//! has to become viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 12.
+
+use crate::cable::DynamicCable;
+use crate::cable::exact::Exact;
+use crate::cable_motion::{CableMotionError, CableStations};
+use crate::dynamics::{Dynamics, Term};
+use crate::math::{CDMat, Complex, DMat, Vec3, Vec6};
+use crate::modes;
+use crate::response::{self, Direction, Port, Quantity, ResponseError};
+use crate::robot::{Damping, Robot};
+use crate::statics::Equilibrium;
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Where a force acts or a motion is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Place {
+    /// On the platform.
+    Platform(Direction),
+    /// On a cable.
+    Cable {
+        /// Which, file order.
+        cable: usize,
+        /// Part of its unstrained length from the platform.
+        fraction: f64,
+        /// Direction in world axes, a unit vector.
+        direction_w: Vec3,
+    },
+}
+
+/// What stands for damping in constant ratio, which no matrix C can be at every frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DampingAt {
+    /// `C = 2ξ M_c^½ Ω M_c^½` in natural coordinates: right at every natural frequency of its own.
+    NaturalFrequencies,
+    /// `C = 2ξω M_c`: right at this one frequency [Hz].
+    Hz(f64),
+}
+
+/// What a reduced model has to be good for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// Highest frequency [Hz].
+    pub below_hz: f64,
+    /// Largest relative error of the responses by modes left out.
+    pub tolerance: f64,
+    /// Treatment of constant damping ratios.
+    pub damping_at: DampingAt,
+}
+
+/// What a coordinate of the model is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Coordinate {
+    /// Component 0 to 5 of the platform's motion (δp [m], δθ [rad]) about its origin, world axes.
+    Platform(usize),
+    /// Amplitude of a clamped mode of a cable, of unit modal mass [m √kg].
+    Clamped {
+        /// Which cable, file order.
+        cable: usize,
+        /// Out of the cable's plane.
+        out_of_plane: bool,
+        /// Its clamped frequency [Hz].
+        frequency_hz: f64,
+    },
+}
+
+/// The model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondOrder {
+    /// M, symmetric positive definite, n×n.
+    pub mass: DMat,
+    /// C, symmetric positive semidefinite, n×n.
+    pub damping: DMat,
+    /// K, symmetric, n×n.
+    pub stiffness: DMat,
+    /// B, n×inputs.
+    pub input: DMat,
+    /// L, outputs×n: displacements and rotations.
+    pub output: DMat,
+    /// What each output measures of its motion.
+    pub quantities: Vec<Quantity>,
+    /// The n coordinates.
+    pub coordinates: Vec<Coordinate>,
+    /// Highest frequency it is for [Hz].
+    pub below_hz: f64,
+    /// Largest relative error of a natural frequency below the limit.
+    pub frequency_error: f64,
+    /// Largest relative error of the responses up to the limit by modes left out: at each frequency over the largest
+    /// entry. `None` where an undamped robot has no finite response.
+    pub truncation_error: Option<f64>,
+    /// The same by making constant damping ratios viscous, at natural frequencies; zero for viscous damping.
+    pub damping_error: Option<f64>,
+}
+
+/// `ẋ = A x + B f`, `y = C x + D f`, the state being motion and velocity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateSpace {
+    /// 2n×2n.
+    pub a: DMat,
+    /// 2n×inputs.
+    pub b: DMat,
+    /// outputs×2n.
+    pub c: DMat,
+    /// outputs×inputs.
+    pub d: DMat,
+}
+
+/// Why there is no reduced model.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ReductionError {
+    /// A cable is not exact.
+    #[error(
+        "the reduced model is made of the modes of exact cables: choose the model `exact` (or one without vibration)"
+    )]
+    Model,
+    /// A point on a cable.
+    #[error(transparent)]
+    CableMotion(#[from] CableMotionError),
+    /// The full model has no response to compare with.
+    #[error(transparent)]
+    Response(#[from] ResponseError),
+    /// The mass matrix is not positive definite.
+    #[error(
+        "the mass matrix of the reduced model is not positive definite: check masses and inertia of the robot file"
+    )]
+    Mass,
+}
+
+/// Parts of the limit up to which clamped modes are kept, tried in turn until the error is small enough.
+const KEPT: [f64; 7] = [1.2, 1.6, 2.2, 3.2, 5.0, 8.0, f64::INFINITY];
+
+/// Frequencies at which the error of modes left out is measured, besides the natural ones.
+const GRID: usize = 1000;
+
+/// A reduced model of a robot linearised about an equilibrium.
+///
+/// # Errors
+/// [`ReductionError`].
+///
+/// # References
+/// R. R. Craig, M. C. C. Bampton, AIAA Journal 6(7), 1968; docs/theory.md, section 12.
+pub fn reduce(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    dynamics: &Dynamics,
+    inputs: &[Place],
+    outputs: &[(Place, Quantity)],
+    wanted: Wanted,
+) -> Result<SecondOrder, ReductionError> {
+    if dynamics.terms.iter().any(|term| !matches!(term.form, DynamicCable::Exact(_))) {
+        return Err(ReductionError::Model);
+    }
+    // The answer of a cable to a force on itself has a kink, which the modes that are kept do not.
+    let loaded = inputs.iter().any(|place| matches!(place, Place::Cable { .. }));
+    let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
+    let listed = modes::below(dynamics, wanted.below_hz);
+    let natural: Vec<f64> = listed.modes.iter().map(|mode| mode.frequency_hz).collect();
+    let mut frequencies: Vec<f64> =
+        (1..=GRID).map(|i| wanted.below_hz * i as f64 / GRID as f64).chain(natural.iter().copied()).collect();
+    frequencies.sort_by(f64::total_cmp);
+    let reference = full.responses(dynamics, &frequencies).ok();
+    for part in KEPT {
+        let cut = dynamics.with_poles_below(part * wanted.below_hz * TAU);
+        let truncation_error = reference.as_ref().and_then(|reference| {
+            let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
+            Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?))
+        });
+        let reduced = modes::below(&cut, wanted.below_hz * (1.0 + 1e-9));
+        let frequency_error = relative_error(&natural, &reduced.modes);
+        if truncation_error.unwrap_or(frequency_error) <= wanted.tolerance || part.is_infinite() {
+            let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
+            let mut model = assembled(&cut, &channels, outputs, wanted)?;
+            (model.frequency_error, model.truncation_error) = (frequency_error, truncation_error);
+            model.damping_error = match wanted.damping_at {
+                _ if !cut.has_damping_ratios() => Some(0.0),
+                _ => damping_error(&model, &cut, &channels, &natural),
+            };
+            return Ok(model);
+        }
+    }
+    unreachable!("the last part keeps all modes")
+}
+
+/// Largest relative difference of frequencies; infinite if there are not as many.
+fn relative_error(natural: &[f64], others: &[modes::Mode]) -> f64 {
+    // One at the limit itself may lie on its other side.
+    if others.len().abs_diff(natural.len()) > 1 {
+        return f64::INFINITY;
+    }
+    natural.iter().zip(others).map(|(a, b)| (b.frequency_hz / a - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// Largest difference over frequencies, each over the largest entry there.
+fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>]) -> f64 {
+    let count = reference.first().map_or(0, Vec::len);
+    (0..count)
+        .map(|k| {
+            let size = reference.iter().map(|entry| entry[k].norm()).fold(0.0, f64::max);
+            let gap = reference.iter().zip(others).map(|(a, b)| (a[k] - b[k]).norm()).fold(0.0, f64::max);
+            if size > 0.0 { gap / size } else { 0.0 }
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Inputs and outputs with the stations that those on cables need.
+struct Channels {
+    stations: Vec<CableStations>,
+    inputs: Vec<Channel>,
+    outputs: Vec<Channel>,
+}
+
+enum Channel {
+    Platform(Vec6),
+    Cable { stations: usize, station: usize, direction_w: Vec3 },
+}
+
+impl Channels {
+    fn new(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        dynamics: &Dynamics,
+        inputs: &[Place],
+        outputs: &[(Place, Quantity)],
+        loaded: bool,
+    ) -> Result<Self, ReductionError> {
+        let places = || inputs.iter().chain(outputs.iter().map(|(place, _)| place));
+        // All stations of one cable together: a force at one of them moves the others.
+        let mut fractions: Vec<(usize, Vec<f64>)> = Vec::new();
+        for place in places() {
+            if let Place::Cable { cable, fraction, .. } = place {
+                match fractions.iter_mut().find(|(of, _)| of == cable) {
+                    Some((_, all)) => all.push(*fraction),
+                    None => fractions.push((*cable, vec![*fraction])),
+                }
+            }
+        }
+        let stations: Vec<CableStations> = fractions
+            .iter()
+            .map(|(cable, all)| CableStations::new(robot, equilibrium, dynamics, *cable, all, loaded))
+            .collect::<Result<_, _>>()?;
+        let channel = |place: &Place| match place {
+            Place::Platform(direction) => Channel::Platform(direction.vector(&equilibrium.pose)),
+            Place::Cable { cable, fraction, direction_w } => {
+                let at = fractions.iter().position(|(of, _)| of == cable).expect("every cable has stations");
+                let station = fractions[at].1.iter().position(|of| of == fraction).expect("and every fraction");
+                Channel::Cable { stations: at, station, direction_w: *direction_w }
+            }
+        };
+        let inputs = inputs.iter().map(channel).collect();
+        let outputs = outputs.iter().map(|(place, _)| channel(place)).collect();
+        Ok(Self { stations, inputs, outputs })
+    }
+
+    fn port(&self, channel: &Channel) -> Port<'_> {
+        match channel {
+            Channel::Platform(vector) => Port::Platform(*vector),
+            Channel::Cable { stations, station, direction_w } => {
+                Port::Cable { stations: &self.stations[*stations], station: *station, direction_w: *direction_w }
+            }
+        }
+    }
+
+    /// Displacements of every output by every input.
+    fn responses(&self, dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<Vec<Complex>>, ResponseError> {
+        let pairs = self.outputs.iter().flat_map(|output| self.inputs.iter().map(move |input| (input, output)));
+        pairs
+            .map(|(input, output)| {
+                let (input, output) = (self.port(input), self.port(output));
+                response::between(dynamics, frequencies_hz, &input, &output, Quantity::Displacement)
+            })
+            .collect()
+    }
+
+    /// The row of a channel over the coordinates.
+    fn row(&self, channel: &Channel, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
+        let mut row = vec![0.0; layout.coordinates.len()];
+        match channel {
+            Channel::Platform(vector) => row[..layout.freedoms].copy_from_slice(&vector.as_slice()[..layout.freedoms]),
+            Channel::Cable { stations, station, direction_w } => {
+                let (platform, term, amplitudes) = self.stations[*stations].row(dynamics, *station, direction_w);
+                row[..layout.freedoms].copy_from_slice(&platform.as_slice()[..layout.freedoms]);
+                if let Some(term) = term {
+                    let from = layout.first_of_term[term];
+                    row[from..from + amplitudes.len()].copy_from_slice(&amplitudes);
+                }
+            }
+        }
+        row
+    }
+}
+
+/// Which coordinate stands where: the platform's, then for each cable its clamped modes in plane and across.
+struct Layout {
+    freedoms: usize,
+    first_of_term: Vec<usize>,
+    coordinates: Vec<Coordinate>,
+}
+
+impl Layout {
+    fn of(dynamics: &Dynamics) -> Self {
+        let across = !dynamics.linearisation.in_plane_only;
+        let mut coordinates: Vec<Coordinate> = (0..dynamics.freedoms).map(Coordinate::Platform).collect();
+        let mut first_of_term = Vec::new();
+        for (term, exact) in exact_cables(dynamics) {
+            first_of_term.push(coordinates.len());
+            let clamped = |out_of_plane: bool, pole: &f64| Coordinate::Clamped {
+                cable: term.cable,
+                out_of_plane,
+                frequency_hz: pole.sqrt() / TAU,
+            };
+            coordinates.extend(exact.in_plane.poles.iter().map(|pole| clamped(false, pole)));
+            coordinates.extend(exact.out_of_plane.poles.iter().filter(|_| across).map(|pole| clamped(true, pole)));
+        }
+        Self { freedoms: dynamics.freedoms, first_of_term, coordinates }
+    }
+}
+
+fn exact_cables(dynamics: &Dynamics) -> impl Iterator<Item = (&Term, &Exact)> {
+    dynamics.terms.iter().filter_map(|term| match &term.form {
+        DynamicCable::Exact(end) => Some((term, &end.exact)),
+        DynamicCable::ClosedForm(_) => None,
+    })
+}
+
+/// The matrices of a robot whose cables have the poles that are to be kept.
+fn assembled(
+    dynamics: &Dynamics,
+    channels: &Channels,
+    outputs: &[(Place, Quantity)],
+    wanted: Wanted,
+) -> Result<SecondOrder, ReductionError> {
+    let layout = Layout::of(dynamics);
+    let (f, n) = (layout.freedoms, layout.coordinates.len());
+    let scale = dynamics.scale();
+    let across = !dynamics.linearisation.in_plane_only;
+    let unscaled = |matrix: &crate::math::Mat6, i: usize, j: usize| matrix[(i, j)] * scale[i] * scale[j];
+    let (mut mass, mut stiffness, mut damping) = (DMat::zeros(n, n), DMat::zeros(n, n), DMat::zeros(n, n));
+    // Loss of cables with a constant ratio: the coefficient of 2ω.
+    let mut ratio = DMat::zeros(n, n);
+    for i in 0..f {
+        for j in 0..f {
+            mass[(i, j)] = unscaled(&dynamics.mass, i, j);
+            stiffness[(i, j)] = unscaled(&dynamics.constant, i, j);
+            damping[(i, j)] = unscaled(&dynamics.platform_damping, i, j);
+        }
+    }
+    for ((term, exact), from) in exact_cables(dynamics).zip(&layout.first_of_term) {
+        let mut of_cable = DMat::zeros(n, n);
+        let plane = [&term.along, &term.normal];
+        for i in 0..f {
+            for j in 0..f {
+                let (mut k, mut m) = (0.0, 0.0);
+                for (p, u) in plane.iter().enumerate() {
+                    for (q, v) in plane.iter().enumerate() {
+                        k += exact.in_plane.stiffness[p][q] * u[i] * v[j];
+                        m += exact.in_plane.mass[p][q] * u[i] * v[j];
+                    }
+                }
+                if across {
+                    k += exact.out_of_plane.stiffness[0][0] * term.out[i] * term.out[j];
+                    m += exact.out_of_plane.mass[0][0] * term.out[i] * term.out[j];
+                }
+                stiffness[(i, j)] += k * scale[i] * scale[j];
+                of_cable[(i, j)] = m * scale[i] * scale[j];
+            }
+        }
+        let in_plane = exact.in_plane.participation.iter().map(|g| term.along * g[0] + term.normal * g[1]);
+        let out_of_plane = exact.out_of_plane.participation.iter().filter(|_| across).map(|g| term.out * g[0]);
+        let poles = exact.in_plane.poles.iter().chain(&exact.out_of_plane.poles);
+        for (k, (g, pole)) in in_plane.chain(out_of_plane).zip(poles).enumerate() {
+            let at = from + k;
+            stiffness[(at, at)] = *pole;
+            of_cable[(at, at)] = 1.0;
+            for i in 0..f {
+                of_cable[(i, at)] = g[i] * scale[i];
+                of_cable[(at, i)] = g[i] * scale[i];
+            }
+        }
+        match dynamics.damping[term.cable] {
+            (Damping::Viscous(c), mass_per_length) => damping += &of_cable * (c / mass_per_length),
+            (Damping::Ratio(xi), _) => ratio += &of_cable * xi,
+        }
+        mass += of_cable;
+    }
+    if dynamics.has_damping_ratios() {
+        damping += match wanted.damping_at {
+            DampingAt::Hz(hz) => ratio * (2.0 * TAU * hz),
+            DampingAt::NaturalFrequencies => at_natural_frequencies(&mass, &stiffness, &ratio)?,
+        };
+    }
+    let rows = |channels_of: &[Channel]| {
+        let all: Vec<f64> = channels_of.iter().flat_map(|channel| channels.row(channel, dynamics, &layout)).collect();
+        DMat::from_row_slice(channels_of.len(), n, &all)
+    };
+    if mass.clone().cholesky().is_none() {
+        return Err(ReductionError::Mass);
+    }
+    Ok(SecondOrder {
+        mass,
+        damping,
+        stiffness,
+        input: rows(&channels.inputs).transpose(),
+        output: rows(&channels.outputs),
+        quantities: outputs.iter().map(|(_, quantity)| *quantity).collect(),
+        coordinates: layout.coordinates,
+        below_hz: wanted.below_hz,
+        frequency_error: 0.0,
+        truncation_error: None,
+        damping_error: None,
+    })
+}
+
+/// The viscous matrix that stands for `2ω R`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `2 MΦ W ΦᵀM` with
+/// `W_jk = √ω_j (ΦᵀRΦ)_jk √ω_k`, which is right where ω = ω_j = ω_k, also for the coupling of close modes.
+fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result<DMat, ReductionError> {
+    let factor = mass.clone().cholesky().ok_or(ReductionError::Mass)?.l();
+    let half = factor.solve_lower_triangular(stiffness).ok_or(ReductionError::Mass)?;
+    let standard = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
+    let eigen = standard.symmetric_eigen();
+    // MΦ = L U; Φᵀ R Φ = Uᵀ L⁻¹ R L⁻ᵀ U.
+    let half = factor.solve_lower_triangular(ratio).ok_or(ReductionError::Mass)?;
+    let inner = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
+    let mut in_modes = eigen.eigenvectors.transpose() * inner * &eigen.eigenvectors;
+    let roots: Vec<f64> = eigen.eigenvalues.iter().map(|square| square.max(0.0).sqrt().sqrt()).collect();
+    for j in 0..roots.len() {
+        for k in 0..roots.len() {
+            in_modes[(j, k)] *= 2.0 * roots[j] * roots[k];
+        }
+    }
+    let back = factor * eigen.eigenvectors;
+    let damping = &back * in_modes * back.transpose();
+    Ok((&damping + damping.transpose()) * 0.5)
+}
+
+/// Largest relative error of the responses by viscous damping in place of constant ratios, at natural frequencies.
+fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, natural: &[f64]) -> Option<f64> {
+    // A full elimination a frequency; peaks show damping most, and these are spread over all of them.
+    const MOST: usize = 48;
+    let every = natural.len().div_ceil(MOST).max(1);
+    let frequencies: Vec<f64> = natural.iter().copied().step_by(every).collect();
+    let reference = channels.responses(dynamics, &frequencies).ok()?;
+    let mut of_model = vec![Vec::new(); reference.len()];
+    for frequency_hz in &frequencies {
+        let receptance = model.receptance(frequency_hz * TAU)?;
+        let entries = (0..receptance.nrows()).flat_map(|i| (0..receptance.ncols()).map(move |j| (i, j)));
+        for (list, at) in of_model.iter_mut().zip(entries) {
+            list.push(receptance[at]);
+        }
+    }
+    Some(largest_difference(&reference, &of_model))
+}
+
+impl SecondOrder {
+    /// `L (K + iωC − ω²M)⁻¹ B`, displacements, at ω [rad/s]; `None` at an undamped resonance.
+    pub fn receptance(&self, omega: f64) -> Option<CDMat> {
+        let d = self
+            .stiffness
+            .zip_zip_map(&self.damping, &self.mass, |k, c, m| Complex::new(k - omega * omega * m, omega * c));
+        let complex = |matrix: &DMat| matrix.map(Complex::from);
+        Some(complex(&self.output) * d.lu().solve(&complex(&self.input))?)
+    }
+
+    /// As a state space; an output that is a velocity or an acceleration is one there, too.
+    pub fn state_space(&self) -> StateSpace {
+        let (n, inputs, outputs) = (self.mass.nrows(), self.input.ncols(), self.output.nrows());
+        let factor = self.mass.clone().cholesky().expect("checked when it was made");
+        let (by_motion, by_velocity) = (-factor.solve(&self.stiffness), -factor.solve(&self.damping));
+        let by_force = factor.solve(&self.input);
+        let mut a = DMat::zeros(2 * n, 2 * n);
+        a.view_mut((0, n), (n, n)).fill_with_identity();
+        a.view_mut((n, 0), (n, n)).copy_from(&by_motion);
+        a.view_mut((n, n), (n, n)).copy_from(&by_velocity);
+        let mut b = DMat::zeros(2 * n, inputs);
+        b.view_mut((n, 0), (n, inputs)).copy_from(&by_force);
+        let (mut c, mut d) = (DMat::zeros(outputs, 2 * n), DMat::zeros(outputs, inputs));
+        for (i, quantity) in self.quantities.iter().enumerate() {
+            let row = self.output.rows(i, 1);
+            match quantity {
+                Quantity::Displacement => c.view_mut((i, 0), (1, n)).copy_from(&row),
+                Quantity::Velocity => c.view_mut((i, n), (1, n)).copy_from(&row),
+                Quantity::Acceleration => {
+                    c.view_mut((i, 0), (1, n)).copy_from(&(row * &by_motion));
+                    c.view_mut((i, n), (1, n)).copy_from(&(row * &by_velocity));
+                    d.view_mut((i, 0), (1, inputs)).copy_from(&(row * &by_force));
+                }
+            }
+        }
+        StateSpace { a, b, c, d }
+    }
+}
