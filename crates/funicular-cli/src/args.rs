@@ -40,6 +40,8 @@ pub(crate) enum Command {
     Stiffness(StiffnessArgs),
     /// Every natural frequency below a limit, counted: none missed
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
+        funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
+        funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv")]
     Modes(ModesArgs),
     /// Frequency response of the platform or of points on cables, and its peaks
@@ -216,12 +218,26 @@ pub(crate) struct ModesArgs {
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: f64,
 
+    /// Say how much each mode takes part in the response to this input: as of `frf`; needs --output
+    #[arg(long, value_name = "INPUT", value_parser = values::input, requires = "output")]
+    pub(crate) input: Option<Input>,
+
+    /// The output of that response; needs --input
+    #[arg(long, value_name = "OUTPUT", value_parser = values::output, requires = "input")]
+    pub(crate) output: Option<Output>,
+    #[command(flatten)]
+    pub(crate) points: PointArgs,
+
+    /// Displacements of N points along every cable in each mode, ends included; in JSON
+    #[arg(long, value_name = "N", value_parser = values::stations)]
+    pub(crate) stations: Option<usize>,
+
     #[command(flatten)]
     pub(crate) state: StateArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
-    pub(crate) output: OutputArgs,
+    pub(crate) sink: OutputArgs,
 }
 
 #[derive(Debug, Args)]

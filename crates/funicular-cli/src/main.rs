@@ -7,6 +7,7 @@ mod grid;
 mod json;
 mod output;
 mod page;
+mod places;
 mod progress;
 mod robot_file;
 mod set;
@@ -40,7 +41,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Check(args) => steps(&args.robot, &args.output, |robot| Ok(commands::check::run(robot))),
         Command::Statics(args) => steps(&args.robot, &args.output, |robot| commands::statics::run(robot, &args.state)),
         Command::Stiffness(args) => steps(&args.robot, &args.output, |robot| commands::stiffness::run(robot, args)),
-        Command::Modes(args) => steps(&args.robot, &args.output, |robot| commands::modes::run(robot, args)),
+        Command::Modes(args) => steps(&args.robot, &args.sink, |robot| commands::modes::run(robot, args)),
         Command::Frf(args) => steps(&args.robot, &args.sink, |robot| commands::frf::run(robot, args)),
         Command::Compare(args) => steps(&args.robot, &args.output, |robot| commands::compare::run(robot, args)),
         Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),

@@ -124,9 +124,19 @@ impl CableStations {
                 let start = [&of.along, &of.normal, &of.out].map(|axis| Complex::from(axis.dot(&motion.platform)));
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
                 let mut swing = swing(dynamics, exact, start, square.into());
+                let DynamicCable::Exact(end) = &of.form else { unreachable!("made of this term") };
                 for near in motion.near.iter().filter(|near| near.term == *term) {
-                    let family = if near.across { &mut swing.out_of_plane } else { &mut swing.in_plane };
-                    family[near.pole] = near.amplitude.into();
+                    // Where stations are loaded the cable is discretised anew, and a mode's sign is its own.
+                    let (family, same_sign) = if near.across {
+                        let [theirs, ours] =
+                            [&end.exact, &**exact].map(|cable| cable.out_of_plane.participation[near.pole]);
+                        (&mut swing.out_of_plane, ours.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>() > 0.0)
+                    } else {
+                        let [theirs, ours] =
+                            [&end.exact, &**exact].map(|cable| cable.in_plane.participation[near.pole]);
+                        (&mut swing.in_plane, ours.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>() > 0.0)
+                    };
+                    family[near.pole] = if same_sign { near.amplitude } else { -near.amplitude }.into();
                 }
                 let at = |k: usize| stations.displacement(k, &swing).map(|u| u.re * scale);
                 (0..self.arc_lengths.len()).map(at).collect()

@@ -73,16 +73,6 @@ pub struct Mode {
     pub(crate) motion: NullVector,
 }
 
-impl Mode {
-    /// How a force along `input` excites this mode and `output` sees it: r in the receptance's sum
-    /// `Σ r/(ω_n² − ω²)` over all modes [1/kg]. Both are 6-vectors about the platform origin, as of
-    /// [`Direction::vector`](crate::response::Direction::vector).
-    pub fn residue(&self, input: &Vec6, output: &Vec6) -> f64 {
-        let shape = Vec6::from(self.shape);
-        shape.dot(input) * shape.dot(output) / self.modal_mass
-    }
-}
-
 /// All modes below a frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {

@@ -12,6 +12,7 @@ pub use peaks::{Peak, peaks};
 use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
 use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6};
+use crate::modes::Mode;
 use crate::robot::Pose;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -98,6 +99,18 @@ pub enum Port<'a> {
 }
 
 impl Port<'_> {
+    /// What the port sees of a mode, or how a force there drives it [m, as `Mode::shape`]; with two ports the mode's
+    /// residue is their product over its modal mass.
+    pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
+        match self {
+            Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
+            Self::Cable { stations, station, direction_w } => {
+                let [e, n, b] = stations.in_mode(dynamics, mode)[*station];
+                (stations.axes.e * e + stations.axes.n * n + stations.axes.b * b).dot(direction_w)
+            }
+        }
+    }
+
     /// The vector about the platform origin at ω [rad/s].
     fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
         match self {

@@ -207,6 +207,15 @@ pub(crate) fn output(text: &str) -> Result<Output, String> {
         .to_owned())
 }
 
+/// Points along a cable, both ends included.
+pub(crate) fn stations(text: &str) -> Result<usize, String> {
+    const MOST: usize = 1000;
+    match text.trim().parse::<usize>() {
+        Ok(count @ 2..=MOST) => Ok(count),
+        _ => Err(format!("`{text}` is not a number of points: a whole number from 2 to {MOST}")),
+    }
+}
+
 /// Masses from one to another in equal steps [kg].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MassRange {

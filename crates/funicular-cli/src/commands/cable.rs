@@ -44,10 +44,16 @@ pub(crate) struct CableResult {
 }
 
 #[derive(Serialize)]
-struct Axes {
+pub(crate) struct Axes {
     e: [f64; 3],
     n: [f64; 3],
     b: [f64; 3],
+}
+
+impl Axes {
+    pub(crate) fn of(axes: &LocalAxes) -> Self {
+        Self { e: axes.e.into(), n: axes.n.into(), b: axes.b.into() }
+    }
 }
 
 /// Along the chord, coupling, normal in plane, out of plane [N/m].
@@ -103,7 +109,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
         chord_m: sag.chord,
         parallel_tension_n: sag.tension,
         sag: SagNumbers::of(&sag),
-        axes: Axes { e: axes.e.into(), n: axes.n.into(), b: axes.b.into() },
+        axes: Axes::of(&axes),
         clamped_frequencies_hz: clamped(&stiffness, args)?,
         local: Local {
             k_a: part(|k| k.axial),

@@ -1,0 +1,135 @@
+//! Where forces act and motion is measured: on the platform, or on cables.
+
+use crate::args::PointArgs;
+use crate::args::values::{Input, OnCable, Output};
+use crate::set;
+use crate::state::AtRest;
+use anyhow::{Result, anyhow, bail};
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::Dynamics;
+use funicular::math::{Vec3, Vec6};
+use funicular::response::{Direction, Port};
+use funicular::robot::{Freedoms, Robot};
+
+/// The points on cables where a response begins or ends.
+pub(crate) struct Places {
+    pub(crate) stations: Vec<CableStations>,
+    /// Which stations, and which of them; `None` on the platform.
+    pub(crate) input: Option<(usize, usize)>,
+    pub(crate) output: Option<(usize, usize)>,
+}
+
+impl Places {
+    pub(crate) fn new(
+        at_rest: &AtRest,
+        dynamics: &Dynamics,
+        input: Option<&OnCable>,
+        output: Option<&OnCable>,
+    ) -> Result<Self> {
+        let AtRest { robot, equilibrium } = at_rest;
+        let stations =
+            |i: usize, fractions: &[f64]| CableStations::new(robot, equilibrium, dynamics, i, fractions, true);
+        let cable = |place: &OnCable| cable_of(robot, place);
+        let mut places = Self { stations: Vec::new(), input: None, output: None };
+        if let (Some(from), Some(to)) = (input, output)
+            && from.name == to.name
+        {
+            places.stations.push(stations(cable(from)?, &[from.fraction, to.fraction])?);
+            return Ok(Self { input: Some((0, 0)), output: Some((0, 1)), ..places });
+        }
+        for (place, end) in [(input, &mut places.input), (output, &mut places.output)] {
+            if let Some(place) = place {
+                *end = Some((places.stations.len(), 0));
+                places.stations.push(stations(cable(place)?, &[place.fraction])?);
+            }
+        }
+        Ok(places)
+    }
+
+    /// The port at a place: with the platform's vector if it is not on a cable.
+    pub(crate) fn port(&self, place: Option<(usize, usize)>, vector: Vec6, direction_w: Vec3) -> Port<'_> {
+        match place {
+            None => Port::Platform(vector),
+            Some((at, station)) => {
+                let stations = &self.stations[at];
+                Port::Cable { stations, station, direction_w: direction_w.normalize() }
+            }
+        }
+    }
+}
+
+/// The cable of a place, by its name.
+pub(crate) fn cable_of(robot: &Robot, place: &OnCable) -> Result<usize> {
+    robot.cables.iter().position(|cable| cable.name == place.name).ok_or_else(|| {
+        let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+        anyhow!("the robot has no cable \"{}\"{}", place.name, set::suggestion(&place.name, &names))
+    })
+}
+
+/// Input and output of a response, checked against what the robot can do.
+pub(crate) fn directions(
+    robot: &Robot,
+    input: &Input,
+    output: &Output,
+    points: &PointArgs,
+) -> Result<(Direction, Direction)> {
+    let from = Side {
+        option: "--input",
+        name: &input.name,
+        turns: input.is_moment,
+        on_cable: input.on_cable.is_some(),
+        direction_w: input.direction_w,
+    };
+    let to = Side {
+        option: "--output",
+        name: &output.name,
+        turns: output.is_rotation,
+        on_cable: output.on_cable.is_some(),
+        direction_w: output.direction_w,
+    };
+    Ok((from.direction(robot, points.input_point_m)?, to.direction(robot, points.output_point_m)?))
+}
+
+/// One end of a response.
+struct Side<'a> {
+    option: &'static str,
+    name: &'a str,
+    /// A moment or a rotation.
+    turns: bool,
+    on_cable: bool,
+    direction_w: Vec3,
+}
+
+impl Side<'_> {
+    fn direction(&self, robot: &Robot, point: Option<Vec3>) -> Result<Direction> {
+        let Self { option, name, turns, on_cable, direction_w } = *self;
+        if on_cable && point.is_some() {
+            bail!("{option}-point-m is a point of the platform: {option} {name} is on a cable; remove it");
+        }
+        if turns && point.is_some() {
+            bail!("{option}-point-m has no effect: {option} {name} is the same at every point; remove it");
+        }
+        check_point_mass(robot, turns, option, name, point)?;
+        Ok(if turns {
+            Direction::About { axis_w: direction_w }
+        } else {
+            Direction::Along { direction_w, point_p: point.unwrap_or_default() }
+        })
+    }
+}
+
+/// A point mass neither turns nor extends.
+fn check_point_mass(robot: &Robot, turns: bool, option: &str, name: &str, point: Option<Vec3>) -> Result<()> {
+    if robot.platform.freedoms == Freedoms::Rigid {
+        return Ok(());
+    }
+    if turns {
+        bail!(
+            "a point mass does not turn: {option} {name} is not possible; use a force (fx) and a translation (x, vx, ax)"
+        );
+    }
+    if point.is_some_and(|point| point.norm() > 0.0) {
+        bail!("a point mass has no points but its origin: remove {option}-point-m");
+    }
+    Ok(())
+}
