@@ -64,6 +64,13 @@ pub(crate) enum Command {
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
+    /// A small second-order model M, C, K for control design, and its state space
+    #[command(after_help = "Examples:\n  \
+        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output z --model model.npz\n  \
+        funicular reduce robots/cogiro.toml --below-hz 10 --tolerance 0.01 --model model\n\n\
+        In Python: m = numpy.load('model.npz'); m['M'], m['C'], m['K'], m['ss_A'], …\n\
+        In MATLAB: M = readmatrix('model/M.csv'); sys = ss(A, B, C, D) from ss_A.csv, …")]
+    Reduce(ReduceArgs),
     /// All of it on one page, figures included
     #[command(after_help = "Examples:\n  funicular report\n  \
         funicular report robots/cogiro.toml -o cogiro.html\n  \
@@ -279,6 +286,45 @@ pub(crate) struct PointArgs {
     /// Point whose motion is measured, platform frame [m] [default: the origin]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) output_point_m: Option<Vec3>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReduceArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Highest frequency that the model is for [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) below_hz: f64,
+
+    /// An input, as of `frf` (repeatable) [default: all forces and moments on the platform]
+    #[arg(long, value_name = "INPUT", value_parser = values::input)]
+    pub(crate) input: Vec<Input>,
+
+    /// An output, as of `frf` (repeatable) [default: all displacements and rotations of the platform]
+    #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
+    pub(crate) output: Vec<Output>,
+    #[command(flatten)]
+    pub(crate) points: PointArgs,
+
+    /// Largest relative error of the responses by modes left out
+    #[arg(long, value_name = "PART", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0.001")]
+    pub(crate) tolerance: f64,
+
+    /// Make constant damping ratios viscous so that they are right at this frequency [Hz] [default: at every natural frequency]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) damping_at_hz: Option<f64>,
+
+    /// Write the matrices to an .npz file, or as CSV files into a new folder
+    #[arg(long = "model", value_name = "FILE.npz|FOLDER")]
+    pub(crate) model_file: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
 }
 
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ pub(crate) mod frf;
 pub(crate) mod modes;
 pub(crate) mod paper;
 pub(crate) mod pose_error;
+pub(crate) mod reduce;
 pub(crate) mod report;
 pub(crate) mod statics;
 pub(crate) mod stiffness;

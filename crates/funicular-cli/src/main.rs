@@ -46,6 +46,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Compare(args) => steps(&args.robot, &args.output, |robot| commands::compare::run(robot, args)),
         Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
+        Command::Reduce(args) => steps(&args.robot, &args.sink, |robot| commands::reduce::run(robot, args)),
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
         Command::Validate(args) => validate(args),

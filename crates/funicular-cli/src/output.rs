@@ -127,6 +127,16 @@ fn as_json<R: Results>(out: &mut impl Write, results: &R) -> Result<(), NoSoluti
     })
 }
 
+/// Lets everybody read a folder as any new one, where a temporary one is its owner's.
+pub(crate) fn open_to_all(folder: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::set_permissions(folder, fs::Permissions::from_mode(0o755))?;
+    }
+    Ok(())
+}
+
 fn to_stdout(bytes: &[u8]) -> Result<()> {
     let mut out = io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {

@@ -73,21 +73,21 @@ pub(crate) fn directions(
     output: &Output,
     points: &PointArgs,
 ) -> Result<(Direction, Direction)> {
-    let from = Side {
-        option: "--input",
-        name: &input.name,
-        turns: input.is_moment,
-        on_cable: input.on_cable.is_some(),
-        direction_w: input.direction_w,
-    };
-    let to = Side {
-        option: "--output",
-        name: &output.name,
-        turns: output.is_rotation,
-        on_cable: output.on_cable.is_some(),
-        direction_w: output.direction_w,
-    };
-    Ok((from.direction(robot, points.input_point_m)?, to.direction(robot, points.output_point_m)?))
+    Ok((input_direction(robot, input, points.input_point_m)?, output_direction(robot, output, points.output_point_m)?))
+}
+
+/// An input, checked against what the robot can do; if it is on a cable, only its direction counts.
+pub(crate) fn input_direction(robot: &Robot, input: &Input, point: Option<Vec3>) -> Result<Direction> {
+    let Input { name, on_cable, is_moment: turns, direction_w } = input;
+    Side { option: "--input", name, turns: *turns, on_cable: on_cable.is_some(), direction_w: *direction_w }
+        .direction(robot, point)
+}
+
+/// The same for an output.
+pub(crate) fn output_direction(robot: &Robot, output: &Output, point: Option<Vec3>) -> Result<Direction> {
+    let Output { name, on_cable, is_rotation: turns, direction_w, .. } = output;
+    Side { option: "--output", name, turns: *turns, on_cable: on_cable.is_some(), direction_w: *direction_w }
+        .direction(robot, point)
 }
 
 /// One end of a response.

@@ -83,8 +83,10 @@ impl CableStations {
                         .map_err(|reason| CableMotionError::Exact { cable: robot.cables[i].name.clone(), reason })?;
                 if !loaded {
                     // The same cable as in `dynamics`, with as many of its clamped modes.
-                    stations.in_plane.truncate(end.exact.in_plane.poles.len());
-                    stations.out_of_plane.truncate(end.exact.out_of_plane.poles.len());
+                    if let Some((plane, across)) = end.kept {
+                        stations.in_plane.compress(plane, &exact.in_plane.compressed(plane, 2).1);
+                        stations.out_of_plane.compress(across, &exact.out_of_plane.compressed(across, 1).1);
+                    }
                     exact = end.exact.clone();
                 }
                 (Kind::Exact { exact: Box::new(exact), stations, term }, end.axes)

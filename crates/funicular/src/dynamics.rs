@@ -174,7 +174,7 @@ impl Dynamics {
         })
     }
 
-    /// Without the clamped modes of exact cables from ω [rad/s] on; their static stiffness and mass stay.
+    /// With a few modes in place of the clamped ones of exact cables from ω [rad/s] on.
     pub(crate) fn with_poles_below(&self, omega: f64) -> Self {
         let mut cut = self.clone();
         for term in &mut cut.terms {

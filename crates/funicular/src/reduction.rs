@@ -1,9 +1,9 @@
 //! A small second-order model of the whole robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
 //!
 //! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. In them the exact cable is
-//! no approximation (K is block diagonal, M couples the platform to each amplitude); what is approximated is that modes
-//! far above the limit are left out, their static stiffness and mass kept, and that damping in proportion to frequency
-//! has to become viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 12.
+//! no approximation (K is block diagonal, M couples the platform to each amplitude); what is approximated is that three
+//! modes of each cable stand for all those above the limit, and that damping in proportion to frequency has to become
+//! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 12.
 
 use crate::cable::DynamicCable;
 use crate::cable::exact::Exact;
@@ -64,7 +64,7 @@ pub enum Coordinate {
         cable: usize,
         /// Out of the cable's plane.
         out_of_plane: bool,
-        /// Its clamped frequency [Hz].
+        /// Its clamped frequency [Hz]; the last ones of a cable stand for all the others.
         frequency_hz: f64,
     },
 }
@@ -131,8 +131,8 @@ pub enum ReductionError {
     Mass,
 }
 
-/// Parts of the limit up to which clamped modes are kept, tried in turn until the error is small enough.
-const KEPT: [f64; 7] = [1.2, 1.6, 2.2, 3.2, 5.0, 8.0, f64::INFINITY];
+/// Parts of the limit up to which clamped modes are kept as they are, tried in turn until the error is small enough.
+const KEPT: [f64; 7] = [1.1, 1.5, 2.0, 3.0, 5.0, 8.0, f64::INFINITY];
 
 /// Frequencies at which the error of modes left out is measured, besides the natural ones.
 const GRID: usize = 1000;

@@ -80,6 +80,8 @@ pub struct ExactEnd {
     pub in_plane_only: bool,
     pub(crate) plane: EndSeries<3>,
     pub(crate) across: EndSeries<1>,
+    /// How many poles in plane and across are its own, where the others have been compressed.
+    pub(crate) kept: Option<(usize, usize)>,
 }
 
 impl ExactEnd {
@@ -99,15 +101,16 @@ impl ExactEnd {
         let plane = EndSeries::of(&exact.in_plane, [(0, 0), (0, 1), (1, 1)]);
         let across = EndSeries::of(&exact.out_of_plane, [(0, 0)]);
         let axes = LocalAxes { e, n, b: e.cross(&n) };
-        Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, plane, across })
+        Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, plane, across, kept: None })
     }
 
-    /// With the poles below x only.
+    /// With the poles below x, and a few in place of the others: see [`PoleResidue::compressed`].
     pub(crate) fn with_poles_below(&self, x: f64) -> Self {
         let mut cut = self.clone();
         let (plane, across) = (self.exact.in_plane.poles_below(x), self.exact.out_of_plane.poles_below(x));
-        cut.exact.in_plane.truncate(plane);
-        cut.exact.out_of_plane.truncate(across);
+        cut.exact.in_plane = self.exact.in_plane.compressed(plane, 2).0;
+        cut.exact.out_of_plane = self.exact.out_of_plane.compressed(across, 1).0;
+        cut.kept = Some((plane, across));
         cut.plane = EndSeries::of(&cut.exact.in_plane, [(0, 0), (0, 1), (1, 1)]);
         cut.across = EndSeries::of(&cut.exact.out_of_plane, [(0, 0)]);
         cut

@@ -1,6 +1,6 @@
 //! End stiffness by poles and residues.
 
-use crate::math::Complex;
+use crate::math::{Complex, DMat};
 use std::ops::Range;
 
 /// A symmetric end stiffness by poles and residues; N end components.
@@ -95,10 +95,48 @@ impl<const N: usize> PoleResidue<N> {
         (stiffness, masses)
     }
 
-    /// Leaves the first `count` poles.
-    pub(super) fn truncate(&mut self, count: usize) {
-        self.poles.truncate(count);
-        self.participation.truncate(count);
+    /// The first `count` poles, and a few in place of all the others: what these answer to slow motion of the first
+    /// `moving` end components. With those modes' own shapes W = P⁻¹ G as the only motion left to them (Rayleigh and Ritz),
+    /// `Gᵀ (P − x)⁻¹ G` keeps its value and its slope at x = 0. The second result is the part of each mode beyond `count`
+    /// in each of the new ones, by columns of unit modal mass.
+    pub(crate) fn compressed(&self, count: usize, moving: usize) -> (Self, DMat) {
+        let beyond = self.poles.len() - count;
+        let g = DMat::from_fn(beyond, N, |k, i| self.participation[count + k][i]);
+        let pole = |k: usize| self.poles[count + k];
+        let mut kept = self.clone();
+        kept.poles.truncate(count);
+        kept.participation.truncate(count);
+        let mut columns = DMat::from_fn(beyond, moving, |k, i| g[(k, i)] / pole(k));
+        for mut column in columns.column_iter_mut() {
+            let size = column.norm();
+            if size > 0.0 {
+                column /= size;
+            }
+        }
+        // Motions that hardly differ from the others are none of their own.
+        let gram = (columns.transpose() * &columns).symmetric_eigen();
+        let free: Vec<usize> = (0..moving).filter(|&i| gram.eigenvalues[i] > 1e-9).collect();
+        if free.is_empty() {
+            return (kept, DMat::zeros(beyond, 0));
+        }
+        let basis = DMat::from_columns(
+            &free
+                .iter()
+                .map(|&i| &columns * gram.eigenvectors.column(i) / gram.eigenvalues[i].sqrt())
+                .collect::<Vec<_>>(),
+        );
+        let stiffness = basis.transpose() * DMat::from_fn(beyond, free.len(), |k, i| pole(k) * basis[(k, i)]);
+        let ritz = stiffness.symmetric_eigen();
+        let mut order: Vec<usize> = (0..free.len()).collect();
+        order.sort_by(|&i, &j| ritz.eigenvalues[i].total_cmp(&ritz.eigenvalues[j]));
+        let turn = DMat::from_columns(&order.iter().map(|&i| ritz.eigenvectors.column(i)).collect::<Vec<_>>());
+        let parts = basis * turn;
+        let participation = parts.transpose() * g;
+        for (k, &i) in order.iter().enumerate() {
+            kept.poles.push(ritz.eigenvalues[i]);
+            kept.participation.push(std::array::from_fn(|n| participation[(k, n)]));
+        }
+        (kept, parts)
     }
 
     /// Number of poles below ω² = x.

@@ -1,7 +1,7 @@
 //! How the points along a cable move with its ends and its clamped modes.
 
 use super::{Exact, PoleResidue};
-use crate::math::Complex;
+use crate::math::{Complex, DMat};
 
 /// Displacement of stations along an exact cable, D components a point, by motions of the ends, N = 2D components.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,9 +24,18 @@ pub struct Stations {
 }
 
 impl<const D: usize, const N: usize> Displacements<D, N> {
-    /// Leaves the first `count` clamped modes.
-    pub(crate) fn truncate(&mut self, count: usize) {
-        self.modes.truncate(count);
+    /// The first `count` clamped modes and those that stand for all the others; see [`PoleResidue::compressed`].
+    pub(crate) fn compress(&mut self, count: usize, parts: &DMat) {
+        let beyond = self.modes.split_off(count);
+        for column in parts.column_iter() {
+            let mut mode = vec![[0.0; D]; self.still.len()];
+            for (part, of) in column.iter().zip(&beyond) {
+                for (sum, value) in mode.iter_mut().zip(of) {
+                    (0..D).for_each(|d| sum[d] += part * value[d]);
+                }
+            }
+            self.modes.push(mode);
+        }
     }
 
     /// Without inner functions: the hats at the two ends.
