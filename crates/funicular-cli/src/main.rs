@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod errors;
 mod grid;
+mod import;
 mod json;
 mod output;
 mod page;
@@ -47,6 +48,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
+        Command::Import(args) => commands::import::run(args),
         Command::Validate(args) => validate(args),
     }
 }
