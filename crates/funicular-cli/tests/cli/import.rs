@@ -438,13 +438,13 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
             "line 1 is of type `chain`, which is not defined",
         ),
         (MOORDYN, ("1     Fixed ", "1     Free  "), &[], "ends at point 1, which is not fixed"),
-        (MOORDYN, ("1     Fixed ", "1     Loose "), &[], "tripod.txt:17: point 1 is `LOOSE`"),
+        (MOORDYN, ("1     Fixed ", "1     Loose "), &[], "tripod.txt:14: point 1 is `LOOSE`"),
         (MOORDYN, ("3     Fixed ", "1     Fixed "), &[], "a second point has the number 1"),
         (MOORDYN, ("1     free ", "1     fixed"), &[], "body 1 is fixed: nothing moves"),
         (MOORDYN, ("0.05     1e6 ", "0.05     curve.txt "), &[], "in a file of its own is not read"),
         (MOORDYN, ("4.98331806931662", "-4.9"), &[], "column 5 (UnstrLen) is -4.9 m, it must be positive"),
         (MOORDYN, ("4.0|5.0|7.0", "4.0|5.0"), &[], "column 11 (I) holds 2 numbers"),
-        (MOORDYN, ("60.0", "60,0"), &[], "tripod.txt:12: column 9 (Mass) is `60,0`, which is not a number"),
+        (MOORDYN, ("60.0", "60,0"), &[], "tripod.txt:10: column 9 (Mass) is `60,0`, which is not a number"),
         (MOORDYN, ("60.0", "0"), &[], "give --mass-kg KG"),
     ];
     for (files, change, more, expected) in cases {

@@ -23,15 +23,15 @@ pub(super) fn read(xml: &Xml, wanted: Option<&str>, center_of_mass_p: &Vec3) -> 
     let ids: Vec<String> = sets.iter().map(|set| clean(set.attribute("id").unwrap_or_default())).collect();
     let node = chosen(xml, &sets, &ids, wanted)?;
     let id = clean(node.attribute("id").unwrap_or_default());
-    let mut pulleys = Pulleys::default();
+    let mut left = Left::default();
     let mut cables = Vec::new();
     for cable in node.children().filter(Node::is_element) {
-        cables.push(read_cable(xml, cable, center_of_mass_p, &mut pulleys)?);
+        cables.push(read_cable(xml, cable, center_of_mass_p, &mut left)?);
     }
     if cables.is_empty() {
         bail!(xml.error(node, format!("cable set \"{id}\" has no cables")));
     }
-    let mut lost = pulleys.lost();
+    let mut lost = left.lost();
     if cables.iter().any(|cable| cable.limits != [None; 2]) {
         lost.push(
             "the limits of tension, force_min and force_max: they stand in comments beside their cables".to_owned(),
@@ -80,7 +80,7 @@ fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: 
     }
 }
 
-fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, pulleys: &mut Pulleys) -> Result<DraftCable> {
+fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, left: &mut Left) -> Result<DraftCable> {
     let name = clean(node.attribute("name").unwrap_or_default());
     let has_stiffness = match tag(node) {
         "cable_ideal" => false,
@@ -120,9 +120,7 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, pulleys: &mut Pull
     let mut limits = [None; 2];
     if let Some(properties) = xml.optional(node, "properties")? {
         limits = [limit(xml, properties, "force_min")?, limit(xml, properties, "force_max")?];
-        if let Some(diameter) = xml.optional(properties, "diameter")? {
-            rope.diameter = Some(xml.number(diameter)?).filter(|diameter| *diameter > 0.0);
-        }
+        left.diameters |= xml.optional(properties, "diameter")?.is_some();
     }
     if has_stiffness {
         // CASPR divides it by the cable's length to get a stiffness in N/m: it is EA.
@@ -133,7 +131,7 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, pulleys: &mut Pull
         }
         rope.axial_stiffness = Some(value);
     }
-    let [anchor_w, attachment_p] = ends(xml, xml.required(node, "attachments")?, &name, pulleys)?;
+    let [anchor_w, attachment_p] = ends(xml, xml.required(node, "attachments")?, &name, left)?;
     let attachment_p = if from_center { attachment_p + center_of_mass_p } else { attachment_p };
     Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None })
 }
@@ -146,7 +144,7 @@ fn limit(xml: &Xml, properties: Node, name: &str) -> Result<Option<f64>> {
 }
 
 /// The end on the base, in world axes, and the end on the platform, in platform axes.
-fn ends(xml: &Xml, attachments: Node, cable: &str, pulleys: &mut Pulleys) -> Result<[Vec3; 2]> {
+fn ends(xml: &Xml, attachments: Node, cable: &str, left: &mut Left) -> Result<[Vec3; 2]> {
     let points: Vec<Node> = attachments.children().filter(Node::is_element).collect();
     let [first, second] = points[..] else {
         let count = points.len();
@@ -171,8 +169,8 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, pulleys: &mut Pulleys) -> Res
                 }
                 (number, xml.child_vector(node, "location")?)
             }
-            "base_rotating_pulley" => (0.0, pulleys.read(xml, node, cable, "fixed_location")?),
-            "screw_base_rotating_pulley" => (0.0, pulleys.read(xml, node, cable, "constant_winch_point")?),
+            "base_rotating_pulley" => (0.0, left.pulley(xml, node, cable, "fixed_location")?),
+            "screw_base_rotating_pulley" => (0.0, left.pulley(xml, node, cable, "constant_winch_point")?),
             other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is no attachment that is known"))),
         };
         let end = if link == 0.0 { &mut base } else { &mut platform };
@@ -187,15 +185,18 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, pulleys: &mut Pulleys) -> Res
     Ok([anchor_w, attachment_p])
 }
 
-/// The pulleys that cables run over: only the point where a cable enters one is read.
+/// What of the cables is not read, gathered so that it is said once. Of a pulley it is all but its fixed point.
 #[derive(Default)]
-struct Pulleys {
+struct Left {
+    /// Cables that run over pulleys.
     cables: Vec<String>,
     radii: Vec<f64>,
+    /// Whether a cable has a `<diameter>`: its unit is stated nowhere, and files have 0.367.
+    diameters: bool,
 }
 
-impl Pulleys {
-    fn read(&mut self, xml: &Xml, node: Node, cable: &str, point: &str) -> Result<Vec3> {
+impl Left {
+    fn pulley(&mut self, xml: &Xml, node: Node, cable: &str, point: &str) -> Result<Vec3> {
         self.cables.push(cable.to_owned());
         if let Some(radius) = xml.optional(node, "pulley_radius")? {
             let radius = xml.number(radius)?;
@@ -207,15 +208,19 @@ impl Pulleys {
     }
 
     fn lost(&self) -> Vec<String> {
-        if self.cables.is_empty() {
-            return Vec::new();
+        let mut lost = Vec::new();
+        if !self.cables.is_empty() {
+            let radii: Vec<String> = self.radii.iter().map(f64::to_string).collect();
+            lost.push(format!(
+                "the pulleys at the base, of radius {} m, of the cables {}: each anchor is the pulley's fixed point",
+                if radii.is_empty() { "unknown".to_owned() } else { radii.join(", ") },
+                listed(&self.cables)
+            ));
         }
-        let radii: Vec<String> = self.radii.iter().map(f64::to_string).collect();
-        vec![format!(
-            "the pulleys at the base, of radius {} m, of the cables {}: each anchor is the pulley's fixed point",
-            if radii.is_empty() { "unknown".to_owned() } else { radii.join(", ") },
-            listed(&self.cables)
-        )]
+        if self.diameters {
+            lost.push("<diameter> of the cables: its unit is not stated".to_owned());
+        }
+        lost
     }
 }
 
@@ -233,6 +238,6 @@ mod tests {
             (of("a").unwrap(), of("b").unwrap(), of("c").unwrap(), of("e").unwrap()),
             (None, None, Some(5.0), None)
         );
-        assert!(of("d").unwrap_err().to_string().contains("a.xml:1:35: <d> is `x`, which is not a number"));
+        assert!(of("d").unwrap_err().to_string().contains("a.xml:1:33: <d> is `x`, which is not a number"));
     }
 }

@@ -36,7 +36,7 @@ impl Draft {
                 true => "; give --inertia-kg-m2 XX,YY,ZZ, or mend the source",
                 false => "; mend the source",
             };
-            anyhow!("{}: the robot is none: {}{hint}", self.platform.place, issues.join("; "))
+            anyhow!("{}: a robot file cannot hold it: {}{hint}", self.platform.place, issues.join("; "))
         })?;
         Ok(out)
     }
