@@ -66,7 +66,7 @@ impl<'a> Sources<'a> {
             "cables" => self.cables.push(xml),
             "models" => self.wirex.push(xml),
             "trajectories" | "operational_spaces" => {
-                self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()))
+                self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
             }
             other => bail!(
                 "{}: the outermost element is <{other}>: CASPR's are <bodies_system> and <cables>, WireX's is <models>",
@@ -234,10 +234,10 @@ mod tests {
 
     #[test]
     fn xml_that_is_a_bomb_is_refused_at_once() {
-        let mut entities = String::from("<!ENTITY a0 \"0123456789\">");
-        for i in 1..60 {
-            entities += &format!("<!ENTITY a{i} \"{}\">", format!("&a{};", i - 1).repeat(10));
-        }
+        let entities: String = (1..60)
+            .map(|i| format!("<!ENTITY a{i} \"{}\">", format!("&a{};", i - 1).repeat(10)))
+            .chain(["<!ENTITY a0 \"0123456789\">".to_owned()])
+            .collect();
         let bomb = format!("<!DOCTYPE models [{entities}]><models>&a59;</models>");
         let deep = "<models>".repeat(1_000_000);
         let wide = format!("<models>{}</models>", "<a/>".repeat(2_000_000));

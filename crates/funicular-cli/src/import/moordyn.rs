@@ -99,10 +99,8 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
             .filter(|(mass, ..)| *mass > 0.0)
             .collect();
         let mass: f64 = parts.iter().map(|(mass, ..)| mass).sum();
-        let center = match mass > 0.0 {
-            true => parts.iter().map(|(part, center, _)| center * (part / mass)).sum(),
-            false => body.center_p,
-        };
+        let center =
+            if mass > 0.0 { parts.iter().map(|(part, center, _)| center * (part / mass)).sum() } else { body.center_p };
         let about = |at: &Vec3| Mat3::identity() * at.norm_squared() - at * at.transpose();
         let inertia: Mat3 = parts.iter().map(|(part, at, own)| own + about(&(at - center)) * *part).sum();
         let platform = DraftPlatform {

@@ -218,7 +218,9 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
     let mut radii: Vec<f64> = Vec::new();
     for chain in geometry.children().filter(Node::is_element) {
         if tag(chain) != "chain" {
-            bail!(xml.error(chain, format!("<{}> in <geometry> is not known; a cable is a <chain>", tag(chain))));
+            // WireX reads over it, too.
+            lost.push(format!("<{}> in <geometry>, which is not known", tag(chain)));
+            continue;
         }
         let base = xml.required(chain, "base")?;
         if let Some(radius) = xml.optional_attribute_number(base, "radius")?.filter(|radius| *radius != 0.0)

@@ -384,7 +384,7 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
             &[],
             "cable \"1\" has 3 attachments; a cable of a robot file",
         ),
-        (&CASPR, ("<link>0</link>", "<link>2</link>"), &[], "<link> of cable \"1\" is 2; 0 is the base"),
+        (&CASPR, ("<link>0</link>", "<link>2</link>"), &[], "<link> of cable \"1\" is `2`; 0 is the base"),
         (&CASPR, ("<link>0</link>", "<link>1</link>"), &[], "has both ends on the platform"),
         (&CASPR, ("<location>0.15 4.0 5.0</location>", ""), &[], "<attachment> has no <location>"),
         (&CASPR, ("<K>1e6", "<K>0"), &["--cable-set", "springs"], "<K> of cable \"1\" is 0 N, it must be positive"),

@@ -159,23 +159,29 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, left: &mut Left) -> Result<[V
     let mut base = None;
     let mut platform = None;
     for node in [first, second] {
-        let (link, point) = match tag(node) {
+        let (is_platform, point) = match tag(node) {
             "attachment" => {
                 let link = xml.required(node, "link")?;
-                let number = xml.number(link)?;
-                if number != 0.0 && number != 1.0 {
-                    let message = format!("<link> of cable \"{cable}\" is {number}; 0 is the base and 1 the only link");
+                let number = link.text().unwrap_or_default().trim();
+                let Some(is_platform) = (match number {
+                    "0" => Some(false),
+                    "1" => Some(true),
+                    _ => None,
+                }) else {
+                    let shown = clean(number);
+                    let message =
+                        format!("<link> of cable \"{cable}\" is `{shown}`; 0 is the base and 1 the only link");
                     bail!(xml.error(link, message));
-                }
-                (number, xml.child_vector(node, "location")?)
+                };
+                (is_platform, xml.child_vector(node, "location")?)
             }
-            "base_rotating_pulley" => (0.0, left.pulley(xml, node, cable, "fixed_location")?),
-            "screw_base_rotating_pulley" => (0.0, left.pulley(xml, node, cable, "constant_winch_point")?),
+            "base_rotating_pulley" => (false, left.pulley(xml, node, cable, "fixed_location")?),
+            "screw_base_rotating_pulley" => (false, left.pulley(xml, node, cable, "constant_winch_point")?),
             other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is no attachment that is known"))),
         };
-        let end = if link == 0.0 { &mut base } else { &mut platform };
+        let end = if is_platform { &mut platform } else { &mut base };
         if end.replace(point).is_some() {
-            let both = if link == 0.0 { "the base" } else { "the platform" };
+            let both = if is_platform { "the platform" } else { "the base" };
             bail!(xml.error(node, format!("cable \"{cable}\" has both ends on {both}; it moves nothing")));
         }
     }

@@ -32,10 +32,9 @@ impl Draft {
         self.tables(&mut out);
         Robot::from_toml(&out).map_err(|error| {
             let issues: Vec<String> = error.issues().iter().map(|issue| issue.message.clone()).collect();
-            let hint = match issues.iter().any(|issue| issue.contains("inertia_kg_m2")) {
-                true => "; give --inertia-kg-m2 XX,YY,ZZ, or mend the source",
-                false => "; mend the source",
-            };
+            let of_inertia = issues.iter().any(|issue| issue.contains("inertia_kg_m2"));
+            let hint =
+                if of_inertia { "; give --inertia-kg-m2 XX,YY,ZZ, or mend the source" } else { "; mend the source" };
             anyhow!("{}: a robot file cannot hold it: {}{hint}", self.platform.place, issues.join("; "))
         })?;
         Ok(out)
@@ -51,7 +50,9 @@ impl Draft {
             if !lines.is_empty() {
                 out.push_str("#\n");
                 comment(out, "", title);
-                lines.iter().for_each(|line| comment(out, "- ", line));
+                for line in lines {
+                    comment(out, "- ", line);
+                }
             }
         }
     }
