@@ -1,5 +1,6 @@
 //! What the user can ask for.
 
+mod import;
 pub(crate) mod values;
 
 use crate::set::Assignment;
@@ -8,12 +9,13 @@ use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
 use funicular::statics::StaticModel;
+pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
 use values::{Input, Lengths, MassRange, Output, PoseNumbers};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// All but `paper` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
+/// All but `import`, `paper` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
 /// the unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
@@ -79,6 +81,18 @@ pub(crate) enum Command {
     /// Every figure and table of Yuan et al. 2014, theirs beside ours, on one page
     #[command(after_help = "Example:\n  funicular paper -o paper.html")]
     Paper(PaperArgs),
+    /// A robot file from files of CASPR, WireX or MoorDyn
+    ///
+    /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of version 2
+    /// with one body, or one free point, on lines. What a file lacks is asked for, nothing is made up; what a robot file
+    /// cannot hold is listed, also at the head of the file. docs/import.md says how each number is read.
+    #[command(
+        after_help = "Examples:\n  funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml \\\n    \
+        --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o tripod.toml\n  \
+        funicular import robot.wcrfx --pose 0,0,1 -o robot.toml\n  \
+        funicular import mooring.txt -o robot.toml"
+    )]
+    Import(ImportArgs),
     /// Compare the program with numbers that others published or computed; exit code 1 if one is not within tolerance
     #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
         funicular validate --format json")]

@@ -4,6 +4,7 @@ pub(crate) mod cable;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod frf;
+pub(crate) mod import;
 pub(crate) mod modes;
 pub(crate) mod paper;
 pub(crate) mod pose_error;

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod errors;
 mod grid;
+mod import;
 mod json;
 mod output;
 mod page;
@@ -49,6 +50,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Reduce(args) => steps(&args.robot, &args.sink, |robot| commands::reduce::run(robot, args)),
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
+        Command::Import(args) => commands::import::run(args),
         Command::Validate(args) => validate(args),
     }
 }

@@ -1,6 +1,6 @@
 //! Values on the command line: text in, checked numbers out, each error with the value and what it must be.
 
-use funicular::math::Vec3;
+use funicular::math::{Mat3, Vec3};
 use funicular::response::Quantity;
 
 /// Largest magnitude of a number, as in robot files: no product of the analyses overflows within it.
@@ -65,6 +65,20 @@ pub(crate) fn pose(text: &str) -> Result<PoseNumbers, String> {
         [x, y, z, roll, pitch, yaw] => Ok(PoseNumbers { position: [x, y, z], roll_pitch_yaw_deg: [roll, pitch, yaw] }),
         ref other => Err(format!("{} numbers where x,y,z or x,y,z,roll,pitch,yaw are needed", other.len())),
     }
+}
+
+/// An inertia tensor [kg m²].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Inertia(pub(crate) Mat3);
+
+/// `xx,yy,zz` or `xx,yy,zz,xy,xz,yz`, the entries of the tensor
+pub(crate) fn inertia(text: &str) -> Result<Inertia, String> {
+    let [xx, yy, zz, xy, xz, yz] = match list(text)?[..] {
+        [xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],
+        [xx, yy, zz, xy, xz, yz] => [xx, yy, zz, xy, xz, yz],
+        ref other => return Err(format!("{} numbers where xx,yy,zz or xx,yy,zz,xy,xz,yz are needed", other.len())),
+    };
+    Ok(Inertia(Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)))
 }
 
 /// `x,y,z`

@@ -1,0 +1,185 @@
+//! MoorDyn: an input file of version 2 with one body, or one free point, on lines.
+//!
+//! # References
+//!
+//! moordyn.readthedocs.io, "Input files", of version 2.7. That angles are degrees about moving axes, x first, was checked
+//! against MoorDyn 2.7.2 itself.
+
+mod objects;
+mod sections;
+
+use super::draft::{Draft, DraftCable, DraftFreedoms, DraftPlatform, DraftRope, DraftState};
+use super::text::SourceFile;
+use anyhow::{Result, bail};
+use funicular::math::{Mat3, Vec3};
+use objects::{Holder, Line, Model, Point};
+use sections::Row;
+
+/// Whether a text has the sections of an input file.
+pub(crate) fn is_input(text: &str) -> bool {
+    sections::is_input(text)
+}
+
+/// The robot of a file.
+///
+/// # Errors
+///
+/// What is wrong in which line; or what the robot has that a robot file cannot hold.
+pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
+    let mut model = Model::read(file)?;
+    let (platform, on_platform) = platform(file, &model)?;
+    let mut cables = Vec::new();
+    let mut lost = std::mem::take(&mut model.lost);
+    for line in &model.lines {
+        let [a, b] = [model.point(file, line, 0)?, model.point(file, line, 1)?];
+        match (holds(on_platform, a), holds(on_platform, b)) {
+            (true, false) => cables.push(cable(file, &model, line, b, a)?),
+            (false, true) => cables.push(cable(file, &model, line, a, b)?),
+            (false, false) if a.holder == Holder::Fixed && b.holder == Holder::Fixed => {
+                lost.push(format!("line {}, which does not hold the platform", line.id));
+            }
+            (true, true) => {
+                bail!(line.row.error(file, format!("line {} has both ends on the platform; it moves nothing", line.id)))
+            }
+            (false, false) => {
+                let free = if a.holder == Holder::Fixed { b } else { a };
+                bail!(line.row.error(
+                    file,
+                    format!(
+                        "line {} ends at point {}, which is neither fixed nor on the platform: a cable of a robot file \
+                         runs straight from its anchor to the platform",
+                        line.id, free.id
+                    )
+                ))
+            }
+        }
+    }
+    if cables.is_empty() {
+        bail!("{}: no line holds the platform", file.path);
+    }
+    let is_point = platform.freedoms == DraftFreedoms::PointMass;
+    let frame = if is_point { "the free point" } else { "the body's reference point" };
+    Ok(Draft {
+        name: file.stem(),
+        source: format!("MoorDyn model, {}", file.name()),
+        gravity_w: Vec3::new(0.0, 0.0, -model.gravity),
+        platform,
+        cables,
+        state: DraftState::Lengths,
+        notes: vec![format!("Platform frame: at {frame}. The state is the source's unstrained lengths")],
+        assumed: model.assumed,
+        lost,
+    })
+}
+
+/// What the platform is: a body, or a point.
+#[derive(Clone, Copy)]
+enum On {
+    Body(usize),
+    Point(usize),
+}
+
+fn holds(on: On, point: &Point) -> bool {
+    match on {
+        On::Body(id) => point.holder == Holder::Body(id),
+        On::Point(id) => point.id == id,
+    }
+}
+
+fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
+    let moving: Vec<&objects::Body> = model.bodies.iter().filter(|body| body.is_free).collect();
+    if let [body] = moving[..] {
+        if let Some(held) = model.bodies.iter().find(|body| !body.is_free) {
+            bail!(held.row.error(file, format!("body {} is held; give the file without it", held.id)));
+        }
+        // Masses of points that are fixed to the body are masses of the body.
+        let masses = model.points.iter().filter(|point| point.holder == Holder::Body(body.id));
+        let parts: Vec<(f64, Vec3, Mat3)> = std::iter::once((body.mass, body.center_p, body.inertia_p))
+            .chain(masses.map(|point| (point.mass, point.position, Mat3::zeros())))
+            .filter(|(mass, ..)| *mass > 0.0)
+            .collect();
+        let mass: f64 = parts.iter().map(|(mass, ..)| mass).sum();
+        let center =
+            if mass > 0.0 { parts.iter().map(|(part, center, _)| center * (part / mass)).sum() } else { body.center_p };
+        let about = |at: &Vec3| Mat3::identity() * at.norm_squared() - at * at.transpose();
+        let inertia: Mat3 = parts.iter().map(|(part, at, own)| own + about(&(at - center)) * *part).sum();
+        let platform = DraftPlatform {
+            mass: (mass > 0.0).then_some(mass),
+            inertia_p: (inertia != Mat3::zeros()).then_some(inertia),
+            center_of_mass_p: Some(center),
+            freedoms: DraftFreedoms::Rigid,
+            place: body.row.place(file),
+            freedoms_place: body.row.place(file),
+        };
+        return Ok((platform, On::Body(body.id)));
+    }
+    if let [_, second, ..] = moving[..] {
+        let message = format!("the file has {} bodies; a robot has one platform", moving.len());
+        bail!(second.row.error(file, message));
+    }
+    if let Some(body) = model.bodies.first() {
+        bail!(body.row.error(file, format!("body {} is fixed: nothing moves", body.id)));
+    }
+    match model.points.iter().filter(|point| point.holder == Holder::Free).collect::<Vec<_>>()[..] {
+        [point] => {
+            let platform = DraftPlatform {
+                mass: (point.mass > 0.0).then_some(point.mass),
+                inertia_p: None,
+                center_of_mass_p: None,
+                freedoms: DraftFreedoms::PointMass,
+                place: point.row.place(file),
+                freedoms_place: point.row.place(file),
+            };
+            Ok((platform, On::Point(point.id)))
+        }
+        [] => bail!("{}: there is no body and no free point: the file has no platform", file.path),
+        [_, second, ..] => {
+            bail!(second.row.error(
+                file,
+                "the file has no body and several free points; a robot has one platform, a body or a point"
+            ))
+        }
+    }
+}
+
+fn cable(file: &SourceFile, model: &Model, line: &Line, anchor: &Point, attachment: &Point) -> Result<DraftCable> {
+    if anchor.holder != Holder::Fixed {
+        bail!(line.row.error(
+            file,
+            format!(
+                "line {} ends at point {}, which is not fixed: a cable of a robot file runs straight from its anchor to the \
+                 platform",
+                line.id, anchor.id
+            )
+        ));
+    }
+    let Some(kind) = model.types.iter().find(|kind| kind.name == line.kind) else {
+        bail!(line.row.error(file, format!("line {} is of type `{}`, which is not defined", line.id, line.kind)));
+    };
+    Ok(DraftCable {
+        name: line.id.to_string(),
+        anchor_w: anchor.position,
+        attachment_p: if matches!(attachment.holder, Holder::Body(_)) { attachment.position } else { Vec3::zeros() },
+        rope: DraftRope {
+            name: kind.name.clone(),
+            mass_per_length: Some(kind.mass_per_length),
+            axial_stiffness: Some(kind.axial_stiffness),
+            youngs_modulus: None,
+            diameter: None,
+        },
+        limits: [None; 2],
+        unstrained_length: Some(line.unstrained_length),
+    })
+}
+
+impl Row<'_> {
+    /// `file:line` of the row.
+    fn place(&self, file: &SourceFile) -> String {
+        format!("{}:{}", file.path, self.line)
+    }
+
+    /// An error at the row.
+    fn error(&self, file: &SourceFile, message: impl std::fmt::Display) -> anyhow::Error {
+        anyhow::anyhow!("{}: {message}", self.place(file))
+    }
+}

@@ -1,0 +1,283 @@
+//! Bodies, points, lines and their types.
+
+use super::sections::{self, Kind, Row};
+use crate::import::text::{self, SourceFile, clean};
+use anyhow::{Result, bail};
+use funicular::math::{Mat3, Vec3};
+
+/// Gravity and density of water where the options do not say [m/s², kg/m³].
+const DEFAULT_GRAVITY: f64 = 9.81;
+const DEFAULT_WATER: f64 = 1025.0;
+
+/// What a file describes.
+pub(super) struct Model<'a> {
+    pub(super) types: Vec<LineType>,
+    pub(super) bodies: Vec<Body<'a>>,
+    pub(super) points: Vec<Point<'a>>,
+    pub(super) lines: Vec<Line<'a>>,
+    /// Acceleration [m/s²], downwards.
+    pub(super) gravity: f64,
+    pub(super) assumed: Vec<String>,
+    pub(super) lost: Vec<String>,
+}
+
+pub(super) struct LineType {
+    pub(super) name: String,
+    pub(super) mass_per_length: f64,
+    pub(super) axial_stiffness: f64,
+}
+
+pub(super) struct Body<'a> {
+    pub(super) id: usize,
+    pub(super) is_free: bool,
+    pub(super) mass: f64,
+    pub(super) center_p: Vec3,
+    pub(super) inertia_p: Mat3,
+    pub(super) row: Row<'a>,
+}
+
+/// What a point is fixed to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Holder {
+    Fixed,
+    Body(usize),
+    Free,
+    Coupled,
+}
+
+pub(super) struct Point<'a> {
+    pub(super) id: usize,
+    pub(super) holder: Holder,
+    /// In the world, or in the frame of the body that it is fixed to [m].
+    pub(super) position: Vec3,
+    pub(super) mass: f64,
+    pub(super) row: Row<'a>,
+}
+
+pub(super) struct Line<'a> {
+    pub(super) id: usize,
+    pub(super) kind: String,
+    pub(super) unstrained_length: f64,
+    pub(super) row: Row<'a>,
+}
+
+/// What of the file a robot file does not hold, gathered so that it is said once.
+#[derive(Default)]
+struct Left {
+    bending: Vec<String>,
+    damping: Vec<String>,
+    volumes: Vec<String>,
+    forces: Vec<String>,
+}
+
+impl<'a> Model<'a> {
+    pub(super) fn read(file: &'a SourceFile) -> Result<Self> {
+        let mut model = Self {
+            types: Vec::new(),
+            bodies: Vec::new(),
+            points: Vec::new(),
+            lines: Vec::new(),
+            gravity: DEFAULT_GRAVITY,
+            assumed: Vec::new(),
+            lost: Vec::new(),
+        };
+        let mut left = Left::default();
+        let mut water = None;
+        for (kind, row) in sections::rows(&file.text) {
+            match kind {
+                Kind::LineTypes => {
+                    let read = model.line_type(file, &row, &mut left)?;
+                    model.types.push(read);
+                }
+                Kind::Bodies => model.bodies.push(body(file, row, &mut left)?),
+                Kind::Points => model.points.push(point(file, row, &mut left)?),
+                Kind::Lines => model.lines.push(line(file, row)?),
+                Kind::Rods => bail!(row.error(
+                    file,
+                    "the file has rods: stiff bars have no place in a robot file; give the platform as a body"
+                )),
+                Kind::ExternalLoads => model.lost.push(format!("the external load of line {} of the file", row.line)),
+                Kind::Options => match row.words.get(1).copied() {
+                    Some("g" | "gravity") => model.gravity = row.quantity(file, 0, "g")?,
+                    Some("rho" | "Rho" | "WtrDnsty" | "rhoW") => water = Some(row.quantity(file, 0, "rho")?),
+                    Some("WtrDpth") if row.words[0] != "0" => {
+                        model.lost.push(format!("the seabed, {} m below z = 0", clean(row.words[0])));
+                    }
+                    _ => {}
+                },
+                Kind::RodTypes | Kind::Other => {}
+            }
+        }
+        model.check_ids(file)?;
+        model.conclude(file, left, water)?;
+        Ok(model)
+    }
+
+    /// The point at an end of a line.
+    pub(super) fn point(&self, file: &SourceFile, line: &Line, end: usize) -> Result<&Point<'a>> {
+        let word = line.row.word(file, 2 + end, "attachment")?;
+        let letters: String = word.chars().take_while(char::is_ascii_alphabetic).collect();
+        if matches!(letters.to_uppercase().as_str(), "R" | "ROD") {
+            bail!(line.row.error(file, format!("line {} ends at rod `{}`; rods are not read", line.id, clean(word))));
+        }
+        let Ok(id) = line.row.id(file, 2 + end, "attachment") else {
+            bail!(line.row.error(
+                file,
+                format!(
+                    "column {} is `{}`, which is no number of a point; the columns have to be those of MoorDyn version 2: ID, \
+                     LineType, AttachA, AttachB, UnstrLen",
+                    3 + end,
+                    clean(word)
+                )
+            ));
+        };
+        self.points
+            .iter()
+            .find(|point| point.id == id)
+            .ok_or_else(|| line.row.error(file, format!("line {} ends at point {id}, which is not defined", line.id)))
+    }
+
+    fn line_type(&self, file: &SourceFile, row: &Row<'a>, left: &mut Left) -> Result<LineType> {
+        let name = clean(row.word(file, 0, "TypeName")?);
+        if self.types.iter().any(|known| known.name == name) {
+            bail!(row.error(file, format!("a second line type is called `{name}`")));
+        }
+        let stiffness = row.word(file, 3, "EA")?;
+        let mut parts = stiffness.split('|');
+        let statically = parts.next().unwrap_or_default();
+        let axial_stiffness = match text::number(statically) {
+            Ok(value) if value > 0.0 => value,
+            Ok(value) => bail!(row.error(file, format!("column 4 (EA) is {value} N, it must be positive"))),
+            Err(wrong) => bail!(row.error(
+                file,
+                format!("column 4 (EA) is {wrong}; a table of tension over strain in a file of its own is not read")
+            )),
+        };
+        if parts.next().is_some() {
+            left.damping.push(format!("the dynamic stiffness of `{name}`"));
+        }
+        if row.words.get(4).is_some_and(|word| text::number(word) != Ok(0.0)) {
+            left.damping.push(format!("the damping BA/-zeta of `{name}`"));
+        }
+        if row.words.get(5).is_some_and(|word| text::number(word) != Ok(0.0)) {
+            left.bending.push(format!("`{name}`"));
+        }
+        Ok(LineType { name, mass_per_length: row.quantity(file, 2, "Mass/m")?, axial_stiffness })
+    }
+
+    fn check_ids(&self, file: &SourceFile) -> Result<()> {
+        fn twice<'r, 'a: 'r>(mut rows: Vec<(usize, &'r Row<'a>)>) -> Option<(usize, &'r Row<'a>)> {
+            rows.sort_by_key(|(id, row)| (*id, row.line));
+            rows.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1])
+        }
+        for (what, again) in [
+            ("body", twice(self.bodies.iter().map(|body| (body.id, &body.row)).collect())),
+            ("point", twice(self.points.iter().map(|point| (point.id, &point.row)).collect())),
+            ("line", twice(self.lines.iter().map(|line| (line.id, &line.row)).collect())),
+        ] {
+            if let Some((id, row)) = again {
+                bail!(row.error(file, format!("a second {what} has the number {id}")));
+            }
+        }
+        Ok(())
+    }
+
+    fn conclude(&mut self, file: &SourceFile, left: Left, water: Option<f64>) -> Result<()> {
+        if self.lines.is_empty() {
+            bail!("{}: the file has no lines", file.path);
+        }
+        let water = water.unwrap_or(DEFAULT_WATER);
+        if water != 0.0 {
+            self.lost.push(format!(
+                "the water of {water} kg/m³ below z = 0, its buoyancy and its drag: everything is in air here"
+            ));
+            self.lost.extend(left.volumes);
+        }
+        self.lost.extend(left.forces);
+        self.lost.extend(left.damping);
+        if !left.bending.is_empty() {
+            self.lost.push(format!("the bending stiffness EI of {}", left.bending.join(", ")));
+        }
+        if self.bodies.iter().any(|body| body.row.words.get(1).is_some_and(|word| is_coupled(word))) {
+            self.assumed.push("the coupled body is free: another program moves it in the source".to_owned());
+        }
+        Ok(())
+    }
+}
+
+fn is_coupled(word: &str) -> bool {
+    matches!(word.to_uppercase().as_str(), "COUPLED" | "CPLD" | "VESSEL" | "VES")
+}
+
+fn body<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Body<'a>> {
+    let id = row.id(file, 0, "ID")?;
+    let kind = row.word(file, 1, "Attachment")?.to_uppercase();
+    let is_free = match kind.as_str() {
+        "FREE" | "COUPLED" | "CPLD" | "VESSEL" | "VES" => true,
+        "FIXED" | "FIX" | "ANCHOR" => false,
+        _ => bail!(row.error(file, format!("body {id} is `{}`; bodies are free, coupled or fixed", clean(&kind)))),
+    };
+    for (column, name) in ["X0", "Y0", "Z0", "r0", "p0", "y0"].into_iter().enumerate() {
+        row.number(file, 2 + column, name)?;
+    }
+    let center_p = match row.numbers(file, 9, "CG")?[..] {
+        [z] => Vec3::new(0.0, 0.0, z),
+        [x, y, z] => Vec3::new(x, y, z),
+        ref other => {
+            bail!(row.error(file, format!("column 10 (CG) holds {} numbers, one or three are known", other.len())))
+        }
+    };
+    let moments = match row.numbers(file, 10, "I")?[..] {
+        [all] => Vec3::repeat(all),
+        [x, y, z] => Vec3::new(x, y, z),
+        ref other => {
+            bail!(row.error(file, format!("column 11 (I) holds {} numbers, one or three are known", other.len())))
+        }
+    };
+    if row.words.get(11).is_some_and(|word| text::number(word) != Ok(0.0)) {
+        left.volumes.push(format!("the volume of body {id}"));
+    }
+    let mass = row.quantity(file, 8, "Mass")?;
+    Ok(Body { id, is_free, mass, center_p, inertia_p: Mat3::from_diagonal(&moments), row })
+}
+
+fn point<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Point<'a>> {
+    let id = row.id(file, 0, "ID")?;
+    let kind = row.word(file, 1, "Attachment")?.to_uppercase();
+    let holder = match kind.as_str() {
+        "FIXED" | "FIX" | "ANCHOR" => Holder::Fixed,
+        "FREE" | "CONNECT" | "CON" | "POINT" => Holder::Free,
+        "COUPLED" | "CPLD" | "VESSEL" | "VES" | "FAIRLEAD" => Holder::Coupled,
+        _ => match kind.strip_prefix("BODY").and_then(|number| number.parse().ok()) {
+            Some(body) => Holder::Body(body),
+            None => bail!(row.error(
+                file,
+                format!(
+                    "point {id} is `{}`; points are fixed, free, coupled, or Body1 for the first body",
+                    clean(&kind)
+                )
+            )),
+        },
+    };
+    let position = Vec3::new(row.number(file, 2, "X")?, row.number(file, 3, "Y")?, row.number(file, 4, "Z")?);
+    let mass = row.words.get(5).map_or(Ok(0.0), |_| row.quantity(file, 5, "Mass"))?;
+    if row.words.get(6).is_some_and(|word| text::number(word) != Ok(0.0)) {
+        left.volumes.push(format!("the volume of point {id}"));
+    }
+    // Twelve columns have the force on the point before the two of drag.
+    if row.words.len() >= 12 && row.words[7..10].iter().any(|word| text::number(word) != Ok(0.0)) {
+        left.forces.push(format!("the external force on point {id}"));
+    }
+    Ok(Point { id, holder, position, mass, row })
+}
+
+fn line<'a>(file: &SourceFile, row: Row<'a>) -> Result<Line<'a>> {
+    let id = row.id(file, 0, "ID")?;
+    let kind = clean(row.word(file, 1, "LineType")?);
+    // Version 1 has the length in the third column and the points after the segments.
+    let unstrained_length = row.number(file, 4, "UnstrLen")?;
+    if unstrained_length <= 0.0 {
+        bail!(row.error(file, format!("column 5 (UnstrLen) is {unstrained_length} m, it must be positive")));
+    }
+    Ok(Line { id, kind, unstrained_length, row })
+}

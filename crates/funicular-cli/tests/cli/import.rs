@@ -1,0 +1,549 @@
+//! `import`: the same robot from every format, what is asked for, what is refused and why.
+
+use super::{run, stderr, stdout};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+const ROPES: [&str; 4] = ["--mass-kg-per-m", "0.05", "--axial-stiffness-n", "1e6"];
+
+/// Path of an example of docs/import/.
+fn example(name: &str) -> String {
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", "docs", "import", name].iter().collect();
+    path.to_str().expect("the path is text").to_owned()
+}
+
+fn example_text(name: &str) -> String {
+    fs::read_to_string(example(name)).unwrap()
+}
+
+/// The examples of CASPR, WireX and MoorDyn.
+fn caspr() -> [String; 2] {
+    [example("tripod_bodies.xml"), example("tripod_cables.xml")]
+}
+
+fn import(arguments: &[&str]) -> Output {
+    run(&[&["import"], arguments].concat())
+}
+
+/// The robot file of an import that succeeds.
+fn imported(arguments: &[&str]) -> String {
+    let output = import(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output).to_owned()
+}
+
+/// What `funicular COMMAND - …` finds for a robot file.
+fn json(command: &str, robot: &str, more: &[&str]) -> Value {
+    let arguments = [&[command, "-", "--format", "json"], more].concat();
+    let output = super::run_with(&arguments, robot);
+    assert_eq!(output.status.code(), Some(0), "{command}: {}\n{robot}", stderr(&output));
+    serde_json::from_str(stdout(&output)).unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+fn assert_close(a: &[f64], b: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(a.len(), b.len(), "{what}");
+    assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance), "{what}: {a:?} and {b:?}");
+}
+
+/// An example with changes, in a folder of its own.
+struct Changed {
+    folder: tempfile::TempDir,
+}
+
+impl Changed {
+    fn of(files: &[&str], changes: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut found = vec![false; changes.len()];
+        for file in files {
+            let mut text = example_text(file);
+            for ((from, to), found) in changes.iter().zip(&mut found) {
+                *found |= text.contains(from);
+                text = text.replacen(from, to, 1);
+            }
+            fs::write(folder.path().join(file), text).unwrap();
+        }
+        assert!(found.iter().all(|found| *found), "every change is made: {changes:?}");
+        Self { folder }
+    }
+
+    fn import(&self, more: &[&str]) -> Output {
+        let mut files: Vec<String> = fs::read_dir(self.folder.path())
+            .unwrap()
+            .map(|entry| entry.unwrap().path().to_str().unwrap().to_owned())
+            .collect();
+        files.sort();
+        let files: Vec<&str> = files.iter().map(String::as_str).collect();
+        import(&[&files[..], more].concat())
+    }
+
+    fn imported(&self, more: &[&str]) -> String {
+        let output = self.import(more);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output).to_owned()
+    }
+}
+
+const CASPR: [&str; 2] = ["tripod_bodies.xml", "tripod_cables.xml"];
+
+#[test]
+fn one_robot_is_the_same_in_every_format() {
+    let [bodies, cables] = caspr();
+    let ideal = imported(&[&[bodies.as_str(), &cables], &ROPES[..]].concat());
+    let reference = json("check", &ideal, &[]);
+    let pose = "0.1,-0.05,1.5,0,0,0";
+    for (what, arguments) in [
+        ("order", [&[cables.as_str(), &bodies], &ROPES[..]].concat()),
+        ("springs", vec![&cables, &bodies, "--cable-set", "springs", "--mass-kg-per-m", "0.05"]),
+        ("WireX", vec![&example("tripod.wcrfx"), "--axial-stiffness-n", "1e6", "--pose", pose]),
+        ("MoorDyn", vec![&example("tripod.txt")]),
+    ] {
+        let robot = json("check", &imported(&arguments), &[]);
+        for key in ["mass_kg", "inertia_kg_m2", "center_of_mass_m"] {
+            assert_eq!(robot["platform"][key], reference["platform"][key], "{what}: {key}");
+        }
+        assert_eq!(robot["gravity_m_s2"], reference["gravity_m_s2"], "{what}");
+        for (a, b) in robot["cables"].as_array().unwrap().iter().zip(reference["cables"].as_array().unwrap()) {
+            assert_eq!((&a["name"], &a["anchor_m"]), (&b["name"], &b["anchor_m"]), "{what}");
+            // From the centre of mass and back is rounding.
+            assert_close(&numbers(&a["attachment_m"]), &numbers(&b["attachment_m"]), 1e-15, what);
+        }
+        assert_eq!(robot["materials"][0]["axial_stiffness_n"], 1e6, "{what}");
+        assert_eq!(robot["materials"][0]["mass_kg_per_m"], 0.05, "{what}");
+    }
+    // As the file of cables has it.
+    let fourth = &reference["cables"][3];
+    assert_eq!(numbers(&fourth["anchor_m"]), [-3.3891, -2.1299, 5.03]);
+    assert_eq!(numbers(&fourth["attachment_m"]), [0.0, -0.8, 0.1]);
+}
+
+#[test]
+fn the_home_pose_is_where_the_source_says_and_the_tensions_balance_there() {
+    let [bodies, cables] = caspr();
+    let robot = imported(&[&[bodies.as_str(), &cables], &ROPES[..]].concat());
+    let found = json("statics", &robot, &[]);
+    assert_close(&numbers(&found["pose"]["position_m"]), &[0.1, -0.05, 1.5], 1e-14, "position");
+    // q_initial 0.02, -0.03, 0.05 rad is Rx Ry Rz: the quaternion of that product, written out.
+    let half = |angle: f64| ((angle / 2.0).cos(), (angle / 2.0).sin());
+    let ((cx, sx), (cy, sy), (cz, sz)) = (half(0.02), half(-0.03), half(0.05));
+    let quaternion = [
+        cx * cy * cz - sx * sy * sz,
+        sx * cy * cz + cx * sy * sz,
+        cx * sy * cz - sx * cy * sz,
+        cx * cy * sz + sx * sy * cz,
+    ];
+    assert_close(&numbers(&found["pose"]["quaternion_wxyz"]), &quaternion, 1e-15, "orientation");
+
+    let turn = |v: &[f64]| {
+        let [w, x, y, z] = quaternion;
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let t = cross([x, y, z], [v[0], v[1], v[2]]).map(|c| 2.0 * c);
+        let u = cross([x, y, z], t);
+        [v[0] + w * t[0] + u[0], v[1] + w * t[1] + u[1], v[2] + w * t[2] + u[2]]
+    };
+    let moment = |arm: [f64; 3], force: &[f64]| {
+        [
+            arm[1] * force[2] - arm[2] * force[1],
+            arm[2] * force[0] - arm[0] * force[2],
+            arm[0] * force[1] - arm[1] * force[0],
+        ]
+    };
+    let weight = [0.0, 0.0, -60.0 * 9.81];
+    let mut wrench = [weight.to_vec(), moment(turn(&[0.01, -0.02, 0.05]), &weight).to_vec()].concat();
+    let geometry = json("check", &robot, &[]);
+    for (cable, state) in geometry["cables"].as_array().unwrap().iter().zip(found["cables"].as_array().unwrap()) {
+        let force = numbers(&state["force_on_platform_n"]);
+        let arm = turn(&numbers(&cable["attachment_m"]));
+        let chord: f64 = numbers(&cable["anchor_m"])
+            .iter()
+            .zip([0.1, -0.05, 1.5])
+            .zip(arm)
+            .map(|((anchor, position), arm)| (anchor - position - arm).powi(2))
+            .sum();
+        assert!((chord.sqrt() - state["chord_m"].as_f64().unwrap()).abs() < 1e-13);
+        assert!(state["tension_platform_n"].as_f64().unwrap() > 100.0);
+        for (total, part) in wrench.iter_mut().zip([force.clone(), moment(arm, &force).to_vec()].concat()) {
+            *total += part;
+        }
+    }
+    assert_close(&wrench, &[0.0; 6], 1e-8, "forces and moments");
+}
+
+#[test]
+fn lengths_of_a_mooring_file_lead_back_to_the_pose_they_are_of() {
+    let found = json("statics", &imported(&[&example("tripod.txt")]), &[]);
+    assert_close(&numbers(&found["pose"]["position_m"]), &[0.1, -0.05, 1.5], 1e-10, "position");
+    // The lengths are given up for a pose.
+    let output = import(&[&example("tripod.txt"), "--pose", "0,0,1.5"]);
+    assert!(stderr(&output).contains("not carried over: the unstrained lengths"), "{}", stderr(&output));
+    assert!(
+        !stdout(&output).contains("unstrained_length_m") && stdout(&output).contains("position_m = [0.0, 0.0, 1.5]")
+    );
+}
+
+#[test]
+fn what_a_source_lacks_is_asked_for_in_one_message() {
+    let [bodies, cables] = caspr();
+    let lacking = |more: &[&str], expected: &[&str], absent: &[&str]| {
+        let output = import(&[&[bodies.as_str(), &cables], more].concat());
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(expected.iter().all(|text| message.contains(text)), "{message}");
+        assert!(!absent.iter().any(|text| message.contains(text)), "{message}");
+        assert!(output.stdout.is_empty());
+    };
+    lacking(&[], &["--mass-kg-per-m", "--axial-stiffness-n", "--youngs-modulus-pa"], &["--mass-kg KG"]);
+    lacking(&["--axial-stiffness-n", "1e6"], &["--mass-kg-per-m"], &["--youngs-modulus-pa"]);
+    lacking(&["--mass-kg-per-m", "0"], &["--axial-stiffness-n"], &["--mass-kg-per-m"]);
+    lacking(&["--mass-kg-per-m", "0", "--youngs-modulus-pa", "1e10"], &["--diameter-m"], &["stiffness of the ropes"]);
+
+    let empty = Changed::of(
+        &CASPR,
+        &[("<mass>60.0", "<mass>0"), ("<Ixx>4.0", "<Ixx>0"), ("<Iyy>5.0", "<Iyy>0"), ("<Izz>7.0", "<Izz>0")],
+    );
+    let output = empty.import(&ROPES);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2));
+    for expected in ["tripod_bodies.xml:8:7", "--mass-kg KG", "--inertia-kg-m2 XX,YY,ZZ"] {
+        assert!(message.contains(expected), "{message}");
+    }
+    let more = ["--mass-kg", "30", "--inertia-kg-m2", "2,3,4,0.1,0.2,0.3", "--center-of-mass-m", "0,0,0.1"];
+    let robot = json("check", &empty.imported(&[&ROPES[..], &more].concat()), &[]);
+    assert_eq!(robot["platform"]["mass_kg"], 30.0);
+    assert_eq!(numbers(&robot["platform"]["inertia_kg_m2"][0]), [2.0, 0.1, 0.2]);
+    assert_eq!(numbers(&robot["platform"]["center_of_mass_m"]), [0.0, 0.0, 0.1]);
+}
+
+#[test]
+fn modulus_and_diameter_are_a_stiffness_and_options_win_over_the_source() {
+    let more = ["--mass-kg-per-m", "0.1", "--youngs-modulus-pa", "1e11", "--diameter-m", "0.004"];
+    let robot = json("check", &imported(&[&[example("tripod.txt").as_str()], &more[..]].concat()), &[]);
+    let stiffness = robot["materials"][0]["axial_stiffness_n"].as_f64().unwrap();
+    assert!((stiffness - 1e11 * std::f64::consts::PI * 4e-6).abs() < 1e-6, "{stiffness}");
+    assert_eq!(robot["materials"][0]["mass_kg_per_m"], 0.1);
+    // WireX has a radius, and the file its own modulus.
+    let robot = json("check", &imported(&[&example("tripod.wcrfx")]), &[]);
+    let stiffness = robot["materials"][0]["axial_stiffness_n"].as_f64().unwrap();
+    assert!((stiffness - 5e10 * std::f64::consts::PI * 4e-6).abs() < 1e-6, "{stiffness}");
+}
+
+#[test]
+fn what_is_lost_or_assumed_is_said_twice_on_stderr_and_in_the_file() {
+    let [bodies, cables] = caspr();
+    let output = import(&[&[bodies.as_str(), &cables, "--cable-set", "springs"], &ROPES[..2]].concat());
+    let (said, written) = (stderr(&output), stdout(&output).replace("\n#   ", " "));
+    for lost in ["pulleys at the base, of radius 0.05 m", "q_min and q_max", "force_min and force_max", "\"ideal\""] {
+        assert!(said.contains(lost) && written.contains(lost), "{lost}: {said}\n{written}");
+    }
+    assert!(written.contains("# minimum_tension_n = 10.0\n# maximum_tension_n = 2000.0"), "{written}");
+
+    let defaults = Changed::of(
+        &["tripod.wcrfx"],
+        &[(r#"Ixy="0.0" "#, ""), (r#"x="0.01" y="-0.02" z="0.05""#, r#"x="0.000000" y="1.000000" z="0.200000""#)],
+    );
+    let said = defaults.import(&[]);
+    for text in ["assumed: the centre of gravity (0, 1, 0.2) m", "diag(2, 3, 4) kg m²", "`breaking_load` 15000"] {
+        assert!(stderr(&said).contains(text), "{text}: {}", stderr(&said));
+    }
+    assert!(!stderr(&said).contains("which no rope has"));
+    let thick = Changed::of(&["tripod.wcrfx"], &[(r#"radius="0.002""#, r#"radius="0.008""#)]);
+    let said = thick.import(&[]);
+    assert!(stderr(&said).contains("a rope of 249 kg/m³") && stderr(&said).contains("--diameter-m 0.008"));
+}
+
+#[test]
+fn a_platform_that_only_translates_is_a_point_mass_with_moved_anchors() {
+    let caspr = Changed::of(
+        &CASPR,
+        &[("SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"", "T_XYZ\" q_initial=\"0.1 -0.05 1.5\"")],
+    );
+    let text = caspr.imported(&ROPES);
+    let robot = json("check", &text, &[]);
+    assert_eq!(robot["freedoms"], 3);
+    let first = numbers(&robot["cables"][0]["anchor_m"]);
+    assert_close(&first, &[0.15 - 0.6928, 4.0 - 0.4, 5.0 - 0.1], 1e-15, "anchor");
+    assert!(
+        text.contains("minus the source's attachment") || text.replace("\n#   ", " ").contains("minus the source's")
+    );
+    let wirex = Changed::of(&["tripod.wcrfx"], &[("3R3T", "3T")]);
+    let robot = json("check", &wirex.imported(&[]), &[]);
+    assert_close(&numbers(&robot["cables"][0]["anchor_m"]), &first, 1e-15, "anchor");
+    let output = wirex.import(&["--pose", "0,0,1,10,0,0"]);
+    assert!(stderr(&output).contains("a point mass has no orientation"), "{}", stderr(&output));
+
+    // A free point that three lines hold.
+    let point = "a ball\n--- LINE TYPES ---\nn\nu\nrope 0.01 0.1 1e5 0 0 0 0 0 0\n--- POINTS ---\nn\nu\n1 Fixed 3 0 4 0 0 0 0\n\
+                 2 Fixed -2 2 4 0 0 0 0\n3 Fixed -2 -2 4 0 0 0 0\n4 Free 0 0 1 25 0 0 0\n--- LINES ---\nn\nu\n\
+                 1 rope 1 4 4.2 20 -\n2 rope 4 2 4.1 20 -\n3 rope 3 4 4.1 20 -\n--- OPTIONS ---\n9.80665 g\n0 rho\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ball.txt");
+    fs::write(&path, point).unwrap();
+    let robot = imported(&[path.to_str().unwrap()]);
+    let found = json("statics", &robot, &[]);
+    let lift: f64 = found["cables"].as_array().unwrap().iter().map(|c| numbers(&c["force_on_platform_n"])[2]).sum();
+    assert!((lift - 25.0 * 9.80665).abs() < 1e-9, "{lift}");
+}
+
+#[test]
+fn masses_of_points_on_a_body_are_masses_of_the_body() {
+    let changed = Changed::of(&["tripod.txt"], &[("6928       0.4     0.1   0  0", "6928       0.4     0.1   20  0")]);
+    let platform = json("check", &changed.imported(&[]), &[])["platform"].clone();
+    assert_eq!(platform["mass_kg"], 80.0);
+    let center = [0.25 * 0.6928 + 0.75 * 0.01, 0.25 * 0.4 - 0.75 * 0.02, 0.25 * 0.1 + 0.75 * 0.05];
+    assert_close(&numbers(&platform["center_of_mass_m"]), &center, 1e-15, "centre");
+    // Two bodies: reduced mass times squared distance, about z.
+    let (dx, dy) = (0.6928 - 0.01, 0.4 + 0.02);
+    let about_z = 7.0 + 60.0 * 20.0 / 80.0 * (dx * dx + dy * dy);
+    assert!((numbers(&platform["inertia_kg_m2"][2])[2] - about_z).abs() < 1e-12);
+}
+
+#[test]
+fn inertia_about_the_joint_is_brought_to_the_centre_of_mass() {
+    let changed = Changed::of(&CASPR, &[("ref=\"com\"", "ref=\"joint\"")]);
+    let platform = json("check", &changed.imported(&ROPES), &[])["platform"].clone();
+    assert!((numbers(&platform["inertia_kg_m2"][0])[0] - (4.0 - 60.0 * (0.02 * 0.02 + 0.05 * 0.05))).abs() < 1e-12);
+    assert!((numbers(&platform["inertia_kg_m2"][0])[1] - 60.0 * 0.01 * -0.02).abs() < 1e-12);
+}
+
+#[test]
+fn a_quaternion_and_its_angles_are_one_pose() {
+    let half = |angle: f64| ((angle / 2.0).cos(), (angle / 2.0).sin());
+    let (c, s) = half(0.5);
+    let quaternion = format!("q_initial=\"0.1 -0.05 1.5 {c} 0 0 {s}\"");
+    let from = "SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"";
+    let turned = Changed::of(&CASPR, &[(from, &format!("SPATIAL_QUATERNION\" {quaternion}"))]).imported(&ROPES);
+    let angles = Changed::of(&CASPR, &[("0.02 -0.03 0.05", "0 0 0.5")]).imported(&ROPES);
+    let of = |text: &str| numbers(&json("check", text, &[])["pose"]["roll_pitch_yaw_deg"]);
+    assert_close(&of(&turned), &of(&angles), 1e-13, "angles");
+    assert_close(&of(&angles), &[0.0, 0.0, 0.5_f64.to_degrees()], 1e-13, "angles");
+}
+
+#[test]
+fn names_are_made_unique_and_other_files_of_a_model_are_left_aside() {
+    let changed = Changed::of(&CASPR, &[("name=\"2\"", "name=\"1\""), ("name=\"3\"", "name=\"\"")]);
+    fs::write(changed.folder.path().join("tripod_trajectories.xml"), "<trajectories/>").unwrap();
+    let output = changed.import(&ROPES);
+    let robot = json("check", stdout(&output), &[]);
+    let names: Vec<&str> = robot["cables"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["1", "1 (2)", "3", "4", "5", "6"]);
+    for said in ["is a second \"1\" in the source; it is called \"1 (2)\"", "has no name", "tripod_trajectories.xml"] {
+        assert!(stderr(&output).contains(said), "{said}: {}", stderr(&output));
+    }
+}
+
+/// Files, change, more arguments, what the message says.
+type Refused = (&'static [&'static str], (&'static str, &'static str), &'static [&'static str], &'static str);
+
+#[test]
+#[expect(clippy::too_many_lines, reason = "a table")]
+fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
+    const WIREX: &[&str] = &["tripod.wcrfx"];
+    const MOORDYN: &[&str] = &["tripod.txt"];
+    const POSE: &str = "SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"";
+    let cases: &[Refused] = &[
+        // CASPR: bodies.
+        (&CASPR, (POSE, "PLANAR_XZ\" q_initial=\"0 1 0\""), &[], "bodies.xml:7:7: the platform moves in the xz plane"),
+        (&CASPR, (POSE, "R_Z\" q_initial=\"0\""), &[], "joint `R_Z` is a link that only rotates about a fixed point"),
+        (&CASPR, (POSE, "P_XY\" q_initial=\"0 0\""), &[], "translates along less than three axes"),
+        (&CASPR, (POSE, "HINGE\" q_initial=\"0\""), &[], "joint `HINGE` is of a kind that is not known"),
+        (&CASPR, (POSE, "T_XYZ\" actuated=\"true\" q_initial=\"0 0 0\""), &[], "the joint is actuated"),
+        (&CASPR, (POSE, "SPATIAL_EULER_XYZ\""), &[], "no attribute `q_initial`"),
+        (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03"), &[], "holds 5 numbers, SPATIAL_EULER_XYZ has 6"),
+        (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03 x"), &[], "`q_initial` holds `x`, which is not a number"),
+        (&CASPR, (POSE, "SPATIAL_QUATERNION\" q_initial=\"0 0 1 0 0 0 0\""), &[], "the quaternion zero"),
+        (&CASPR, ("</link_rigid>", "</link_rigid><link_rigid num=\"2\"/>"), &[], "the robot has 2 links"),
+        (&CASPR, ("<num>0", "<num>1"), &[], "hang on the base, link 0"),
+        (&CASPR, ("<mass>60.0</mass>", ""), &[], "bodies.xml:8:7: <physical> has no <mass>"),
+        (&CASPR, ("<mass>60.0", "<mass>-1"), &[], "bodies.xml:9:9: <mass> is -1 kg, it must be positive"),
+        (&CASPR, ("<mass>60.0", "<mass>60,0"), &[], "decimals are written with a point"),
+        (&CASPR, ("<mass>60.0", "<mass>NaN"), &[], "<mass> is NaN, which is not a finite number"),
+        (&CASPR, ("<mass>60.0", "<mass>60 kg"), &[], "<mass> is `60 kg`, which is not a number"),
+        (&CASPR, ("<com_location>0.01 ", "<com_location>"), &[], "<com_location> holds 2 numbers, it must be three"),
+        (&CASPR, ("ref=\"com\"", "ref=\"end\""), &[], "attribute `ref` of <inertia> is `end`"),
+        (&CASPR, ("<Ixx>4.0", "<Ixx>40"), &[], "fits no body"),
+        (&CASPR, ("<Ixx>4.0", "<Ixx>-4"), &[], "--inertia-kg-m2"),
+        (&CASPR, ("</link_rigid>", ""), &[], "not well-formed XML"),
+        // CASPR: cables.
+        (
+            &CASPR,
+            ("cable_ideal name=\"1\" ", "cable_ideal name=\"1\" x"),
+            &[],
+            "has no attribute `attachment_reference`",
+        ),
+        (&CASPR, ("attachment_reference=\"joint\"", "attachment_reference=\"end\""), &[], "it must be joint or com"),
+        (
+            &CASPR,
+            ("<attachments>", "<attachments><attachment/>"),
+            &[],
+            "cable \"1\" has 3 attachments; a cable of a robot file",
+        ),
+        (&CASPR, ("<link>0</link>", "<link>2</link>"), &[], "<link> of cable \"1\" is `2`; 0 is the base"),
+        (&CASPR, ("<link>0</link>", "<link>1</link>"), &[], "has both ends on the platform"),
+        (&CASPR, ("<location>0.15 4.0 5.0</location>", ""), &[], "<attachment> has no <location>"),
+        (&CASPR, ("<K>1e6", "<K>0"), &["--cable-set", "springs"], "<K> of cable \"1\" is 0 N, it must be positive"),
+        (&CASPR, ("default_cable_set=\"ideal\"", ""), &[], "choose one with --cable-set: \"ideal\" and \"springs\""),
+        (&CASPR, ("default_cable_set=\"ideal\"", "default_cable_set=\"old\""), &[], "which default_cable_set names"),
+        (&CASPR, ("id=\"springs\"", "id=\"ideal\""), &[], "a second set is called \"ideal\""),
+        (&CASPR, ("<cables ", "<cables "), &["--cable-set", "spring"], "did you mean \"springs\"?"),
+        // WireX.
+        (WIREX, ("3R3T", "1R2T"), &[], "tripod.wcrfx:2:5: the platform moves in the xy plane"),
+        (WIREX, ("3R3T", "2R3T"), &[], "motion pattern 2R3T is none that a robot file can hold"),
+        (WIREX, ("3R3T", "6T"), &[], "attribute `motionpattern` is `6T`"),
+        (WIREX, ("x=\"0.15\"", "x=\"0,15\""), &[], "tripod.wcrfx:5:17: attribute `x` of <base> is `0,15`"),
+        (WIREX, ("x=\"0.15\"", ""), &[], "<base> has no attribute `x`"),
+        (WIREX, ("mass=\"60.0\"", "mass=\"-60.0\""), &[], "attribute `mass` is -60 kg"),
+        (WIREX, ("mass=\"60.0\"", ""), &[], "the platform has no mass, give --mass-kg KG"),
+        (WIREX, ("elasticity=\"5e10\"", ""), &[], "--axial-stiffness-n"),
+        (WIREX, ("radius=\"0.002\"", ""), &[], "the diameter of the ropes, give --diameter-m"),
+        (WIREX, ("weight=\"0.05\"", ""), &[], "--mass-kg-per-m"),
+        (
+            WIREX,
+            ("weight=\"0.05\"", "weight=\"-1\""),
+            &[],
+            "attribute `weight` of <cable> is -1, it cannot be negative",
+        ),
+        (WIREX, ("<robot ", "<wireRobot/><robots "), &[], "not well-formed XML"),
+        (
+            WIREX,
+            ("<models", "<models"),
+            &["--cable-set", "a"],
+            "--cable-set chooses among the sets of a CASPR cables file",
+        ),
+        // MoorDyn.
+        (
+            MOORDYN,
+            ("---------------------- LINES", "--- RODS ---\na\nb\n1 rope Body1\n--- LINES"),
+            &[],
+            "the file has rods",
+        ),
+        (MOORDYN, ("1     rope       1 ", "1     rope       R1A "), &[], "ends at rod `R1A`"),
+        (
+            MOORDYN,
+            ("1     rope       1 ", "1     rope       4.98 "),
+            &[],
+            "the columns have to be those of MoorDyn version 2",
+        ),
+        (MOORDYN, ("1     rope       1 ", "1     rope       99 "), &[], "ends at point 99, which is not defined"),
+        (
+            MOORDYN,
+            ("1     rope       1 ", "1     chain      1 "),
+            &[],
+            "line 1 is of type `chain`, which is not defined",
+        ),
+        (MOORDYN, ("1     Fixed ", "1     Free  "), &[], "ends at point 1, which is not fixed"),
+        (MOORDYN, ("1     Fixed ", "1     Loose "), &[], "tripod.txt:14: point 1 is `LOOSE`"),
+        (MOORDYN, ("3     Fixed ", "1     Fixed "), &[], "a second point has the number 1"),
+        (MOORDYN, ("1     free ", "1     fixed"), &[], "body 1 is fixed: nothing moves"),
+        (MOORDYN, ("0.05     1e6 ", "0.05     curve.txt "), &[], "in a file of its own is not read"),
+        (MOORDYN, ("4.98331806931662", "-4.9"), &[], "column 5 (UnstrLen) is -4.9 m, it must be positive"),
+        (MOORDYN, ("4.0|5.0|7.0", "4.0|5.0"), &[], "column 11 (I) holds 2 numbers"),
+        (MOORDYN, ("60.0", "60,0"), &[], "tripod.txt:10: column 9 (Mass) is `60,0`, which is not a number"),
+        (MOORDYN, ("60.0", "0"), &[], "give --mass-kg KG"),
+    ];
+    for (files, change, more, expected) in cases {
+        let ropes: &[&str] = if *files == CASPR { &ROPES } else { &[] };
+        let output = Changed::of(files, &[*change]).import(&[ropes, more].concat());
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{change:?}: {message}\n{}", stdout(&output));
+        assert!(message.contains(expected), "{change:?}: expected `{expected}` in {message}");
+        assert_eq!(message.lines().count(), 1, "{change:?}: one line, not {message}");
+        assert!(output.stdout.is_empty(), "{change:?}");
+    }
+}
+
+#[test]
+fn kinds_of_cables_that_a_robot_file_does_not_have_are_refused() {
+    for (kind, why) in [
+        ("cable_passive_linear_spring", "a passive spring"),
+        ("cable_vsd_torsion_spring", "a device of variable stiffness"),
+        ("muscle_hill_type", "a muscle"),
+        ("rope", "of a kind that is not known"),
+    ] {
+        let cables = format!("<cables default_cable_set='a'><cable_set id='a'><{kind} name='s'/></cable_set></cables>");
+        let message = caspr_with_cables(&cables);
+        assert!(message.contains(&format!("<{kind}> \"s\" is ")) && message.contains(why), "{message}");
+    }
+    let message = caspr_with_cables("<cables default_cable_set='a'><cable_set id='a'/></cables>");
+    assert!(message.contains("cables.xml:1:31: cable set \"a\" has no cables"), "{message}");
+    assert!(caspr_with_cables("<cables/>").contains("<cables> has no <cable_set>"));
+}
+
+/// The message on the example's body with another file of cables.
+fn caspr_with_cables(cables: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cables.xml");
+    fs::write(&path, cables).unwrap();
+    let output = import(&[&[&example("tripod_bodies.xml"), path.to_str().unwrap()], &ROPES[..]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    stderr(&output).to_owned()
+}
+
+#[test]
+fn files_that_are_none_of_one_robot_are_refused() {
+    let [bodies, cables] = caspr();
+    let (wirex, moordyn) = (example("tripod.wcrfx"), example("tripod.txt"));
+    let yuan = super::robot("yuan2014-4mm.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (svg, empty) = (file("a.svg", b"<svg/>"), file("empty", b""));
+    let (binary, declared) =
+        (file("b", b"<a>\0</a>"), file("c", b"<?xml version='1.0' encoding='utf-8'?><a b='\xE4'/>"));
+    let robots = file("d.wcrfx", b"<models><wireRobot/></models>");
+    for (arguments, expected) in [
+        (&[][..], "required"),
+        (&["no-such-file.xml"], "cannot read no-such-file.xml"),
+        (&["/"], "it is a directory"),
+        (&["/dev/zero"], "larger than 16 MiB"),
+        (&[&bodies], "no CASPR cables file"),
+        (&[&cables], "no CASPR bodies file"),
+        (&[&bodies, &bodies, &cables], "are both a CASPR bodies file"),
+        (&[&bodies, &cables, &wirex], "of more than one program"),
+        (&[&wirex, &wirex], "are both a WireX file"),
+        (&[&moordyn, &moordyn], "2 MoorDyn input files"),
+        (&[&yuan], "neither XML"),
+        (&[&empty], "neither XML"),
+        (&[&svg], "a.svg:1:1: the outermost element is <svg>"),
+        (&[&binary], "character 4 is zero"),
+        (&[&declared], "no text in UTF-8"),
+        (&[&robots], "the old format of WireX"),
+        (&[&wirex, "--diameter-m", "0"], "0 is not positive"),
+        (&[&wirex, "--mass-kg-per-m", "-1"], "-1 is negative"),
+        (&[&wirex, "--axial-stiffness-n", "1e6", "--diameter-m", "0.01"], "cannot be used with"),
+        (&[&wirex, "--inertia-kg-m2", "1,2"], "2 numbers where xx,yy,zz"),
+        (&[&wirex, "-o", &wirex], "refusing to write the result over"),
+    ] {
+        let output = import(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(&wirex).unwrap(), example_text("tripod.wcrfx"));
+}
+
+#[test]
+fn the_robot_file_is_written_as_a_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.toml");
+    let target = path.to_str().unwrap();
+    fs::write(&path, "old").unwrap();
+    let [bodies, cables] = caspr();
+    assert_eq!(import(&[&bodies, &cables, "-o", target]).status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    let output = import(&[&[bodies.as_str(), &cables, "-o", target], &ROPES[..]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).starts_with(&format!("wrote {target}")) && output.stdout.is_empty());
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.starts_with("# Written by funicular") && text.contains("name = \"tripod, cables ideal\""));
+    assert!(!text.contains(Path::new(&bodies).parent().unwrap().to_str().unwrap()), "no folders in the file");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
+}
