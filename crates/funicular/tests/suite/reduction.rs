@@ -69,8 +69,8 @@ fn a_small_model_is_as_good_as_it_says() {
     for damping in [Damping::Ratio(0.003), Damping::Ratio(0.03), Damping::Viscous(0.02)] {
         let (found, rest, dynamics) = model(damping, WANTED);
         assert!(found.truncation_error.unwrap() <= 1e-3, "{:?}", found.truncation_error);
-        // 35 natural frequencies below 5 Hz, and three coordinates a cable for what lies above.
-        assert!(found.mass.nrows() < 80, "{}", found.mass.nrows());
+        // Of the cables' 486 modes that make them exact.
+        assert!(found.mass.nrows() < 140, "{}", found.mass.nrows());
         let x = Direction::Along { direction_w: Vec3::x(), point_p: Vec3::new(0.1, 0.0, 0.0) }.vector(&rest.pose);
         let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::new(0.1, 0.0, 0.0) }.vector(&rest.pose);
         let all = found.damping_error.unwrap() + 1e-3;
