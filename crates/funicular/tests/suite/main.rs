@@ -13,3 +13,4 @@ mod reference;
 mod response;
 mod robot_files;
 mod statics;
+mod tension;
