@@ -65,6 +65,22 @@ impl Line {
         self.tau = tau;
     }
 
+    /// The τ at which the least tension is the minimum, or the slackest where that is above.
+    pub(super) fn at_minimum(&mut self) -> f64 {
+        let mut tau = self.range.minimum.max(self.slackest);
+        // The least tension is nearly linear in τ; 2 or 3 passes. The rest is a guard.
+        for _ in 0..30 {
+            self.set(tau);
+            let least = self.least();
+            let next = (tau + (self.range.minimum - least.value) / least.slope).max(self.slackest);
+            if (next - tau).abs() <= 1e-12 * next {
+                break;
+            }
+            tau = next;
+        }
+        tau
+    }
+
     fn rope(&self) -> Rope {
         self.hanging.catenary.rope()
     }

@@ -62,9 +62,52 @@ struct Step {
 /// Tensions whose least distance from the limits is greatest.
 struct Level {
     tau: Vec<f64>,
-    /// That distance, in units of the widths.
+    /// That distance, in units of the widths, …
     distance: f64,
+    /// … and in those of tensions [N].
+    height: f64,
     held_by: Vec<(usize, Limit)>,
+}
+
+/// A limited growth of the least distance from the limits [N].
+#[derive(Debug, Clone, Copy)]
+struct Climb {
+    from: f64,
+    by: f64,
+}
+
+/// How far the tensions may move in one step towards the largest distance.
+///
+/// Where the optimum is no corner of the linear problem, the corners on both sides take turns. Then the steps are made
+/// smaller: the distance may climb by a limited amount only, which the least move of the tensions provides (a proximal
+/// step). Its fixed points are the same.
+#[derive(Debug)]
+struct Stride {
+    climb: Option<Climb>,
+    last_change: f64,
+    setbacks: usize,
+}
+
+impl Default for Stride {
+    fn default() -> Self {
+        Self { climb: None, last_change: f64::INFINITY, setbacks: 0 }
+    }
+}
+
+impl Stride {
+    fn next(&mut self, change: f64, size: f64, height: f64) {
+        if change > 0.9 * self.last_change {
+            self.setbacks += 1;
+            if self.setbacks > 1 {
+                let by = self.climb.map_or(change * size, |climb| 0.3 * climb.by);
+                self.climb = Some(Climb { from: height, by });
+            }
+        }
+        if let Some(climb) = &mut self.climb {
+            climb.from = height;
+        }
+        self.last_change = change;
+    }
 }
 
 impl<'a> Search<'a> {
@@ -142,6 +185,12 @@ impl<'a> Search<'a> {
         Linear { limits: limits.collect(), columns, right, residual }
     }
 
+    /// The lower limit of cable `i`, or its slackest τ if that is above.
+    fn floor(&self, i: usize, lower: Bound) -> Bound {
+        let slackest = self.lines[i].slackest;
+        if lower.at < slackest { Bound { at: slackest, rate: 1.0 } } else { lower }
+    }
+
     pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let freedoms = self.robot.platform.freedoms.count();
         Solutions::of(&linear.columns, scales, &linear.right, freedoms).ok_or(StaticsError::Singular)
@@ -203,8 +252,8 @@ impl<'a> Search<'a> {
         let mut set = Polyhedron::new(solutions.redundancy());
         let mut rows = Vec::with_capacity(2 * scales.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
-            let least = lower.at.max(self.lines[i].slackest);
-            set.add(solutions.part(i), 1.0, None, scales[i] * least - solutions.particular[i]);
+            let lower = self.floor(i, *lower);
+            set.add(solutions.part(i), 1.0, None, scales[i] * lower.at - solutions.particular[i]);
             rows.push((i, 1.0));
             if upper.at.is_finite() {
                 set.add(solutions.part(i), -1.0, None, solutions.particular[i] - scales[i] * upper.at);
@@ -226,45 +275,73 @@ impl<'a> Search<'a> {
     /// Tensions as far from the limits as possible, in parts of the distance between them.
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
+        let mut stride = Stride::default();
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
-            let level = self.level(&linear, Some(&widths))?;
+            let level = self.level(&linear, Some(&widths), stride.climb)?;
             if level.distance < -VIOLATION {
                 self.least_violation()?;
+                stride = Stride::default();
                 continue;
             }
-            if self.change(&level.tau) <= STILL && linear.residual <= BALANCED {
+            let change = self.change(&level.tau);
+            if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
             }
+            stride.next(change, self.size, level.height);
             self.set(&level.tau);
         }
         Err(self.not_converged())
     }
 
     /// Moves to tensions that violate the limits least; an error if they do violate them.
+    ///
+    /// A cable below its minimum is continued by its tangent there, so that one that would have to push has a violation
+    /// as well, and the forces no kink on which linearisations could disagree. If no cable has to push after all, the
+    /// violation is found once more with the cables as they hang.
     fn least_violation(&mut self) -> Result<(), StaticsError> {
-        let mut last = f64::NEG_INFINITY;
+        let minima: Vec<f64> = self.lines.iter_mut().map(Line::at_minimum).collect();
+        let level = self.least_violation_above(&minima)?;
+        if level.distance >= -VIOLATION * self.size {
+            // There are such tensions; the next linear problem knows.
+            return Ok(());
+        }
+        let slackest: Vec<f64> = self.lines.iter().map(|line| line.slackest).collect();
+        if level.tau.iter().zip(&slackest).all(|(tau, slackest)| tau > slackest)
+            && let Ok(hung) = self.least_violation_above(&slackest)
+            && hung.distance < -VIOLATION * self.size
+        {
+            return Err(StaticsError::BeyondLimits(self.miss(&hung)));
+        }
+        Err(StaticsError::BeyondLimits(self.miss(&level)))
+    }
+
+    /// The least violation when cables are continued by their tangents below these tensions.
+    fn least_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
+        let clipped = |tau: &[f64]| tau.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect::<Vec<f64>>();
+        let mut here = clipped(&self.tensions());
+        self.set(&here);
+        let mut stride = Stride::default();
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
-            let level = self.level(&linear, None)?;
-            let still = self.change(&level.tau) <= VIOLATION && (level.distance - last).abs() <= VIOLATION * self.size;
-            if still && level.distance < -VIOLATION * self.size {
-                return Err(StaticsError::BeyondLimits(self.miss(&level)));
+            let level = self.level(&linear, None, stride.climb)?;
+            here = clipped(&level.tau);
+            let change = self.change(&here);
+            if change <= VIOLATION {
+                return Ok(level);
             }
-            self.set(&level.tau);
-            if level.distance >= -VIOLATION * self.size {
-                // There are such tensions; the next linear problem knows.
-                return Ok(());
-            }
-            last = level.distance;
+            stride.next(change, self.size, level.height);
+            self.set(&here);
         }
         Err(self.not_converged())
     }
 
     /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
-    fn level(&self, linear: &Linear, widths: Option<&[f64]>) -> Result<Level, StaticsError> {
+    ///
+    /// With a `climb` the distance grows by a limited amount instead, and the tensions move little.
+    fn level(&self, linear: &Linear, widths: Option<&[f64]>, climb: Option<Climb>) -> Result<Level, StaticsError> {
         let solutions = self.solutions(linear, &vec![1.0; self.lines.len()])?;
         // The height is in N either way.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
@@ -272,6 +349,7 @@ impl<'a> Search<'a> {
         let mut rows = Vec::with_capacity(3 * self.lines.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let width = widths.map_or(1.0, |widths| widths[i] / unit);
+            let lower = if widths.is_some() { *lower } else { self.floor(i, *lower) };
             let particular = solutions.particular[i];
             set.add(solutions.part(i), 1.0, Some(-width * lower.rate), lower.at - particular);
             rows.push(Some((i, Limit::Minimum)));
@@ -289,16 +367,24 @@ impl<'a> Search<'a> {
             rows.push(None);
         }
         let mut point = match widths {
-            Some(_) => solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at)),
-            None => solutions.along(|i| self.lines[i].tau()),
+            Some(_) if climb.is_none() => {
+                solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at))
+            }
+            _ => solutions.along(|i| self.lines[i].tau()),
         };
-        point.push(0.0);
-        let size = linear.limits.iter().flatten().filter(|b| b.at.is_finite()).fold(self.size, |m, b| m.max(b.at.abs()));
-        let held = set.highest(&mut point, size, self.tolerance(&solutions));
+        let tolerance = self.tolerance(&solutions);
+        let held = if let Some(climb) = climb {
+            point.push(climb.from + climb.by);
+            set.nearest(&mut point, tolerance)
+        } else {
+            point.push(0.0);
+            let limits = linear.limits.iter().flatten().filter(|bound| bound.at.is_finite());
+            set.highest(&mut point, limits.fold(self.size, |most, bound| most.max(bound.at.abs())), tolerance)
+        };
         let Some(held) = held else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
             return match widths {
-                Some(_) => self.level(linear, None),
+                Some(_) => self.level(linear, None, None),
                 None => Err(self.not_converged()),
             };
         };
@@ -307,7 +393,7 @@ impl<'a> Search<'a> {
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
         held_by.sort_by_key(|(i, _)| *i);
-        Ok(Level { tau: solutions.at(&point), distance: height / unit, held_by })
+        Ok(Level { tau: solutions.at(&point), height, distance: height / unit, held_by })
     }
 
     fn miss(&self, level: &Level) -> Miss {
