@@ -279,7 +279,7 @@ impl<'a> Search<'a> {
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
-            let level = self.level(&linear, Some(&widths), stride.climb)?;
+            let level = self.level(&linear, Some(&widths), &self.tensions(), stride.climb)?;
             if level.distance < -VIOLATION {
                 self.least_violation()?;
                 stride = Stride::default();
@@ -319,29 +319,34 @@ impl<'a> Search<'a> {
 
     /// The least violation when cables are continued by their tangents below these tensions.
     fn least_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
-        let clipped = |tau: &[f64]| tau.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect::<Vec<f64>>();
-        let mut here = clipped(&self.tensions());
-        self.set(&here);
+        let mut here = self.tensions();
         let mut stride = Stride::default();
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
+            let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
+            self.set(&hung);
             let linear = self.linearise();
-            let level = self.level(&linear, None, stride.climb)?;
-            here = clipped(&level.tau);
-            let change = self.change(&here);
+            let level = self.level(&linear, None, &here, stride.climb)?;
+            let change = here.iter().zip(&level.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
             if change <= VIOLATION {
                 return Ok(level);
             }
             stride.next(change, self.size, level.height);
-            self.set(&here);
+            here = level.tau;
         }
         Err(self.not_converged())
     }
 
     /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
     ///
-    /// With a `climb` the distance grows by a limited amount instead, and the tensions move little.
-    fn level(&self, linear: &Linear, widths: Option<&[f64]>, climb: Option<Climb>) -> Result<Level, StaticsError> {
+    /// With a `climb` the distance grows by a limited amount instead, and the tensions `here` move little.
+    fn level(
+        &self,
+        linear: &Linear,
+        widths: Option<&[f64]>,
+        here: &[f64],
+        climb: Option<Climb>,
+    ) -> Result<Level, StaticsError> {
         let solutions = self.solutions(linear, &vec![1.0; self.lines.len()])?;
         // The height is in N either way.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
@@ -370,7 +375,7 @@ impl<'a> Search<'a> {
             Some(_) if climb.is_none() => {
                 solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at))
             }
-            _ => solutions.along(|i| self.lines[i].tau()),
+            _ => solutions.along(|i| here[i]),
         };
         let tolerance = self.tolerance(&solutions);
         let held = if let Some(climb) = climb {
@@ -384,7 +389,7 @@ impl<'a> Search<'a> {
         let Some(held) = held else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
             return match widths {
-                Some(_) => self.level(linear, None, None),
+                Some(_) => self.level(linear, None, here, None),
                 None => Err(self.not_converged()),
             };
         };
