@@ -469,7 +469,9 @@ fn what_a_rule_lacks_and_limits_that_exclude_each_other_are_errors_with_numbers(
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..Default::default() })]
 
-    /// Robots of 6 to 9 cables, ropes from thread to 1 kg/m: an answer that holds, or a reason.
+    /// Robots of 7 to 9 cables, ropes from thread to 1 kg/m: an answer that holds, or a reason. Where cables may have
+    /// less tension than they weigh, they hang in deep curves, the problem is not convex, and the search may say that it
+    /// has not converged.
     #[test]
     fn random_robots_are_held_within_their_limits_or_it_is_said_why(
         (robot, _) in any_robot(), at in prop::array::uniform6(-1.0f64..1.0), minimum in 0.0f64..100.0, breadth in 1.0f64..4.0,
@@ -480,6 +482,10 @@ proptest! {
             maximum: Some(minimum + 10f64.powf(breadth)),
         });
         let pose = Pose::new([at[0], at[1], at[2]], [10.0 * at[3], 10.0 * at[4], 10.0 * at[5]]);
+        let weight = robot.cables.iter().enumerate().fold(0.0, |most: f64, (i, cable)| {
+            let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+            most.max(9.81 * robot.cables[i].material.mass_per_length * chord)
+        });
         let mut verdicts = Vec::new();
         for rule in [TensionRule::Lowest, TensionRule::Closest(vec![200.0]), TensionRule::Middle, TensionRule::Stiffest] {
             let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &rule);
@@ -487,11 +493,12 @@ proptest! {
                 Ok(held) => check(&robot, held),
                 Err(StaticsError::BeyondLimits(miss)) => prop_assert!(miss.by > 0.0),
                 Err(StaticsError::Singular) => {}
+                Err(StaticsError::NotConverged { .. }) if minimum < weight => continue,
                 Err(other) => prop_assert!(false, "{}: {other}", rule.name()),
             }
             verdicts.push(held.is_ok());
         }
-        prop_assert!(verdicts.iter().all(|verdict| *verdict == verdicts[0]), "{verdicts:?}");
+        prop_assert!(verdicts.windows(2).all(|pair| pair[0] == pair[1]), "{verdicts:?}");
     }
 }
 

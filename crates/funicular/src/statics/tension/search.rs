@@ -209,8 +209,8 @@ impl<'a> Search<'a> {
         let count = self.lines.len();
         let mut scales = vec![1.0; count];
         let mut last: Option<(Vec<f64>, Vec<Vec6>, Vec6)> = None;
-        // Deeply sagging cables that overstep go on by shorter steps.
-        let (mut part, mut last_change) = (1.0_f64, f64::INFINITY);
+        // Deeply sagging cables that overstep go on by shorter steps, until the last setback is well behind.
+        let (mut part, mut last_change, mut setback) = (1.0_f64, f64::INFINITY, f64::INFINITY);
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
@@ -219,7 +219,7 @@ impl<'a> Search<'a> {
                     let moved = line.tau() - tau[i];
                     if moved.abs() > 1e-7 * self.size {
                         let bend = (linear.columns[i] - columns[i]).dot(prices) / moved;
-                        scales[i] = (1.0 - bend).clamp(0.2, 5.0).sqrt();
+                        scales[i] = (1.0 - bend).clamp(0.1, 100.0).sqrt();
                     }
                 }
             }
@@ -232,7 +232,11 @@ impl<'a> Search<'a> {
             if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
             }
-            part = if change > 0.9 * last_change { (0.5 * part).max(0.1) } else { (1.5 * part).min(1.0) };
+            if change > 0.9 * last_change {
+                (part, setback) = ((0.5 * part).max(0.05), change);
+            } else if change < 0.3 * setback {
+                part = (2.0 * part).min(1.0);
+            }
             last_change = change;
             let before = self.tensions();
             let after: Vec<f64> = before.iter().zip(&step.tau).map(|(from, to)| from + part * (to - from)).collect();
@@ -321,7 +325,8 @@ impl<'a> Search<'a> {
     fn least_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
         let mut here = self.tensions();
         let mut stride = Stride::default();
-        for _ in 0..MOST_ITERATIONS {
+        let mut mildest: Option<Level> = None;
+        for iteration in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
             self.set(&hung);
@@ -332,9 +337,14 @@ impl<'a> Search<'a> {
                 return Ok(level);
             }
             stride.next(change, self.size, level.height);
-            here = level.tau;
+            here.clone_from(&level.tau);
+            if iteration > MOST_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| level.height > mildest.height) {
+                mildest = Some(level);
+            }
         }
-        Err(self.not_converged())
+        // Very heavy and soft ropes may wander without end. If every linear problem has been impossible, so is the pose;
+        // the mildest of them says by how much, roughly.
+        mildest.filter(|level| level.distance < -VIOLATION * self.size).ok_or_else(|| self.not_converged())
     }
 
     /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
