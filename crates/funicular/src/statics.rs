@@ -210,7 +210,9 @@ pub enum StaticsError {
         value: f64,
     },
     /// Ideal cables are rigid whatever their tension.
-    #[error("the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`")]
+    #[error(
+        "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
+    )]
     NothingToStiffen,
     /// The search did not reach the tolerance.
     #[error(

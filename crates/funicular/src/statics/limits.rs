@@ -46,9 +46,10 @@ impl TensionRange {
 
     /// How far a cable is from these limits.
     pub fn margin(&self, state: &CableState) -> TensionMargin {
-        let (least, greatest) = state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
-            (hanging.catenary.least_tension(), hanging.catenary.greatest_tension())
-        });
+        let (least, greatest) =
+            state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
+                (hanging.catenary.least_tension(), hanging.catenary.greatest_tension())
+            });
         TensionMargin { range: *self, least, greatest }
     }
 }

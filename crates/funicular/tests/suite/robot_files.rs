@@ -538,14 +538,20 @@ fn wrong_limits_of_tension_are_refused_at_their_line() {
     check(
         &limited,
         &[
-            ("negative", "minimum_tension_n = 50", "minimum_tension_n = -1", "`minimum_tension_n` is -1, it must not", 16),
+            (
+                "negative",
+                "minimum_tension_n = 50",
+                "minimum_tension_n = -1",
+                "`minimum_tension_n` is -1, it must not",
+                16,
+            ),
             ("zero maximum", "maximum_tension_n = 900", "maximum_tension_n = 0", "it must be positive", 17),
             ("text", "breaking_load_n = 5000", "breaking_load_n = '5 kN'", "is text, it must be a number", 18),
             ("crossed", "minimum_tension_n = 50", "minimum_tension_n = 901", "is 901, it must be below", 16),
-            ("crossed with the rope", "minimum_tension_n = 60", "minimum_tension_n = 900", "which is 900", 29),
+            ("crossed with the rope", "minimum_tension_n = 60", "minimum_tension_n = 900", "which is 900", 28),
             ("breaks", "maximum_tension_n = 900", "maximum_tension_n = 6000", "`breaking_load_n`, which is 5000", 17),
-            ("breaks", "minimum_tension_n = 60", "maximum_tension_n = 6000", "is 6000, it must not be above", 29),
-            ("of a rope only", "minimum_tension_n = 60", "breaking_load_n = 60", "unknown key `breaking_load_n`", 29),
+            ("breaks", "minimum_tension_n = 60", "maximum_tension_n = 6000", "is 6000, it must not be above", 28),
+            ("of a rope only", "minimum_tension_n = 60", "breaking_load_n = 60", "unknown key `breaking_load_n`", 28),
         ],
     );
 }

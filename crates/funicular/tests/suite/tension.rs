@@ -28,33 +28,32 @@ fn seven_cables(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
     );
     for i in 0..7 {
         // Both triangles and quadrangles turn the platform, in opposite senses.
-        let (turn, twist, up) = if i < 4 { (0.25 * i as f64 + 0.125, 0.13, true) } else { (i as f64 / 3.0, -0.13, false) };
+        let (turn, twist, up) =
+            if i < 4 { (0.25 * f64::from(i) + 0.125, 0.13, true) } else { (f64::from(i) / 3.0, -0.13, false) };
         let around = |turn: f64, radius: f64, z: f64| {
             let angle = std::f64::consts::TAU * turn;
             [radius * angle.cos(), radius * angle.sin(), z]
         };
         let anchor = around(turn, 2.5, if up { 3.0 } else { 0.0 });
         let attachment = around(turn + twist, 0.35, if up { -0.2 } else { 0.2 });
-        text.push_str(&format!(
+        text += &format!(
             "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}\n"
-        ));
+        );
     }
     Robot::from_toml(&text).unwrap()
 }
 
 /// A sequence without pattern, in [0, 1).
 fn spread(i: usize, k: usize) -> f64 {
-    const ROOTS: [f64; 8] = [1.414213562, 1.732050808, 2.236067977, 2.645751311, 3.316624790, 3.605551275, 4.123105626, 4.358898944];
+    const ROOTS: [f64; 8] =
+        [1.414213562, 1.732050808, 2.236067977, 2.645751311, 3.316624790, 3.605551275, 4.123105626, 4.358898944];
     ((i as f64 + 1.0) * ROOTS[k]).fract()
 }
 
 /// The `i`-th pose around a point, within these distances [m] and this angle [degrees].
 fn pose(i: usize, middle: [f64; 3], reach: [f64; 3], angle: f64) -> Pose {
     let part = |k: usize| 2.0 * spread(i, k) - 1.0;
-    Pose::new(
-        std::array::from_fn(|k| middle[k] + reach[k] * part(k)),
-        std::array::from_fn(|k| angle * part(k + 3)),
-    )
+    Pose::new(std::array::from_fn(|k| middle[k] + reach[k] * part(k)), std::array::from_fn(|k| angle * part(k + 3)))
 }
 
 fn cogiro_pose(i: usize) -> Pose {
@@ -195,7 +194,10 @@ fn check(robot: &Robot, held: &Equilibrium) {
 }
 
 fn tau(held: &Equilibrium) -> Vec<f64> {
-    held.cables.iter().map(|c| c.hanging.as_ref().map_or(c.tension_platform, |h| h.catenary.parallel_tension())).collect()
+    held.cables
+        .iter()
+        .map(|c| c.hanging.as_ref().map_or(c.tension_platform, |h| h.catenary.parallel_tension()))
+        .collect()
 }
 
 /// Counts (possible, impossible) poses.
@@ -249,9 +251,11 @@ fn middle_is_as_far_from_the_limits_as_the_best_of_all_corners() {
         let pose = cogiro_pose(i);
         let Ok(held) = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Middle) else { continue };
         check(&robot, &held);
-        let reached = held.cables.iter().enumerate().map(|(i, cable)| {
-            TensionRange::of(&robot, i, cable.chord()).margin(cable).relative().unwrap()
-        });
+        let reached = held
+            .cables
+            .iter()
+            .enumerate()
+            .map(|(i, cable)| TensionRange::of(&robot, i, cable.chord()).margin(cable).relative().unwrap());
         let reached = reached.fold(f64::INFINITY, f64::min);
         // Limits that give way from both sides: corners exist until the best is passed.
         let exists = |part: f64| {
@@ -287,7 +291,9 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
     for (i, robot) in (0..60).flat_map(|i| [(i, cogiro(0.0, 30.0, 900.0)), (i, seven_cables(0.0, 10.0, 1500.0))]) {
         let is_cogiro = robot.cables.len() == 8;
         let (pose, limits) = if is_cogiro { (cogiro_pose(i), [30.0, 900.0]) } else { (seven_pose(i), [10.0, 1500.0]) };
-        let Ok(held) = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest) else { continue };
+        let Ok(held) = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest) else {
+            continue;
+        };
         check(&robot, &held);
         let best = least_stiffness(&held);
         let corners = Straight::at(&robot, &pose, limits).corners();
@@ -343,8 +349,10 @@ fn with_sagging_ropes_no_neighbour_is_better_by_any_rule() {
                 let best = cost(&robot, &held, rule);
                 for k in 0..40 {
                     let reach = [0.01, 0.1, 1.0, 10.0, 100.0][k % 5];
-                    let wanted =
-                        tau(&held).into_iter().enumerate().map(|(c, t)| (t + reach * (spread(k + 40 * i, c) - 0.5)).max(0.0));
+                    let wanted = tau(&held)
+                        .into_iter()
+                        .enumerate()
+                        .map(|(c, t)| (t + reach * (spread(k + 40 * i, c) - 0.5)).max(0.0));
                     let other = TensionRule::Closest(wanted.collect());
                     let other = statics::distribute(&robot, &pose, StaticModel::Catenary, &other).unwrap();
                     check(&robot, &other);

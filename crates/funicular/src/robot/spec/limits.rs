@@ -11,10 +11,12 @@ pub(super) fn read(reader: &mut Reader, section: &Section) -> Option<TensionLimi
 }
 
 /// The breaking load, which may be absent.
+#[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
 pub(super) fn breaking_load(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
     optional(reader, section, "breaking_load_n", Sign::Positive)
 }
 
+#[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
 fn optional(reader: &mut Reader, section: &Section, key: &str, sign: Sign) -> Option<Option<f64>> {
     match section.get(key) {
         Some(value) => reader.number(&format!("`{key}`"), sign, value).map(Some),
@@ -39,10 +41,8 @@ pub(super) fn check(reader: &mut Reader, section: &Section, limits: TensionLimit
         return;
     }
     let Some(breaking_load) = breaking_load else { return };
-    let limits = [
-        ("minimum_tension_n", limits.minimum, minimum_span),
-        ("maximum_tension_n", limits.maximum, maximum_span),
-    ];
+    let limits =
+        [("minimum_tension_n", limits.minimum, minimum_span), ("maximum_tension_n", limits.maximum, maximum_span)];
     for (key, limit, span) in limits {
         if let (Some(limit), Some(span)) = (limit, span)
             && limit > breaking_load

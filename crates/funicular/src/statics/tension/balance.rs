@@ -38,7 +38,7 @@ impl Solutions {
             here[..j].fill(0.0);
             here[j] -= triangle[j][j];
             let squared = here[j..].iter().map(|x| x * x).sum::<f64>();
-            if !(squared > 0.0) {
+            if squared.is_nan() || squared <= 0.0 {
                 return None;
             }
             let scale = (2.0 / squared).sqrt();
@@ -135,7 +135,9 @@ mod tests {
     use super::*;
 
     fn some_columns() -> Vec<Vec6> {
-        (0..8).map(|i| Vec6::from_fn(|j, _| (1.0 + f64::from(i) * 1.7 + j as f64 * (0.9 + f64::from(i))).sin())).collect()
+        (0..8)
+            .map(|i| Vec6::from_fn(|j, _| (1.0 + f64::from(i) * 1.7 + j as f64 * (0.9 + f64::from(i))).sin()))
+            .collect()
     }
 
     #[test]
@@ -161,10 +163,14 @@ mod tests {
     #[test]
     fn dependent_columns_are_singular() {
         let mut columns = some_columns();
-        columns.iter_mut().for_each(|column| column[4] = 2.0 * column[1] - column[0]);
+        for column in &mut columns {
+            column[4] = 2.0 * column[1] - column[0];
+        }
         assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 6).is_none());
         assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 4).is_some());
-        columns.iter_mut().for_each(|column| column[2] = 0.0);
+        for column in &mut columns {
+            column[2] = 0.0;
+        }
         assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 3).is_none());
     }
 }

@@ -332,7 +332,8 @@ impl<'a> Search<'a> {
             self.set(&hung);
             let linear = self.linearise();
             let level = self.level(&linear, None, &here, stride.climb)?;
-            let change = here.iter().zip(&level.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
+            let change =
+                here.iter().zip(&level.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
             if change <= VIOLATION {
                 return Ok(level);
             }
@@ -382,9 +383,7 @@ impl<'a> Search<'a> {
             rows.push(None);
         }
         let mut point = match widths {
-            Some(_) if climb.is_none() => {
-                solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at))
-            }
+            Some(_) if climb.is_none() => solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at)),
             _ => solutions.along(|i| here[i]),
         };
         let tolerance = self.tolerance(&solutions);

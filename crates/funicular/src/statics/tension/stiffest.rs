@@ -17,7 +17,7 @@ const MOST_LINEARISATIONS: usize = 60;
 const MOST_ROUNDS: usize = 100;
 
 /// Gain of stiffness, relative, that is not worth a step.
-const GAIN: f64 = 1e-9;
+const GAIN: f64 = 3e-8;
 
 /// Eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the optimum.
 const CUTS: usize = 3;
@@ -45,7 +45,7 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
         } else {
             search.set(&best);
             reach = 0.3 * step;
-            if reach < 1e-9 * search.size() {
+            if reach < 1e-7 * search.size() {
                 break;
             }
         }
@@ -69,11 +69,7 @@ fn least_eigenvalue(search: &Search<'_>) -> f64 {
 
 /// The stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and how
 /// stiff it then is.
-fn stiffest_of_linear(
-    search: &Search<'_>,
-    linear: &Linear,
-    reach: f64,
-) -> Result<(Vec<f64>, f64), StaticsError> {
+fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Result<(Vec<f64>, f64), StaticsError> {
     let freedoms = search.robot().platform.freedoms.count();
     let here = search.tensions();
     let solutions = search.solutions(linear, &vec![1.0; here.len()])?;
