@@ -36,9 +36,10 @@ fn seven_cables(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
         };
         let anchor = around(turn, 2.5, if up { 3.0 } else { 0.0 });
         let attachment = around(turn + twist, 0.35, if up { -0.2 } else { 0.2 });
-        text += &format!(
+        let cable = format!(
             "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}\n"
         );
+        text.push_str(&cable);
     }
     Robot::from_toml(&text).unwrap()
 }
