@@ -11,7 +11,7 @@ use funicular::math::Vec3;
 use funicular::statics::StaticModel;
 pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
-use values::{Input, Lengths, MassRange, Output, PoseNumbers};
+use values::{Input, Lengths, MassRange, Output, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
@@ -34,7 +34,8 @@ pub(crate) enum Command {
     /// Equilibrium: pose, tensions, sag
     #[command(after_help = "Examples:\n  funicular statics robots/yuan2014-4mm.toml\n  \
         funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \
-        funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6")]
+        funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6\n  \
+        funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200")]
     Statics(StaticsArgs),
     /// The 6×6 stiffness at one frequency, static at 0 Hz
     #[command(after_help = "Examples:\n  funicular stiffness robots/yuan2014-4mm.toml\n  \
@@ -210,7 +211,30 @@ pub(crate) struct StaticsArgs {
     #[command(flatten)]
     pub(crate) state: StateArgs,
     #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+/// Which tensions a robot with more cables than freedoms has at a pose.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Tensions")]
+pub(crate) struct TensionArgs {
+    /// Which of the tensions that hold a pose: more cables than freedoms leave a choice [default: lowest]
+    #[arg(long, value_name = "RULE", value_enum)]
+    pub(crate) tension_rule: Option<TensionRuleName>,
+
+    /// Tension that cables shall be near to [N], one for all or one a cable in file order; the rule is then closest
+    #[arg(long, value_name = "T|T1,T2,…", value_parser = values::tensions, allow_hyphen_values = true)]
+    pub(crate) wanted_tension_n: Option<Tensions>,
+
+    /// Least tension anywhere in a cable [N] [default: as the robot file says, or 2.5 times the cable's weight]
+    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) min_tension_n: Option<f64>,
+
+    /// Greatest tension anywhere in a cable [N] [default: as the robot file says, or none]
+    #[arg(long, value_name = "N", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) max_tension_n: Option<f64>,
 }
 
 #[derive(Debug, Args)]
@@ -459,6 +483,19 @@ pub(crate) enum Format {
     Json,
     /// One table with a header, every digit
     Csv,
+}
+
+/// Names of [`funicular::statics::TensionRule`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TensionRuleName {
+    /// Least sum of squares of the tensions above their minimum
+    Lowest,
+    /// Least sum of squares of the differences from --wanted-tension-n
+    Closest,
+    /// Farthest from the limits, relative to the distance between them
+    Middle,
+    /// Largest least eigenvalue of the scaled stiffness
+    Stiffest,
 }
 
 /// Names of [`StaticModel`].

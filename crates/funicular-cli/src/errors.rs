@@ -66,7 +66,12 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
 
 fn code(error: &anyhow::Error) -> u8 {
     let no_solution = match error.downcast_ref::<StaticsError>() {
-        Some(StaticsError::Singular | StaticsError::WouldPush { .. } | StaticsError::NotConverged { .. }) => true,
+        Some(
+            StaticsError::Singular
+            | StaticsError::WouldPush { .. }
+            | StaticsError::BeyondLimits(_)
+            | StaticsError::NotConverged { .. },
+        ) => true,
         Some(_) => false,
         None => {
             matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))

@@ -40,7 +40,7 @@ fn main() -> ExitCode {
 fn run(command: &Command) -> Result<()> {
     match command {
         Command::Check(args) => steps(&args.robot, &args.output, |robot| Ok(commands::check::run(robot))),
-        Command::Statics(args) => steps(&args.robot, &args.output, |robot| commands::statics::run(robot, &args.state)),
+        Command::Statics(args) => steps(&args.robot, &args.output, |robot| commands::statics::run(robot, args)),
         Command::Stiffness(args) => steps(&args.robot, &args.output, |robot| commands::stiffness::run(robot, args)),
         Command::Modes(args) => steps(&args.robot, &args.sink, |robot| commands::modes::run(robot, args)),
         Command::Frf(args) => steps(&args.robot, &args.sink, |robot| commands::frf::run(robot, args)),

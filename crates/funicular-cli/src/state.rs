@@ -1,11 +1,11 @@
 //! The static state that an analysis starts from: as the robot file says, or as the options say.
 
-use crate::args::{CableModelName, ModelArgs, StateArgs};
+use crate::args::{CableModelName, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
-use funicular::robot::{Freedoms, Pose, Robot, State};
-use funicular::statics::{self, Equilibrium, StaticModel};
+use funicular::robot::{Freedoms, Pose, Robot, State, TensionLimits};
+use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use funicular::validity;
 use serde::Serialize;
 
@@ -28,6 +28,61 @@ pub(crate) fn equilibrium(robot: Robot, args: &StateArgs) -> Result<AtRest> {
         ),
     };
     Ok(AtRest { robot, equilibrium })
+}
+
+/// As [`equilibrium`], the tensions of a pose as these options ask; with the rule they were chosen by, if there was a
+/// choice.
+pub(crate) fn equilibrium_with(
+    robot: Robot,
+    args: &StateArgs,
+    tensions: &TensionArgs,
+) -> Result<(AtRest, Option<TensionRule>)> {
+    let limits = TensionLimits { minimum: tensions.min_tension_n, maximum: tensions.max_tension_n };
+    let robot = with_options(robot, args)?.with_tension_limits(limits);
+    for cable in &robot.cables {
+        if let TensionLimits { minimum: Some(minimum), maximum: Some(maximum) } = cable.limits()
+            && minimum >= maximum
+        {
+            bail!(
+                "the least tension of cable \"{}\" is {minimum} N and its greatest {maximum} N: give --min-tension-n \
+                 below --max-tension-n (what is not given is as the robot file says)",
+                cable.name
+            );
+        }
+    }
+    let asked = rule(tensions)?;
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    match &robot.state {
+        State::Pose(pose) if cables > freedoms => {
+            let rule = asked.unwrap_or_default();
+            let equilibrium = statics::distribute(&robot, pose, args.static_model.into(), &rule)?;
+            Ok((AtRest { robot, equilibrium }, Some(rule)))
+        }
+        State::Pose(_) if asked.is_some() => bail!(
+            "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
+             pose; leave out --tension-rule and --wanted-tension-n"
+        ),
+        State::Lengths(_) if asked.is_some() => bail!(
+            "a tension rule has nothing to choose: the state is given by unstrained lengths, which determine the \
+             tensions; give --pose"
+        ),
+        // The limits are in the robot now, for warnings to compare with.
+        _ => Ok((equilibrium(robot, &StateArgs { lengths_m: None, pose: None, mass_kg: None, ..*args })?, None)),
+    }
+}
+
+/// The rule that the options name.
+fn rule(tensions: &TensionArgs) -> Result<Option<TensionRule>> {
+    let wanted = tensions.wanted_tension_n.as_ref().map(|wanted| wanted.0.clone());
+    Ok(match (tensions.tension_rule, wanted) {
+        (None | Some(TensionRuleName::Closest), Some(wanted)) => Some(TensionRule::Closest(wanted)),
+        (Some(TensionRuleName::Closest), None) => bail!("--tension-rule closest needs --wanted-tension-n"),
+        (Some(_), Some(_)) => bail!("--wanted-tension-n goes with --tension-rule closest only"),
+        (Some(TensionRuleName::Lowest), None) => Some(TensionRule::Lowest),
+        (Some(TensionRuleName::Middle), None) => Some(TensionRule::Middle),
+        (Some(TensionRuleName::Stiffest), None) => Some(TensionRule::Stiffest),
+        (None, None) => None,
+    })
 }
 
 /// The robot with the state and the mass that the options give.

@@ -7,8 +7,8 @@ use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::response::{self, Direction, Quantity};
-use funicular::robot::{Robot, State};
-use funicular::statics::{self, StaticModel};
+use funicular::robot::{Robot, State, TensionLimits};
+use funicular::statics::{self, StaticModel, TensionRule};
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
 use std::time::Duration;
@@ -50,6 +50,33 @@ fn statics_both_ways(c: &mut Criterion) {
     c.bench_function("statics: pose to lengths", |b| {
         b.iter(|| statics::inverse(&robot, black_box(&pose), StaticModel::Catenary).expect("converges"));
     });
+}
+
+/// One pose an iteration, of a thousand all over the workspace of CoGiRo that its limits allow.
+fn tension_distribution(c: &mut Criterion) {
+    let robot = Robot::from_toml(include_str!("../../../robots/cogiro.toml")).expect("the library's robot");
+    let robot = robot.with_tension_limits(TensionLimits { minimum: Some(50.0), maximum: Some(1500.0) });
+    let possible = |pose: &Pose| statics::distribute(&robot, pose, StaticModel::Catenary, &TensionRule::Lowest).is_ok();
+    let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
+    let poses: Vec<Pose> = (0..4000)
+        .map(|i| {
+            let (x, y, z) = (part(i, 2f64.sqrt()), part(i, 3f64.sqrt()), part(i, 5f64.sqrt()));
+            let turn = [7.0, 11.0, 13.0].map(|square: f64| 10.0 * part(i, square.sqrt()));
+            Pose::new([6.0 * x, 4.0 * y, 2.0 + 1.5 * z], turn)
+        })
+        .filter(possible)
+        .take(1000)
+        .collect();
+    let wanted = TensionRule::Closest(vec![500.0]);
+    for rule in [TensionRule::Lowest, wanted, TensionRule::Middle, TensionRule::Stiffest] {
+        let mut i = 0;
+        c.bench_function(&format!("tension_distribution: {}", rule.name()), |b| {
+            b.iter(|| {
+                i = (i + 1) % poses.len();
+                statics::distribute(&robot, black_box(&poses[i]), StaticModel::Catenary, &rule).expect("possible")
+            });
+        });
+    }
 }
 
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
@@ -120,6 +147,6 @@ fn exact_cables(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, responses, natural_frequencies, exact_cables
+    targets = one_catenary, statics_both_ways, tension_distribution, responses, natural_frequencies, exact_cables
 }
 criterion_main!(jobs);

@@ -13,6 +13,7 @@
 //! from 0 (taut) to ∞ (a loop that hangs straight down), and no term cancels on the way: a cable of any tautness,
 //! sag and inclination, vertical included, is one case. Derivation: docs/theory.md, equations (6) to (10).
 
+mod parallel;
 pub mod space;
 
 use thiserror::Error;
@@ -278,6 +279,25 @@ impl Catenary {
     #[inline]
     pub fn parallel_tension(&self) -> f64 {
         self.out_of_plane_stiffness() * hypot(self.span, self.rise)
+    }
+
+    /// Least parallel tension over weight (w times chord) at which both end tensions grow with it whatever the slope: a
+    /// level cable that sags further (the lowest end tension is at v = 1.1997) is heavier at its ends, not lighter.
+    pub(crate) const SLACKEST: f64 = 1.0 / 2.4;
+
+    /// The least tension anywhere in the cable [N]: of its lowest point if that is between the ends, else of the lower
+    /// end.
+    pub fn least_tension(&self) -> f64 {
+        if self.vertical_force_at_start() < 0.0 && self.vertical_force_at_end() > 0.0 {
+            self.horizontal
+        } else {
+            self.tension_at_start().min(self.tension_at_end())
+        }
+    }
+
+    /// The greatest tension anywhere in the cable [N]: of the upper end.
+    pub fn greatest_tension(&self) -> f64 {
+        self.tension_at_start().max(self.tension_at_end())
     }
 
     /// Derivative of [`Self::parallel_tension`] by the unstrained length [N/m].

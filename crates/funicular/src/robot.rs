@@ -81,6 +81,27 @@ pub struct Material {
     pub mass_per_length: f64,
     /// Damping.
     pub damping: Damping,
+    /// Limits of the tension of every cable of this rope.
+    pub tension_limits: TensionLimits,
+    /// Tension at which it breaks [N].
+    pub breaking_load: Option<f64>,
+}
+
+/// Tensions between which a cable shall be kept [N]; `None` where the file says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TensionLimits {
+    /// Least tension, anywhere in the cable.
+    pub minimum: Option<f64>,
+    /// Greatest tension, anywhere in the cable.
+    pub maximum: Option<f64>,
+}
+
+impl TensionLimits {
+    /// These limits, and `other` where there is none.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self { minimum: self.minimum.or(other.minimum), maximum: self.maximum.or(other.maximum) }
+    }
 }
 
 /// One cable, from the platform to its anchor.
@@ -94,6 +115,16 @@ pub struct Cable {
     pub anchor_w: Vec3,
     /// Attachment point in the platform frame [m].
     pub attachment_p: Vec3,
+    /// Limits of its tension, before those of its rope.
+    pub tension_limits: TensionLimits,
+}
+
+impl Cable {
+    /// The limits of its tension: its own, then those of its rope; nothing is above what the rope breaks at.
+    pub fn limits(&self) -> TensionLimits {
+        let breaking = TensionLimits { minimum: None, maximum: self.material.breaking_load };
+        self.tension_limits.or(self.material.tension_limits).or(breaking)
+    }
 }
 
 /// What is known of the state before an analysis.
@@ -150,6 +181,16 @@ impl Robot {
         let n = self.cables.len() as f64;
         let mean = self.cables.iter().map(|c| c.attachment_p.norm()).sum::<f64>() / n;
         if mean > 0.0 { mean } else { 1.0 }
+    }
+
+    /// This robot with limits of tension that hold for every cable, before those of its file.
+    #[must_use]
+    pub fn with_tension_limits(&self, limits: TensionLimits) -> Self {
+        let mut robot = self.clone();
+        for cable in &mut robot.cables {
+            cable.tension_limits = limits.or(cable.tension_limits);
+        }
+        robot
     }
 
     /// This robot with another platform mass [kg]; inertia tensor and centre of mass stay.

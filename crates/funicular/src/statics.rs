@@ -2,10 +2,14 @@
 
 mod forward;
 mod inverse;
+mod limits;
 mod start;
+mod tension;
 
 pub use forward::forward;
 pub use inverse::inverse;
+pub use limits::{Limit, TensionMargin, TensionRange};
+pub use tension::{Miss, TensionRule, distribute};
 
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
@@ -130,10 +134,10 @@ pub enum StaticsError {
         /// Freedoms of the platform.
         freedoms: usize,
     },
-    /// Inverse statics has one solution only if there are as many cables as freedoms.
+    /// Fewer cables than freedoms hold no given pose.
     #[error(
-        "inverse statics of {cables} cables for {freedoms} freedoms: the tensions are determined only when both numbers \
-         are equal; give unstrained lengths instead of a pose"
+        "inverse statics of {cables} cables for {freedoms} freedoms: it needs at least as many cables as the platform \
+         has freedoms"
     )]
     InverseCableCount {
         /// Cables of the robot.
@@ -161,6 +165,55 @@ pub enum StaticsError {
         /// Its tension [N], not positive.
         tension: f64,
     },
+    /// No tensions within the limits hold the pose.
+    #[error(
+        "no tensions within their limits hold this pose: the nearest miss the limits {0}; choose another pose, mass or \
+         centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
+    )]
+    BeyondLimits(Miss),
+    /// Limits between which there is nothing.
+    #[error(
+        "cable \"{cable}\" may have tensions from {minimum} N to {maximum} N, which is nothing: give it a \
+         `minimum_tension_n` below its maximum (without one it is 2.5 times the cable's weight)"
+    )]
+    LimitsExclude {
+        /// Name of the cable.
+        cable: String,
+        /// Least tension [N].
+        minimum: f64,
+        /// Greatest tension [N].
+        maximum: f64,
+    },
+    /// A rule that needs a maximum.
+    #[error(
+        "the tension rule `{rule}` needs a greatest tension for every cable, and cable \"{cable}\" has none: give \
+         `maximum_tension_n` or `breaking_load_n` in the robot file, or choose the rule `lowest` or `closest`"
+    )]
+    NeedsMaximum {
+        /// Name of the first cable without one.
+        cable: String,
+        /// Name of the rule.
+        rule: &'static str,
+    },
+    /// A number of wanted tensions that is not the number of cables.
+    #[error("{given} wanted tensions for {cables} cables: give one for all, or one a cable, in file order")]
+    WantedCount {
+        /// Tensions given.
+        given: usize,
+        /// Cables of the robot.
+        cables: usize,
+    },
+    /// A wanted tension that is not finite or negative.
+    #[error("the wanted tension is {value} N: it must be finite and not negative")]
+    Wanted {
+        /// Value [N].
+        value: f64,
+    },
+    /// Ideal cables are rigid whatever their tension.
+    #[error(
+        "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
+    )]
+    NothingToStiffen,
     /// The search did not reach the tolerance.
     #[error(
         "no equilibrium found in {iterations} iterations: scaled residual {residual:.3e} (limit {limit:.0e}) at position \

@@ -4,7 +4,7 @@ use crate::cable::closed_form::ClosedForm;
 use crate::cable::exact::Exact;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, static_sag};
 use crate::robot::Robot;
-use crate::statics::{CableState, Equilibrium, Stability, StaticModel};
+use crate::statics::{CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -22,6 +22,26 @@ pub enum Warning {
         cable: String,
         /// Its tension [N], negative.
         tension: f64,
+    },
+    /// A rope beyond its breaking load.
+    Breaks {
+        /// Name of the cable.
+        cable: String,
+        /// Its greatest tension [N].
+        tension: f64,
+        /// What its rope breaks at [N].
+        breaking_load: f64,
+    },
+    /// A tension beyond a limit that the robot file has.
+    BeyondLimit {
+        /// Name of the cable.
+        cable: String,
+        /// Its least or greatest tension [N].
+        tension: f64,
+        /// Which limit.
+        limit: Limit,
+        /// The limit [N].
+        value: f64,
     },
     /// An equilibrium that the platform leaves by itself.
     Unstable {
@@ -108,6 +128,22 @@ impl fmt::Display for Warning {
                  static model `spring` or `catenary`, or another pose",
                 -tension
             ),
+            Self::Breaks { cable, tension, breaking_load } => write!(
+                f,
+                "cable \"{cable}\" has {tension:.1} N, and its rope breaks at {breaking_load} N: this state cannot be; \
+                 choose a stronger rope, another pose or less load"
+            ),
+            Self::BeyondLimit { cable, tension, limit, value } => {
+                let (most, side, name) = match limit {
+                    Limit::Minimum => ("as little as", "less", "minimum_tension_n"),
+                    Limit::Maximum => ("up to", "more", "maximum_tension_n"),
+                };
+                write!(
+                    f,
+                    "cable \"{cable}\" has {most} {tension:.1} N, {side} than its `{name}`, {value} N: choose another \
+                     pose, load or lengths, or another limit"
+                )
+            }
             Self::Unstable { directions, least_stiffness } => write!(
                 f,
                 "the equilibrium is not stable: {directions} of its directions {} not opposed (least scaled stiffness \
@@ -138,10 +174,25 @@ impl fmt::Display for Warning {
     }
 }
 
+/// Where a cable is beyond the limits that the file has, or beyond what its rope bears; the worst only.
+fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning> {
+    let (cable, limits) = (&robot.cables[i], robot.cables[i].limits());
+    let name = cable.name.clone();
+    if let Some(breaking_load) = cable.material.breaking_load.filter(|load| margin.greatest > *load * (1.0 + 1e-6)) {
+        return Some(Warning::Breaks { cable: name, tension: margin.greatest, breaking_load });
+    }
+    // Within a millionth is within: that is what tensions are found to.
+    if let Some(value) = limits.maximum.filter(|most| margin.greatest > *most * (1.0 + 1e-6)) {
+        return Some(Warning::BeyondLimit { cable: name, tension: margin.greatest, limit: Limit::Maximum, value });
+    }
+    let value = limits.minimum.filter(|least| margin.least < *least * (1.0 - 1e-6))?;
+    Some(Warning::BeyondLimit { cable: name, tension: margin.least, limit: Limit::Minimum, value })
+}
+
 /// Warnings about a static state.
 pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    for (cable, state) in robot.cables.iter().zip(&equilibrium.cables) {
+    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
         if equilibrium.model == StaticModel::Ideal {
             if state.tension_platform < 0.0 {
                 let (cable, tension) = (cable.name.clone(), state.tension_platform);
@@ -150,6 +201,7 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
         } else if state.is_slack() {
             warnings.push(Warning::Slack { cable: cable.name.clone() });
         }
+        warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, state.chord()).margin(state)));
     }
     if let Stability::Unstable { least_stiffness, directions } = equilibrium.stability {
         warnings.push(Warning::Unstable { directions, least_stiffness });

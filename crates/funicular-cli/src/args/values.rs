@@ -51,6 +51,15 @@ pub(crate) fn lengths(text: &str) -> Result<Lengths, String> {
     Ok(Lengths(text.split(',').map(positive).collect::<Result<_, _>>()?))
 }
 
+/// Tensions [N], one or one a cable.
+#[derive(Debug, Clone)]
+pub(crate) struct Tensions(pub(crate) Vec<f64>);
+
+/// `500` or `500,450,…`
+pub(crate) fn tensions(text: &str) -> Result<Tensions, String> {
+    Ok(Tensions(text.split(',').map(not_negative).collect::<Result<_, _>>()?))
+}
+
 /// Position [m] and roll, pitch, yaw [degrees].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PoseNumbers {

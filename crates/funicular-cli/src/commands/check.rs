@@ -3,7 +3,7 @@
 use crate::output::Results;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Damping, Freedoms, Robot, State};
+use funicular::robot::{Damping, Freedoms, Robot, State, TensionLimits};
 use serde::Serialize;
 use std::cmp::Ordering;
 use std::fmt::Write;
@@ -43,6 +43,33 @@ struct MaterialRow {
     damping_ratio: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     viscous_damping_n_s_m2: Option<f64>,
+    #[serde(flatten)]
+    limits: LimitRow,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    breaking_load_n: Option<f64>,
+}
+
+/// Limits of tension, as far as there are any.
+#[derive(Serialize, PartialEq)]
+struct LimitRow {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    minimum_tension_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    maximum_tension_n: Option<f64>,
+}
+
+impl LimitRow {
+    fn of(limits: TensionLimits) -> Self {
+        Self { minimum_tension_n: limits.minimum, maximum_tension_n: limits.maximum }
+    }
+
+    fn cells(&self) -> [String; 2] {
+        [or_none(self.minimum_tension_n), or_none(self.maximum_tension_n)]
+    }
+}
+
+fn or_none(value: Option<f64>) -> String {
+    value.map_or_else(|| table::NONE.to_owned(), |value| short(value, 4))
 }
 
 #[derive(Serialize)]
@@ -53,6 +80,9 @@ struct CableRow {
     attachment_m: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     unstrained_length_m: Option<f64>,
+    /// Its own or those of its rope.
+    #[serde(flatten)]
+    limits: LimitRow,
 }
 
 #[derive(Serialize)]
@@ -75,6 +105,8 @@ pub(crate) fn run(robot: Robot) -> Checked {
             mass_kg_per_m: rope.mass_per_length,
             damping_ratio,
             viscous_damping_n_s_m2,
+            limits: LimitRow::of(rope.tension_limits),
+            breaking_load_n: rope.breaking_load,
         };
         if !materials.contains(&row) {
             materials.push(row);
@@ -94,6 +126,7 @@ pub(crate) fn run(robot: Robot) -> Checked {
             anchor_m: cable.anchor_w.into(),
             attachment_m: cable.attachment_p.into(),
             unstrained_length_m: lengths.map(|lengths| lengths[i]),
+            limits: LimitRow::of(cable.limits()),
         })
         .collect();
     let (state, pose) = match &robot.state {
@@ -134,11 +167,6 @@ fn warnings(robot: &Robot) -> Vec<String> {
         warnings.push(format!(
             "{cables} cables cannot hold {freedoms} freedoms: statics needs at least as many cables as the platform has \
              freedoms ({freedoms}; a point mass has 3)"
-        ));
-    } else if cables > freedoms && matches!(robot.state, State::Pose(_)) {
-        warnings.push(format!(
-            "the state is a pose, and {cables} cables for {freedoms} freedoms leave the tensions undetermined: give \
-             unstrained lengths instead"
         ));
     }
     warnings
@@ -210,9 +238,13 @@ impl Results for Checked {
             "attachment_y_m",
             "attachment_z_m",
             "unstrained_length_m",
+            "minimum_tension_n",
+            "maximum_tension_n",
         ])?;
         for c in &self.cables {
-            out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m))?;
+            let LimitRow { minimum_tension_n, maximum_tension_n } = c.limits;
+            let limits = (minimum_tension_n, maximum_tension_n);
+            out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m, limits))?;
         }
         Ok(())
     }
@@ -220,23 +252,41 @@ impl Results for Checked {
 
 impl Checked {
     fn rope_table(&self) -> String {
-        let mut ropes = Table::new(&["rope", "EA [N]", "mass [kg/m]", "damping ratio", "viscous damping [N s/m²]"]);
-        let or_none = |value: Option<f64>| value.map_or_else(|| table::NONE.to_owned(), |v| short(v, 4));
+        let limited = |rope: &MaterialRow| rope.limits.cells().iter().any(|cell| cell != table::NONE);
+        let limited = self.materials.iter().any(|rope| limited(rope) || rope.breaking_load_n.is_some());
+        let header = [
+            "rope",
+            "EA [N]",
+            "mass [kg/m]",
+            "damping ratio",
+            "viscous damping [N s/m²]",
+            "least T [N]",
+            "greatest T [N]",
+            "breaks at [N]",
+        ];
+        let mut ropes = Table::new(&header[..if limited { 8 } else { 5 }]);
         for rope in &self.materials {
-            ropes.row(vec![
+            let mut row = vec![
                 rope.name.clone(),
                 short(rope.axial_stiffness_n, 6),
                 short(rope.mass_kg_per_m, 5),
                 or_none(rope.damping_ratio),
                 or_none(rope.viscous_damping_n_s_m2),
-            ]);
+            ];
+            if limited {
+                row.extend(rope.limits.cells());
+                row.push(or_none(rope.breaking_load_n));
+            }
+            ropes.row(row);
         }
         ropes.to_string()
     }
 
     fn cable_table(&self) -> String {
-        let mut cables =
-            Table::new(&["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]"]).text_columns(&[1]);
+        let limited = self.cables.iter().any(|cable| cable.limits.cells().iter().any(|cell| cell != table::NONE));
+        let header =
+            ["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]", "least T [N]", "greatest T [N]"];
+        let mut cables = Table::new(&header[..if limited { 7 } else { 5 }]).text_columns(&[1]);
         for cable in &self.cables {
             let point = |values: &[f64; 3]| {
                 values.iter().fold(String::new(), |mut text, value| {
@@ -244,13 +294,17 @@ impl Checked {
                     text
                 })
             };
-            cables.row(vec![
+            let mut row = vec![
                 cable.name.clone(),
                 cable.material.clone(),
                 point(&cable.anchor_m),
                 point(&cable.attachment_m),
                 decimals_or_none(cable.unstrained_length_m, 4),
-            ]);
+            ];
+            if limited {
+                row.extend(cable.limits.cells());
+            }
+            cables.row(row);
         }
         cables.to_string()
     }

@@ -54,6 +54,15 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT --lengths-m 1,2,3,4,5,inf", "not a finite number"),
         ("statics ROBOT --lengths-m 1,2,3,4,5,1e-13", "at least 1e-12"),
         ("statics ROBOT --lengths-m 7,7,7,7,7,7 --pose 0,0,1", "cannot be used with"),
+        // Tensions.
+        ("statics ROBOT --tension-rule highest", "[possible values: lowest, closest, middle, stiffest]"),
+        ("statics ROBOT --tension-rule lowest", "given by unstrained lengths"),
+        ("statics ROBOT --pose 0,0,0.5 --tension-rule lowest", "6 cables for 6 freedoms"),
+        ("statics ROBOT --tension-rule closest", "needs --wanted-tension-n"),
+        ("statics ROBOT --tension-rule middle --wanted-tension-n 5", "closest only"),
+        ("statics ROBOT --wanted-tension-n 5,-1", "-1 is negative"),
+        ("statics ROBOT --min-tension-n 5 --max-tension-n 5", "give --min-tension-n below --max-tension-n"),
+        ("statics ROBOT --max-tension-n 0", "0 is not positive"),
         ("statics ROBOT --mass-kg -3", "-3 is not positive"),
         ("statics ROBOT --mass-kg 0", "0 is not positive"),
         ("statics ROBOT --mass-kg ten", "`ten` is not a number"),
@@ -178,12 +187,6 @@ fn bytes_that_are_no_text_are_refused() {
 }
 
 #[test]
-fn a_pose_of_more_cables_than_freedoms_asks_for_lengths() {
-    let output = run(&["statics", &super::robot("cogiro.toml"), "--pose", "0,0,1.5"]);
-    assert_refused(&output, 2, "give unstrained lengths", "cogiro");
-}
-
-#[test]
 fn a_point_mass_neither_turns_nor_extends() {
     let robot = super::robot("sap2000-8-cable-point-mass.toml");
     for (line, expected) in [
@@ -222,4 +225,21 @@ fn every_command_has_help_with_an_example() {
     assert!(super::succeed(&["--version"]).starts_with("funicular "));
     let bare = run(&[]);
     assert_eq!(bare.status.code(), Some(2));
+}
+
+#[test]
+fn tensions_that_no_choice_provides_are_no_solution_and_what_binds_is_named() {
+    let cogiro = super::robot("cogiro.toml");
+    let refused = |options: &[&str], code, expected| {
+        assert_refused(
+            &run(&[&["statics", cogiro.as_str(), "--pose", "0,0,1.5"], options].concat()),
+            code,
+            expected,
+            expected,
+        );
+    };
+    refused(&["--max-tension-n", "200"], 1, "the nearest miss the limits by ");
+    refused(&["--max-tension-n", "200"], 1, "held by the maximum of cables ");
+    refused(&["--wanted-tension-n", "1,2"], 2, "2 wanted tensions for 8 cables");
+    refused(&["--tension-rule", "stiffest", "--static-model", "ideal"], 2, "ideal cables, which are rigid");
 }

@@ -317,3 +317,51 @@ fn a_list_without_modes_says_so_without_an_empty_table() {
     assert!(compared.contains("no modes, as the reference") && !compared.contains("[Hz]"), "{compared}");
     assert!(text.contains("0 peaks") && !text.contains("peak [Hz]"), "{text}");
 }
+
+#[test]
+fn tensions_of_a_redundant_robot_follow_the_rule_and_show_their_limits() {
+    let cogiro = robot("cogiro.toml");
+    let pose = ["statics", &cogiro, "--pose", "1,1,1.5"];
+    let of = |options: &[&str]| json(&[&pose, options].concat());
+    let tensions = |value: &Value| -> Vec<f64> {
+        value["cables"].as_array().unwrap().iter().map(|c| number(&c["tension_platform_n"])).collect()
+    };
+    let lowest = of(&[]);
+    assert_eq!(lowest["tension_rule"], "lowest");
+    assert!(number(&lowest["residual"]) <= 1e-10);
+    for cable in lowest["cables"].as_array().unwrap() {
+        assert_eq!((number(&cable["minimum_tension_n"]), number(&cable["maximum_tension_n"])), (100.0, 5000.0));
+        assert!(number(&cable["tension_margin_n"]) > -1e-4 && number(&cable["tension_margin"]) < 0.5);
+    }
+    let reached = |value: &Value| value["cables"].as_array().unwrap().iter().any(|c| c["limit_reached"] == "minimum");
+    let sum = |value: &Value| tensions(value).iter().sum::<f64>();
+    let wide = of(&["--max-tension-n", "800", "--min-tension-n", "265"]);
+    assert!(reached(&wide), "{wide}");
+    assert!(tensions(&wide).iter().all(|t| *t > 264.0 && *t < 800.0));
+    let middle = of(&["--tension-rule", "middle", "--max-tension-n", "800"]);
+    let least = |value: &Value| {
+        let margins = value["cables"].as_array().unwrap().iter().map(|c| number(&c["tension_margin_n"]));
+        margins.fold(f64::INFINITY, f64::min)
+    };
+    assert!(least(&middle) >= least(&of(&["--max-tension-n", "800"])));
+    let stiffest = of(&["--tension-rule", "stiffest", "--max-tension-n", "800"]);
+    let stiffness = |value: &Value| number(&value["least_stiffness_n_per_m"]);
+    assert!(stiffness(&stiffest) >= stiffness(&middle) && stiffness(&stiffest) >= stiffness(&lowest));
+    let closest = of(&["--wanted-tension-n", "450"]);
+    assert_eq!(closest["tension_rule"], "closest");
+    assert!(sum(&closest) > sum(&lowest));
+    let text = succeed(&pose);
+    assert!(text.contains("tensions by the rule `lowest`") && text.contains("100 to 5000"), "{text}");
+    // The other analyses start from the same state.
+    assert!(succeed(&["modes", &cogiro, "--pose", "1,1,1.5", "--below-hz", "3"]).contains("Certified"));
+}
+
+#[test]
+fn a_state_beyond_its_limits_is_warned_of_with_numbers() {
+    let output = run(&["statics", "ROBOT", "--max-tension-n", "50"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("more than its `maximum_tension_n`, 50 N"), "{}", stderr(&output));
+    let rope = "materials.rope-4mm.breaking_load_n=52";
+    let output = run(&["statics", "ROBOT", "--set", rope]);
+    assert!(stderr(&output).contains("its rope breaks at 52 N"), "{}", stderr(&output));
+}

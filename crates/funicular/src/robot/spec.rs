@@ -20,11 +20,14 @@
 //! | `axial_stiffness_n` | axial stiffness EA itself | one of the two ways |
 //! | `mass_kg_per_m` | mass per unstrained length; 0 is massless | required |
 //! | `damping_ratio` or `viscous_damping_n_s_m2` | ξ in \[0, 0.5), or c ≥ 0 | `damping_ratio = 0` |
+//! | `minimum_tension_n`, `maximum_tension_n` | limits of the tension in these cables, both ends and between | none |
+//! | `breaking_load_n` | tension at which the rope breaks; the maximum where none is given | none |
 //! | **`[[cables]]`** | | one or more |
 //! | `name` | unique | required |
 //! | `material` | a NAME of `[materials.NAME]` | required |
 //! | `anchor_m` | exit point in the world frame | required |
 //! | `attachment_m` | point in the platform frame | required if rigid, zero if not |
+//! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
 //! | `unstrained_length_m` | positive; all cables have one, or none | none |
 //! | **`[state]`** | a pose; not together with lengths | none |
 //! | `position_m` | platform origin in the world frame | required |
@@ -35,6 +38,7 @@
 
 mod cables;
 mod issue;
+mod limits;
 mod materials;
 mod platform;
 mod read;

@@ -1,9 +1,9 @@
-//! Pose to unstrained lengths and tensions, as many cables as freedoms.
+//! Pose to unstrained lengths and tensions; here as many cables as freedoms, in `tension` more.
 
 use super::forward::{collect_ideal, straight_tensions};
 use super::{
-    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, balance, collect, hang, rope, scaled_residual,
-    weight_wrench, wrench_of,
+    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang, rope,
+    scaled_residual, weight_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
@@ -11,12 +11,15 @@ use crate::robot::{Freedoms, Pose, Robot};
 
 /// The unstrained lengths and tensions that hold the platform at a pose.
 ///
+/// With more cables than freedoms the tensions are chosen: as low as their limits allow, see [`distribute`], which knows
+/// other rules. With as many there is one solution, whatever the limits; [`crate::validity`] compares.
+///
 /// Straight cables have a linear solution; sagging ones start from it, with half of each cable's weight on the
 /// platform, and a Newton iteration on the lengths follows whose steps are taken in the tension parallel to the chord, in which the
 /// forces are nearly linear.
 ///
 /// # Errors
-/// [`StaticsError`]: a number of cables that is not that of the freedoms, a singular pose, a cable that would have to
+/// [`StaticsError`]: fewer cables than freedoms, tensions beyond their limits if there is a choice, a singular pose, a cable that would have to
 /// push, coinciding ends, or no convergence.
 ///
 /// # Example
@@ -33,7 +36,7 @@ use crate::robot::{Freedoms, Pose, Robot};
 pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
     let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
     if cables != freedoms {
-        return Err(StaticsError::InverseCableCount { cables, freedoms });
+        return distribute(robot, pose, model, &TensionRule::default());
     }
     let mut load = weight_wrench(robot, pose);
     if model == StaticModel::Catenary {

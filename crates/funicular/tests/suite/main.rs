@@ -15,3 +15,4 @@ mod reference;
 mod response;
 mod robot_files;
 mod statics;
+mod tension;

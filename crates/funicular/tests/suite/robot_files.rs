@@ -514,3 +514,45 @@ fn a_file_nested_without_end_is_refused_and_does_not_exhaust_the_stack() {
         assert!(!error.render("deep.toml", &text, false).is_empty());
     }
 }
+
+#[test]
+fn limits_of_tension_are_read_and_those_of_a_cable_come_first() {
+    let text = ROBOT
+        .replace("damping_ratio = 0.003", "minimum_tension_n = 50\nmaximum_tension_n = 900\nbreaking_load_n = 5e3")
+        .replacen("unstrained_length_m = 4.0", "unstrained_length_m = 4.0\nmaximum_tension_n = 700", 1);
+    let robot = Robot::from_toml(&text).unwrap();
+    let limits = robot.cables[0].limits();
+    assert_eq!((limits.minimum, limits.maximum), (Some(50.0), Some(700.0)));
+    assert_eq!(robot.cables[0].material.breaking_load, Some(5e3));
+    let none = robot.cables[1].limits();
+    assert_eq!((none.minimum, none.maximum), (None, None));
+    // Nothing is pulled beyond what it breaks at.
+    let text = ROBOT.replace("damping_ratio = 0.003", "breaking_load_n = 5e3");
+    assert_eq!(Robot::from_toml(&text).unwrap().cables[0].limits().maximum, Some(5e3));
+}
+
+#[test]
+fn wrong_limits_of_tension_are_refused_at_their_line() {
+    let limited = ROBOT
+        .replace("damping_ratio = 0.003", "minimum_tension_n = 50\nmaximum_tension_n = 900\nbreaking_load_n = 5000")
+        .replacen("unstrained_length_m = 4.0", "unstrained_length_m = 4.0\nminimum_tension_n = 60", 1);
+    check(
+        &limited,
+        &[
+            (
+                "negative",
+                "minimum_tension_n = 50",
+                "minimum_tension_n = -1",
+                "`minimum_tension_n` is -1, it must not",
+                16,
+            ),
+            ("zero maximum", "maximum_tension_n = 900", "maximum_tension_n = 0", "it must be positive", 17),
+            ("text", "breaking_load_n = 5000", "breaking_load_n = '5 kN'", "is text, it must be a number", 18),
+            ("crossed", "minimum_tension_n = 50", "minimum_tension_n = 901", "is 901, it must be below", 16),
+            ("crossed with the rope", "minimum_tension_n = 60", "minimum_tension_n = 900", "which is 900", 28),
+            ("breaks", "maximum_tension_n = 900", "maximum_tension_n = 6000", "`breaking_load_n`, which is 5000", 17),
+            ("breaks", "minimum_tension_n = 60", "maximum_tension_n = 6000", "is 6000, it must not be above", 28),
+            ("of a rope only", "minimum_tension_n = 60", "breaking_load_n = 60", "unknown key `breaking_load_n`", 28),
+        ],
+    );
+}

@@ -1,5 +1,6 @@
 //! `[[cables]]`: each cable, and what has to hold between them.
 
+use super::limits;
 use super::materials::Materials;
 use super::read::{Key, Reader, Section, Sign, Value, is_zero, nearest, shortened};
 use crate::math::Vec3;
@@ -18,6 +19,8 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "material", example: r#"material = "rope""# },
     Key { name: "anchor_m", example: "anchor_m = [5.0, 2.0, 4.0]" },
     Key { name: "attachment_m", example: "attachment_m = [0.1, 0.1, 0.0]" },
+    Key { name: "minimum_tension_n", example: "minimum_tension_n = 50" },
+    Key { name: "maximum_tension_n", example: "maximum_tension_n = 5000" },
     Key { name: "unstrained_length_m", example: "unstrained_length_m = 6.5" },
 ];
 
@@ -103,14 +106,22 @@ fn read_one(
     });
     let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector("anchor_m", "m", value));
     let attachment = attachment(reader, section, freedoms);
+    let own_limits = limits::read(reader, section);
+    if let (Some(own), Some(material)) = (own_limits, &material) {
+        // Against what it shares with its rope: each alone may be right and both together not.
+        limits::check(reader, section, own.or(material.tension_limits), material.breaking_load);
+    }
     let length_value = section.get("unstrained_length_m");
     let length = length_value.and_then(|value| reader.number("`unstrained_length_m`", Sign::Positive, value));
-    let cable = name.zip(material).zip(anchor.zip(attachment)).map(|((name, material), (anchor, attachment))| Cable {
-        name,
-        material,
-        anchor_w: Vec3::from(anchor),
-        attachment_p: Vec3::from(attachment),
-    });
+    let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits).map(
+        |(((name, material), (anchor, attachment)), tension_limits)| Cable {
+            name,
+            material,
+            anchor_w: Vec3::from(anchor),
+            attachment_p: Vec3::from(attachment),
+            tension_limits,
+        },
+    );
     CableEntry {
         cable,
         label: section.label().to_owned(),

@@ -1,5 +1,6 @@
 //! `[materials.NAME]`: what a rope is made of. Unused ones are welcome: a file may offer several ropes to choose from.
 
+use super::limits;
 use super::read::{Key, LARGEST, Reader, SMALLEST, Section, Sign};
 use crate::robot::{Damping, Material};
 use std::collections::BTreeMap;
@@ -17,6 +18,9 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "mass_kg_per_m", example: "mass_kg_per_m = 0.06" },
     Key { name: "damping_ratio", example: "damping_ratio = 0.003" },
     Key { name: "viscous_damping_n_s_m2", example: "viscous_damping_n_s_m2 = 0.01" },
+    Key { name: "minimum_tension_n", example: "minimum_tension_n = 50" },
+    Key { name: "maximum_tension_n", example: "maximum_tension_n = 5000" },
+    Key { name: "breaking_load_n", example: "breaking_load_n = 12e3" },
 ];
 
 const TWO_WAYS: &str = "give `youngs_modulus_pa` with one of `diameter_m` and `area_m2`, or `axial_stiffness_n` alone";
@@ -53,11 +57,18 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         .required(section, "mass_kg_per_m")
         .and_then(|value| reader.number("`mass_kg_per_m`", Sign::NotNegative, value));
     let damping = damping(reader, section);
+    let breaking_load = limits::breaking_load(reader, section);
+    let tension_limits = limits::read(reader, section);
+    if let Some(limits) = tension_limits {
+        limits::check(reader, section, limits, breaking_load.flatten());
+    }
     Some(Material {
         name: name.to_owned(),
         axial_stiffness: axial_stiffness?,
         mass_per_length: mass_per_length?,
         damping: damping?,
+        tension_limits: tension_limits?,
+        breaking_load: breaking_load?,
     })
 }
 

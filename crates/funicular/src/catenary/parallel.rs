@@ -1,0 +1,135 @@
+//! The catenary of a given tension parallel to its chord; its unstrained length follows.
+
+use super::{Catenary, Hyperbolic, Rope, Slope};
+
+impl Catenary {
+    /// The cable from the origin to `(span, rise)` [m], not both zero, whose [`parallel_tension`](Self::parallel_tension)
+    /// is `tension` [N]. `rope` gives weight and stiffness; its length is where the search begins and does not matter.
+    ///
+    /// By (10a) the tension fixes v + k, so that (9) is an equation in the length alone, and a nearly linear one: one
+    /// or two steps from the length of the same cable at another tension. Meant for tensions above a hundredth of the
+    /// weight; a massless cable may have any that is not negative.
+    pub(crate) fn with_parallel_tension(span: f64, rise: f64, rope: Rope, tension: f64) -> Self {
+        let Rope { unstrained_length, weight_per_length: w, axial_stiffness: ea } = rope;
+        let chord = super::hypot(span, rise);
+        if w == 0.0 {
+            return Self::straight_with(span, rise, chord, rope, tension);
+        }
+        let across = 0.5 * w * chord / tension;
+        let k_by_length = 0.5 * w / ea;
+        // Here v = 0: a rope stretched so far that its weight does not count. The root is below, and so is the start.
+        let limit = across / k_by_length;
+        let straight = chord / (1.0 + tension / ea);
+        let mut length = if unstrained_length < limit { unstrained_length.max(straight) } else { straight };
+        // Nearly linear: 2 passes from a neighbour, 4 from afar. The rest is a guard.
+        for _ in 0..50 {
+            let at = LengthOf::of(span, rise, across, k_by_length * length);
+            let step = (at.length - length) / (1.0 - k_by_length * at.by_k);
+            let next = length + step;
+            length = if next < limit { next.max(0.5 * length) } else { 0.5 * (length + limit) };
+            // Newton squares the error: a step below 1e-9 is the last that counts.
+            if step.abs() <= 1e-9 * length {
+                break;
+            }
+        }
+        let k = k_by_length * length;
+        let v = (across - k).max(f64::MIN_POSITIVE);
+        let Hyperbolic { sinh, cosh, v_cosh_minus_sinh, .. } = Hyperbolic::of(v);
+        let tanh_v = sinh / cosh;
+        Self {
+            rope: Rope { unstrained_length: length, ..rope },
+            span,
+            rise,
+            horizontal: tension * span / chord,
+            vertical_mean: w * rise / (2.0 * (tanh_v + k)),
+            slope: Slope::Curved { v, tanh_v, sech2_v: 1.0 / (cosh * cosh), sinh_v: sinh, v_cosh_minus_sinh },
+        }
+    }
+
+    fn straight_with(span: f64, rise: f64, chord: f64, rope: Rope, tension: f64) -> Self {
+        let rope = Rope { unstrained_length: chord / (1.0 + tension / rope.axial_stiffness), ..rope };
+        let (horizontal, vertical_mean) = (tension * span / chord, tension * rise / chord);
+        Self { rope, span, rise, horizontal, vertical_mean, slope: Slope::Straight }
+    }
+}
+
+/// The length by (9) for `across = v + k`, and its derivative by k.
+struct LengthOf {
+    length: f64,
+    by_k: f64,
+}
+
+impl LengthOf {
+    #[inline]
+    fn of(x: f64, z: f64, across: f64, k: f64) -> Self {
+        let h = Hyperbolic::of(across - k);
+        let (tanh, sech2) = (h.sinh / h.cosh, 1.0 / (h.cosh * h.cosh));
+        let along = tanh + k;
+        let (xa, zb) = (x * h.sinh / across, z * tanh / along);
+        let length = super::hypot(xa, zb);
+        let xa_by_k = -x * h.cosh / across;
+        let zb_by_k = -z * (sech2 * k + tanh) / (along * along);
+        Self { length, by_k: (xa * xa_by_k + zb * zb_by_k) / length }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..Default::default() })]
+
+        /// Tensions from a quarter of the weight up to a strain of one half, every slope, ropes from rubber to steel.
+        #[test]
+        fn the_length_found_has_the_tension_asked(
+            slope in -1.0f64..=1.0, size in -1.0f64..3.0, weight in -4.0f64..2.0, stiffness in 2.0f64..7.0, part in 0.0f64..=1.0,
+        ) {
+            let chord = 10f64.powf(size);
+            let (span, rise) = (chord * (1.0 - slope * slope).sqrt(), chord * slope);
+            let weight_per_length = 10f64.powf(weight);
+            let axial_stiffness = 10f64.powf(stiffness) + 10.0 * weight_per_length * chord;
+            let rope = Rope { unstrained_length: chord, weight_per_length, axial_stiffness };
+            let (low, high) = (0.25 * weight_per_length * chord, 0.5 * axial_stiffness);
+            let tension = low * (high / low).powf(part);
+            let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
+            prop_assert!((cable.parallel_tension() / tension - 1.0).abs() < 1e-12);
+            let again = Catenary::solve(span, rise, cable.rope());
+            // Rounding of the length in a rope that hardly stretches; the more so, the longer the slack one.
+            let tolerance = 1e-14 * (axial_stiffness / tension).max(100.0);
+            let gap = (again.parallel_tension() / tension - 1.0).abs();
+            prop_assert!(gap < tolerance, "τ {tension} N: {gap:e}, tolerance {tolerance:e}");
+            for (ours, theirs) in [
+                (cable.vertical_force_at_end(), again.vertical_force_at_end()),
+                (cable.tension_at_start(), again.tension_at_start()),
+            ] {
+                let scale = again.tension_at_start().max(again.tension_at_end());
+                prop_assert!((ours - theirs).abs() < tolerance * scale, "{ours} {theirs}");
+            }
+        }
+
+        /// What tension limits rest on: above the tension of (37) everything grows with the parallel tension.
+        #[test]
+        fn end_tensions_grow_with_the_parallel_tension(
+            slope in -1.0f64..=1.0, stiffness in 1.0f64..6.0, part in 0.0f64..=1.0,
+        ) {
+            let (span, rise) = ((1.0 - slope * slope).sqrt(), slope);
+            let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 10f64.powf(stiffness) };
+            let tension = Catenary::SLACKEST * (100.0 / Catenary::SLACKEST).powf(part);
+            let [less, more] = [tension, 1.001 * tension].map(|t| Catenary::with_parallel_tension(span, rise, rope, t));
+            prop_assert!(more.greatest_tension() > less.greatest_tension());
+            prop_assert!(more.least_tension() > less.least_tension());
+        }
+    }
+
+    #[test]
+    fn a_massless_cable_is_a_spring() {
+        let rope = Rope { unstrained_length: 1.0, weight_per_length: 0.0, axial_stiffness: 1000.0 };
+        let cable = Catenary::with_parallel_tension(3.0, 4.0, rope, 100.0);
+        assert!((cable.rope().unstrained_length - 5.0 / 1.1).abs() < 1e-15);
+        assert!((cable.tension_at_start() - 100.0).abs() < 1e-12);
+        let slack = Catenary::with_parallel_tension(3.0, 4.0, rope, 0.0);
+        assert!((slack.rope().unstrained_length - 5.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,103 @@
+//! Limits of a cable's tension: what they are where the file says nothing, and how far a state is from them.
+
+use super::CableState;
+use crate::robot::Robot;
+
+/// Part of its weight by which a cable has to be taut where the file has no minimum: a level cable then sags by a
+/// twentieth of its chord, which is where shallow-sag models end ([`crate::cable::SHALLOW_SAG_LIMIT`]).
+const TAUT: f64 = 2.5;
+
+/// Part of the platform's weight that every cable has at least to carry where the file has no minimum: what keeps a
+/// cable without weight from being slack.
+const PART_OF_PLATFORM: f64 = 1e-3;
+
+/// The tensions between which a cable is to be kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TensionRange {
+    /// Least tension anywhere in the cable [N].
+    pub minimum: f64,
+    /// Greatest tension anywhere in the cable [N]; infinite where the file has neither a maximum nor a breaking load.
+    pub maximum: f64,
+}
+
+impl TensionRange {
+    /// The limits of cable `i` when its chord is this long [m].
+    ///
+    /// Without a `minimum_tension_n` it is the larger of 2.5 times the weight of the chord and a thousandth of the
+    /// platform's weight; without a `maximum_tension_n` it is the rope's breaking load.
+    ///
+    /// # Example
+    /// ```
+    /// # use funicular::{robot::Robot, statics::TensionRange};
+    /// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+    /// let range = TensionRange::of(&robot, 0, 6.85);
+    /// assert!((range.minimum - 2.5 * 0.067 * 9.81 * 6.85).abs() < 1e-12); // N
+    /// assert_eq!(range.maximum, f64::INFINITY);
+    /// # Ok::<(), funicular::robot::spec::SpecError>(())
+    /// ```
+    pub fn of(robot: &Robot, i: usize, chord: f64) -> Self {
+        let cable = &robot.cables[i];
+        let limits = cable.limits();
+        let g = robot.gravity_w.norm();
+        let taut = TAUT * cable.material.mass_per_length * g * chord;
+        let minimum = limits.minimum.unwrap_or_else(|| taut.max(PART_OF_PLATFORM * robot.platform.mass * g));
+        Self { minimum, maximum: limits.maximum.unwrap_or(f64::INFINITY) }
+    }
+
+    /// How far a cable is from these limits.
+    pub fn margin(&self, state: &CableState) -> TensionMargin {
+        let (least, greatest) =
+            state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
+                (hanging.catenary.least_tension(), hanging.catenary.greatest_tension())
+            });
+        TensionMargin { range: *self, least, greatest }
+    }
+}
+
+/// How far a cable is from the limits of its tension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TensionMargin {
+    /// The limits.
+    pub range: TensionRange,
+    /// Least tension anywhere in the cable [N].
+    pub least: f64,
+    /// Greatest tension anywhere in the cable [N].
+    pub greatest: f64,
+}
+
+/// One of the two limits of a tension.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// The least tension.
+    Minimum,
+    /// The greatest tension.
+    Maximum,
+}
+
+/// A limit counts as reached within this part of its value.
+const REACHED: f64 = 1e-6;
+
+impl TensionMargin {
+    /// Distance from the nearer limit [N], negative beyond it.
+    pub fn distance(&self) -> f64 {
+        (self.least - self.range.minimum).min(self.range.maximum - self.greatest)
+    }
+
+    /// [`Self::distance`] over the distance between the limits: at most one half, negative beyond a limit; `None`
+    /// without a maximum.
+    pub fn relative(&self) -> Option<f64> {
+        let breadth = self.range.maximum - self.range.minimum;
+        (breadth > 0.0 && breadth.is_finite()).then(|| self.distance() / breadth)
+    }
+
+    /// The limit that is reached or exceeded, within a millionth.
+    pub fn reached(&self) -> Option<Limit> {
+        if self.least <= self.range.minimum * (1.0 + REACHED) {
+            Some(Limit::Minimum)
+        } else if self.greatest >= self.range.maximum * (1.0 - REACHED) {
+            Some(Limit::Maximum)
+        } else {
+            None
+        }
+    }
+}

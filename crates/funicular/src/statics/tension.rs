@@ -1,0 +1,168 @@
+//! Pose to unstrained lengths and tensions for more cables than freedoms: of all tensions that hold the platform, those
+//! within the limits that a rule prefers.
+//!
+//! The unknown of every cable is its tension τ parallel to the chord. The balance is linear in them but for the small
+//! vertical share of the sag; so it is linearised about the last tensions, the best solution of the linear problem is
+//! taken, and so on (sequential quadratic programming). The linear problem is solved in the null space of the balance,
+//! which has one or two dimensions in most robots: it takes microseconds, a general solver a tenth of a millisecond.
+
+mod balance;
+mod line;
+mod polyhedron;
+mod search;
+mod stiffest;
+
+use super::forward::collect_ideal;
+use super::{Equilibrium, StaticModel, StaticsError, collect};
+use crate::robot::{Pose, Robot};
+use line::Line;
+use search::Search;
+use std::fmt;
+
+/// Which of all possible tensions a robot with more cables than freedoms shall have.
+///
+/// What a rule weighs is the tension τ of each cable parallel to its chord, (10a), which is between those of its ends;
+/// limits hold for the whole cable, both ends included.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum TensionRule {
+    /// As low as possible: the least sum of squares of what is above the minimum, (38).
+    #[default]
+    Lowest,
+    /// As near as possible to a wanted tension [N], one for all or one a cable, in least squares.
+    Closest(Vec<f64>),
+    /// As far as possible from the limits: the largest least [`TensionMargin::relative`](super::TensionMargin), (39).
+    /// Of equals the nearest to the middles. Needs a maximum for every cable.
+    Middle,
+    /// As stiff as possible: the largest least eigenvalue of the scaled stiffness, (40), which is
+    /// [`Stability`](super::Stability)'s. Needs elastic cables and a maximum for every one.
+    Stiffest,
+}
+
+impl TensionRule {
+    /// Name on the command line.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Lowest => "lowest",
+            Self::Closest(_) => "closest",
+            Self::Middle => "middle",
+            Self::Stiffest => "stiffest",
+        }
+    }
+}
+
+/// How far the best tensions miss the limits, and which they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Miss {
+    /// The least force [N] by which all limits would have to give way for tensions within them to exist.
+    pub by: f64,
+    /// Cables whose minimum is in the way.
+    pub minimum_of: Vec<String>,
+    /// Cables whose maximum is in the way.
+    pub maximum_of: Vec<String>,
+}
+
+impl fmt::Display for Miss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |what: &str, names: &[String]| {
+            let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+            let plural = if names.len() == 1 { "" } else { "s" };
+            (!names.is_empty()).then(|| format!("the {what} of cable{plural} {}", names.join(", ")))
+        };
+        let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
+        let limits: Vec<String> = limits.into_iter().flatten().collect();
+        write!(f, "by {:.4} N, held by {}", self.by, limits.join(" and "))
+    }
+}
+
+/// The unstrained lengths and tensions that hold the platform at a pose, the tensions within the limits of the robot
+/// file and chosen by a rule. More cables than freedoms; with as many, [`inverse`](super::inverse) has the only answer.
+///
+/// The balance holds to [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT), the limits to a millionth, and the rule's
+/// optimum to a millionth of the tensions (of the stiffness for [`TensionRule::Stiffest`], whose optimum is local where cables sag).
+///
+/// # Errors
+/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, limits that exclude each other, a rule that needs
+/// more than it is given, no tensions within the limits, or no convergence.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel, TensionRange, TensionRule}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+/// let pose = Pose::new([1.0, -2.0, 1.5], [0.0, 0.0, 5.0]);
+/// let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(vec![400.0]))?;
+/// assert!(held.residual <= statics::RESIDUAL_LIMIT);
+/// for (i, cable) in held.cables.iter().enumerate() {
+///     assert!(TensionRange::of(&robot, i, cable.chord()).margin(cable).distance() >= -1e-6 * cable.tension_platform);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equations (36) to (40).
+pub fn distribute(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    rule: &TensionRule,
+) -> Result<Equilibrium, StaticsError> {
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    if cables < freedoms {
+        return Err(StaticsError::InverseCableCount { cables, freedoms });
+    }
+    for cable in &robot.cables {
+        if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
+            return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
+        }
+    }
+    let ell = robot.platform_length();
+    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, ell)).collect();
+    check(robot, model, rule, &lines)?;
+    let mut search = Search::new(robot, pose, lines);
+    match rule {
+        TensionRule::Lowest => {
+            let minima: Vec<f64> = search.lines().iter().map(|line| line.range.minimum).collect();
+            search.nearest_to(&minima)?;
+        }
+        TensionRule::Closest(wanted) => {
+            let wanted: Vec<f64> = wanted.iter().copied().cycle().take(cables).collect();
+            search.nearest_to(&wanted)?;
+        }
+        TensionRule::Middle => search.middle()?,
+        TensionRule::Stiffest => stiffest::search(&mut search)?,
+    }
+    let iterations = search.iterations();
+    let lines = search.into_lines();
+    if model == StaticModel::Ideal {
+        let tensions: Vec<f64> = lines.iter().map(Line::tau).collect();
+        return Ok(collect_ideal(robot, *pose, &tensions, iterations));
+    }
+    let lengths: Vec<f64> = lines.iter().map(|line| line.hanging.catenary.rope().unstrained_length).collect();
+    let hanging = lines.into_iter().map(|line| line.hanging).collect();
+    Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
+}
+
+/// Refuses what no tension can satisfy and what a rule does not know enough for.
+fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) -> Result<(), StaticsError> {
+    if let TensionRule::Closest(wanted) = rule {
+        let cables = robot.cables.len();
+        if wanted.len() != 1 && wanted.len() != cables {
+            return Err(StaticsError::WantedCount { given: wanted.len(), cables });
+        }
+        if let Some(value) = wanted.iter().copied().find(|value| !(*value >= 0.0 && value.is_finite())) {
+            return Err(StaticsError::Wanted { value });
+        }
+    }
+    if *rule == TensionRule::Stiffest && model == StaticModel::Ideal {
+        return Err(StaticsError::NothingToStiffen);
+    }
+    for (cable, line) in robot.cables.iter().zip(lines) {
+        let (cable, minimum, maximum) = (cable.name.clone(), line.range.minimum, line.range.maximum);
+        if minimum >= maximum {
+            return Err(StaticsError::LimitsExclude { cable, minimum, maximum });
+        }
+        if maximum.is_infinite() && matches!(rule, TensionRule::Middle | TensionRule::Stiffest) {
+            return Err(StaticsError::NeedsMaximum { cable, rule: rule.name() });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,176 @@
+//! All tensions that satisfy linear equations of balance: one of them, and the directions in which they may change.
+
+use crate::math::Vec6;
+
+/// Condition number of the balance beyond which the cables do not span the freedoms.
+const SINGULAR: f64 = 1e10;
+
+/// The solutions σ of `Cᵀ σ = b`, C with a row a cable and a column a freedom: `σ = particular + N z`, N orthonormal.
+pub(super) struct Solutions {
+    cables: usize,
+    freedoms: usize,
+    /// Orthogonal, by columns; the first ones span the rows of the balance, the others are N.
+    basis: Vec<f64>,
+    /// Upper triangle R of `C = basis R`, by columns.
+    triangle: [[f64; 6]; 6],
+    /// The solution of least norm.
+    pub particular: Vec<f64>,
+}
+
+impl Solutions {
+    /// From the wrench per unit of every cable, its first `freedoms` components, each divided by its scale, and the
+    /// wrench `b`. `None` at a singular pose.
+    pub(super) fn of(columns: &[Vec6], scales: &[f64], right: &Vec6, freedoms: usize) -> Option<Self> {
+        let cables = columns.len();
+        let mut reflectors = vec![0.0; cables * freedoms];
+        for j in 0..freedoms {
+            for i in 0..cables {
+                reflectors[j * cables + i] = columns[i][j] / scales[i];
+            }
+        }
+        let mut triangle = [[0.0; 6]; 6];
+        for j in 0..freedoms {
+            let (done, rest) = reflectors.split_at_mut((j + 1) * cables);
+            let here = &mut done[j * cables..];
+            triangle[j][..j].copy_from_slice(&here[..j]);
+            let length = here[j..].iter().map(|x| x * x).sum::<f64>().sqrt();
+            triangle[j][j] = if here[j] > 0.0 { -length } else { length };
+            here[..j].fill(0.0);
+            here[j] -= triangle[j][j];
+            let squared = here[j..].iter().map(|x| x * x).sum::<f64>();
+            if squared.is_nan() || squared <= 0.0 {
+                return None;
+            }
+            let scale = (2.0 / squared).sqrt();
+            here[j..].iter_mut().for_each(|x| *x *= scale);
+            rest.chunks_exact_mut(cables).for_each(|column| reflect(&here[j..], &mut column[j..]));
+        }
+        let mut basis = vec![0.0; cables * cables];
+        for (k, column) in basis.chunks_exact_mut(cables).enumerate() {
+            column[k] = 1.0;
+            for j in (0..freedoms).rev() {
+                reflect(&reflectors[j * cables + j..(j + 1) * cables], &mut column[j..]);
+            }
+        }
+        if condition(&triangle, freedoms) > SINGULAR {
+            return None;
+        }
+        // Rᵀ y = b.
+        let mut y = [0.0; 6];
+        for j in 0..freedoms {
+            y[j] = (right[j] - (0..j).map(|k| triangle[j][k] * y[k]).sum::<f64>()) / triangle[j][j];
+        }
+        let mut particular = vec![0.0; cables];
+        for (y, column) in y.iter().zip(basis.chunks_exact(cables)).take(freedoms) {
+            particular.iter_mut().zip(column).for_each(|(p, q)| *p += y * q);
+        }
+        Some(Self { cables, freedoms, basis, triangle, particular })
+    }
+
+    /// Number of directions.
+    pub(super) fn redundancy(&self) -> usize {
+        self.cables - self.freedoms
+    }
+
+    /// What cable `i` takes part in each of the directions with: a row of N.
+    pub(super) fn part(&self, i: usize) -> impl Iterator<Item = &f64> {
+        self.basis[self.freedoms * self.cables + i..].iter().step_by(self.cables)
+    }
+
+    /// Components `Nᵀ σ` of a vector along the directions.
+    pub(super) fn along(&self, sigma: impl Fn(usize) -> f64) -> Vec<f64> {
+        self.basis[self.freedoms * self.cables..]
+            .chunks_exact(self.cables)
+            .map(|column| column.iter().enumerate().map(|(i, q)| q * sigma(i)).sum())
+            .collect()
+    }
+
+    /// The solution with these components.
+    pub(super) fn at(&self, z: &[f64]) -> Vec<f64> {
+        let mut sigma = self.particular.clone();
+        for (z, column) in z.iter().zip(self.basis[self.freedoms * self.cables..].chunks_exact(self.cables)) {
+            sigma.iter_mut().zip(column).for_each(|(s, q)| *s += z * q);
+        }
+        sigma
+    }
+
+    /// The y of the least `|g − C y|`: what a change of the balance costs when g is the slope of the cost.
+    pub(super) fn prices(&self, g: impl Fn(usize) -> f64) -> Vec6 {
+        let mut y = Vec6::zeros();
+        for k in (0..self.freedoms).rev() {
+            let column = &self.basis[k * self.cables..(k + 1) * self.cables];
+            let along: f64 = column.iter().enumerate().map(|(i, q)| q * g(i)).sum();
+            let others: f64 = (k + 1..self.freedoms).map(|j| self.triangle[j][k] * y[j]).sum();
+            y[k] = (along - others) / self.triangle[k][k];
+        }
+        y
+    }
+}
+
+/// `(I − v vᵀ) x` for a v of length √2.
+fn reflect(v: &[f64], x: &mut [f64]) {
+    let along: f64 = v.iter().zip(&*x).map(|(v, x)| v * x).sum();
+    x.iter_mut().zip(v).for_each(|(x, v)| *x -= along * v);
+}
+
+/// `|R| |R⁻¹|` in Frobenius norms.
+fn condition(triangle: &[[f64; 6]; 6], n: usize) -> f64 {
+    let mut squared = 0.0;
+    for k in 0..n {
+        // Column k of the inverse.
+        let mut x = [0.0; 6];
+        x[k] = 1.0 / triangle[k][k];
+        for i in (0..k).rev() {
+            x[i] = -(i + 1..=k).map(|j| triangle[j][i] * x[j]).sum::<f64>() / triangle[i][i];
+        }
+        squared += x.iter().map(|x| x * x).sum::<f64>();
+    }
+    let size: f64 = triangle.iter().flatten().map(|r| r * r).sum();
+    let condition = (size * squared).sqrt();
+    if condition.is_nan() { f64::INFINITY } else { condition }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn some_columns() -> Vec<Vec6> {
+        (0..8)
+            .map(|i| Vec6::from_fn(|j, _| (1.0 + f64::from(i) * 1.7 + j as f64 * (0.9 + f64::from(i))).sin()))
+            .collect()
+    }
+
+    #[test]
+    fn every_solution_solves_and_the_directions_are_orthonormal() {
+        let (columns, right) = (some_columns(), Vec6::new(1.0, -2.0, 0.3, 4.0, 0.0, -1.0));
+        for n in [3, 6] {
+            let scales: Vec<f64> = (0..8).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
+            let all = Solutions::of(&columns, &scales, &right, n).unwrap();
+            let z: Vec<f64> = (0..all.redundancy()).map(|k| 0.5 - k as f64).collect();
+            assert_eq!(z.len(), 8 - n);
+            let sigma = all.at(&z);
+            for j in 0..n {
+                let sum: f64 = (0..8).map(|i| columns[i][j] / scales[i] * sigma[i]).sum();
+                assert!((sum - right[j]).abs() < 1e-13, "{sum} {}", right[j]);
+            }
+            let back = all.along(|i| sigma[i]);
+            assert!(back.iter().zip(&z).all(|(a, b)| (a - b).abs() < 1e-13), "{back:?}");
+            let y = all.prices(|i| (0..n).map(|j| columns[i][j] / scales[i] * (1.0 + j as f64)).sum());
+            assert!((0..n).all(|j| (y[j] - 1.0 - j as f64).abs() < 1e-11), "{y}");
+        }
+    }
+
+    #[test]
+    fn dependent_columns_are_singular() {
+        let mut columns = some_columns();
+        for column in &mut columns {
+            column[4] = 2.0 * column[1] - column[0];
+        }
+        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 6).is_none());
+        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 4).is_some());
+        for column in &mut columns {
+            column[2] = 0.0;
+        }
+        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 3).is_none());
+    }
+}

@@ -1,0 +1,157 @@
+//! A cable between two given points as a function of one number, its tension parallel to the chord.
+
+use crate::catenary::space::HangingCable;
+use crate::catenary::{Catenary, Rope};
+use crate::math::{Mat6, Vec3, Vec6};
+use crate::robot::{Pose, Robot};
+use crate::statics::limits::TensionRange;
+use crate::statics::{StaticModel, add_congruent, add_lever_term, hang, rope, scaled, wrench_of};
+
+/// A cable at the pose.
+///
+/// At a given geometry the tension τ parallel to the chord, (10a), says everything: the horizontal force is τ cos α
+/// exactly, the vertical one nearly linear in τ, and above [`Catenary::SLACKEST`] every tension in the cable grows
+/// with τ, so that limits at the ends are limits of τ.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    pub hanging: HangingCable,
+    lever_w: Vec3,
+    ell: f64,
+    span: f64,
+    rise: f64,
+    /// Limits of its tension.
+    pub range: TensionRange,
+    /// Least τ that is considered at all [N].
+    pub slackest: f64,
+    tau: f64,
+    /// dL0/dτ.
+    length_rate: f64,
+}
+
+/// A tension somewhere in the cable and its derivative by τ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tension {
+    pub value: f64,
+    pub slope: f64,
+}
+
+impl Line {
+    /// Cable `i`; its ends must not coincide.
+    pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, ell: f64) -> Self {
+        let up_w = robot.up_w();
+        let attachment_w = pose.point_w(&robot.cables[i].attachment_p);
+        let chord_w = robot.cables[i].anchor_w - attachment_w;
+        let rope = rope(robot, i, chord_w.norm(), model);
+        let hanging = hang(robot, i, pose, up_w, rope);
+        let slackest = Catenary::SLACKEST * rope.weight_per_length * chord_w.norm();
+        Self {
+            lever_w: attachment_w - pose.position_w,
+            ell,
+            span: hanging.catenary.span(),
+            rise: chord_w.dot(&up_w),
+            range: TensionRange::of(robot, i, chord_w.norm()),
+            slackest,
+            tau: f64::NAN,
+            length_rate: 0.0,
+            hanging,
+        }
+    }
+
+    /// Hangs it with another τ [N].
+    pub(super) fn set(&mut self, tau: f64) {
+        let rope = self.hanging.catenary.rope();
+        self.hanging.catenary = Catenary::with_parallel_tension(self.span, self.rise, rope, tau);
+        self.length_rate = 1.0 / self.hanging.catenary.parallel_tension_by_length();
+        self.tau = tau;
+    }
+
+    /// The τ at which the least tension is the minimum, or the slackest where that is above.
+    pub(super) fn at_minimum(&mut self) -> f64 {
+        let mut tau = self.range.minimum.max(self.slackest);
+        // The least tension is nearly linear in τ; 2 or 3 passes. The rest is a guard.
+        for _ in 0..30 {
+            self.set(tau);
+            let least = self.least();
+            let next = (tau + (self.range.minimum - least.value) / least.slope).max(self.slackest);
+            if (next - tau).abs() <= 1e-12 * next {
+                break;
+            }
+            tau = next;
+        }
+        tau
+    }
+
+    fn rope(&self) -> Rope {
+        self.hanging.catenary.rope()
+    }
+
+    /// τ [N].
+    pub(super) fn tau(&self) -> f64 {
+        self.tau
+    }
+
+    /// Force on the platform and lever arm, world axes.
+    pub(super) fn force(&self) -> (Vec3, Vec3) {
+        (self.hanging.force_on_start_w(), self.lever_w)
+    }
+
+    /// Derivative of its wrench by τ; moments over ℓ.
+    pub(super) fn column(&self) -> Vec6 {
+        wrench_of(&(self.hanging.force_by_length_w() * self.length_rate), &(self.lever_w / self.ell))
+    }
+
+    /// The least tension anywhere in the cable.
+    pub(super) fn least(&self) -> Tension {
+        let [lower, _] = self.ends();
+        let cos = self.span / self.hanging.chord_w().norm();
+        let catenary = &self.hanging.catenary;
+        if catenary.vertical_force_at_start() < 0.0 && catenary.vertical_force_at_end() > 0.0 {
+            Tension { value: catenary.horizontal_force(), slope: cos }
+        } else {
+            lower
+        }
+    }
+
+    /// The greatest tension anywhere in the cable.
+    pub(super) fn greatest(&self) -> Tension {
+        self.ends()[1]
+    }
+
+    /// The tensions at the lower and at the upper end.
+    fn ends(&self) -> [Tension; 2] {
+        let catenary = &self.hanging.catenary;
+        if self.rope().weight_per_length == 0.0 {
+            return [Tension { value: self.tau, slope: 1.0 }; 2];
+        }
+        let [h_by_length, v_by_length] = catenary.start_force_by_length();
+        let tension = |vertical: f64, by_length: f64| {
+            let horizontal = catenary.horizontal_force();
+            let value = (horizontal * horizontal + vertical * vertical).sqrt();
+            let slope = (horizontal * h_by_length + vertical * by_length) * self.length_rate / value;
+            Tension { value, slope }
+        };
+        let start = tension(catenary.vertical_force_at_start(), v_by_length);
+        let end = tension(catenary.vertical_force_at_end(), v_by_length + self.rope().weight_per_length);
+        if self.rise > 0.0 { [start, end] } else { [end, start] }
+    }
+
+    /// Its share of the scaled stiffness of the platform.
+    pub(super) fn stiffness(&self) -> Mat6 {
+        let mut total = Mat6::zeros();
+        add_congruent(&mut total, &self.hanging.tangent_w(), &self.lever_w);
+        add_lever_term(&mut total, &self.hanging.force_on_start_w(), &self.lever_w);
+        scaled(&total, self.ell)
+    }
+
+    /// Derivative of [`Self::stiffness`] by τ, by central differences.
+    pub(super) fn stiffness_by_tension(&self) -> Mat6 {
+        // Balances the error of the difference, its square, with the rounding of the stiffness over it.
+        let step = 1e-5 * self.tau.abs().max(1e-9 * self.rope().axial_stiffness);
+        let [less, more] = [-step, step].map(|step| {
+            let mut line = self.clone();
+            line.set(self.tau + step);
+            line.stiffness()
+        });
+        (more - less) / (2.0 * step)
+    }
+}

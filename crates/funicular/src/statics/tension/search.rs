@@ -1,0 +1,426 @@
+//! The iteration: linearise the balance and the limits, solve the linear problem exactly, repeat.
+
+use super::Miss;
+use super::balance::Solutions;
+use super::line::Line;
+use super::polyhedron::{Active, Polyhedron};
+use crate::math::Vec6;
+use crate::robot::{Pose, Robot};
+use crate::statics::limits::Limit;
+use crate::statics::{RESIDUAL_LIMIT, StaticsError, balance, scaled_residual};
+
+/// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
+const MOST_ITERATIONS: usize = 100;
+
+/// Change of the tensions, over their size, at which the iteration ends.
+const STILL: f64 = 1e-10;
+
+/// Scaled residual at which it may end; one more step squares it.
+const BALANCED: f64 = 1e-12;
+
+/// Violation of a limit, over the size of the tensions, that is rounding.
+const VIOLATION: f64 = 1e-9;
+
+/// Tensions at a pose, on their way to the best.
+pub(super) struct Search<'a> {
+    robot: &'a Robot,
+    pose: &'a Pose,
+    lines: Vec<Line>,
+    /// What tensions are compared with [N].
+    size: f64,
+    iterations: usize,
+}
+
+/// The problem linearised about the present tensions.
+pub(super) struct Linear {
+    /// Derivatives of the wrench by the tensions, moments over ℓ.
+    pub columns: Vec<Vec6>,
+    /// `columns · τ` of balanced tensions.
+    pub right: Vec6,
+    /// Scaled size of the wrench that is left now.
+    pub residual: f64,
+    /// The limits in τ.
+    pub limits: Vec<[Bound; 2]>,
+}
+
+/// A limit of τ [N].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bound {
+    /// Where it is.
+    pub at: f64,
+    /// How far it moves when the tension that is limited may change by 1 N.
+    pub rate: f64,
+}
+
+/// Tensions proposed, and what holds them there.
+struct Step {
+    tau: Vec<f64>,
+    /// Multipliers of the balance.
+    prices: Vec6,
+}
+
+/// Tensions whose least distance from the limits is greatest.
+struct Level {
+    tau: Vec<f64>,
+    /// That distance, in units of the widths, …
+    distance: f64,
+    /// … and in those of tensions [N].
+    height: f64,
+    held_by: Vec<(usize, Limit)>,
+}
+
+/// A limited growth of the least distance from the limits [N].
+#[derive(Debug, Clone, Copy)]
+struct Climb {
+    from: f64,
+    by: f64,
+}
+
+/// How far the tensions may move in one step towards the largest distance.
+///
+/// Where the optimum is no corner of the linear problem, the corners on both sides take turns. Then the steps are made
+/// smaller: the distance may climb by a limited amount only, which the least move of the tensions provides (a proximal
+/// step). Its fixed points are the same.
+#[derive(Debug)]
+struct Stride {
+    climb: Option<Climb>,
+    last_change: f64,
+    setbacks: usize,
+}
+
+impl Default for Stride {
+    fn default() -> Self {
+        Self { climb: None, last_change: f64::INFINITY, setbacks: 0 }
+    }
+}
+
+impl Stride {
+    fn next(&mut self, change: f64, size: f64, height: f64) {
+        if change > 0.9 * self.last_change {
+            self.setbacks += 1;
+            if self.setbacks > 1 {
+                let by = self.climb.map_or(change * size, |climb| 0.3 * climb.by);
+                self.climb = Some(Climb { from: height, by });
+            }
+        }
+        if let Some(climb) = &mut self.climb {
+            climb.from = height;
+        }
+        self.last_change = change;
+    }
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, mut lines: Vec<Line>) -> Self {
+        let weight = robot.platform.mass * robot.gravity_w.norm();
+        let minima: f64 = lines.iter().map(|line| line.range.minimum + line.slackest).sum();
+        let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
+        for line in &mut lines {
+            // Taut enough for its slope to be that of a taut cable.
+            line.set(line.range.minimum.max(6.0 * line.slackest));
+        }
+        Self { robot, pose, lines, size, iterations: 0 }
+    }
+
+    pub(super) fn robot(&self) -> &Robot {
+        self.robot
+    }
+
+    pub(super) fn pose(&self) -> &Pose {
+        self.pose
+    }
+
+    pub(super) fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    pub(super) fn into_lines(self) -> Vec<Line> {
+        self.lines
+    }
+
+    pub(super) fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The present tensions.
+    pub(super) fn tensions(&self) -> Vec<f64> {
+        self.lines.iter().map(Line::tau).collect()
+    }
+
+    /// Hangs all cables with other tensions.
+    pub(super) fn set(&mut self, tau: &[f64]) {
+        for (line, &tau) in self.lines.iter_mut().zip(tau) {
+            line.set(tau.max(line.slackest));
+        }
+    }
+
+    /// The largest change to other tensions, over their size.
+    fn change(&self, tau: &[f64]) -> f64 {
+        let change = self.lines.iter().zip(tau).fold(0.0, |most: f64, (line, tau)| {
+            let change = (tau.max(line.slackest) - line.tau()).abs();
+            if change.is_nan() { f64::INFINITY } else { most.max(change) }
+        });
+        change / self.size
+    }
+
+    pub(super) fn linearise(&self) -> Linear {
+        let ell = self.robot.platform_length();
+        let (wrench, scale) = balance(self.robot, self.pose, self.lines.iter().map(Line::force));
+        let residual = scaled_residual(self.robot, &wrench, scale);
+        let mut right = Vec6::from_fn(|i, _| if i < 3 { -wrench[i] } else { -wrench[i] / ell });
+        let columns: Vec<Vec6> = self.lines.iter().map(Line::column).collect();
+        for (column, line) in columns.iter().zip(&self.lines) {
+            right += column * line.tau();
+        }
+        let limits = self.lines.iter().map(|line| {
+            let (least, greatest) = (line.least(), line.greatest());
+            let lower = line.tau() + (line.range.minimum - least.value) / least.slope;
+            let upper = line.tau() + (line.range.maximum - greatest.value) / greatest.slope;
+            [Bound { at: lower, rate: 1.0 / least.slope }, Bound { at: upper, rate: 1.0 / greatest.slope }]
+        });
+        Linear { limits: limits.collect(), columns, right, residual }
+    }
+
+    /// The lower limit of cable `i`, or its slackest τ if that is above.
+    fn floor(&self, i: usize, lower: Bound) -> Bound {
+        let slackest = self.lines[i].slackest;
+        if lower.at < slackest { Bound { at: slackest, rate: 1.0 } } else { lower }
+    }
+
+    pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
+        let freedoms = self.robot.platform.freedoms.count();
+        Solutions::of(&linear.columns, scales, &linear.right, freedoms).ok_or(StaticsError::Singular)
+    }
+
+    /// Violation of inequalities that is rounding.
+    pub(super) fn tolerance(&self, solutions: &Solutions) -> f64 {
+        1e-13 * solutions.particular.iter().fold(self.size, |most, p| most.max(p.abs()))
+    }
+
+    /// Tensions within the limits nearest to `target` in least squares.
+    ///
+    /// The curvature of the balance enters the second derivative, cable by cable, by the change of its slope in the last
+    /// step; it matters where cables sag deeply.
+    pub(super) fn nearest_to(&mut self, target: &[f64]) -> Result<(), StaticsError> {
+        let count = self.lines.len();
+        let mut scales = vec![1.0; count];
+        let mut last: Option<(Vec<f64>, Vec<Vec6>, Vec6)> = None;
+        // Deeply sagging cables that overstep go on by shorter steps, until the last setback is well behind.
+        let (mut part, mut last_change, mut setback) = (1.0_f64, f64::INFINITY, f64::INFINITY);
+        for _ in 0..MOST_ITERATIONS {
+            self.iterations += 1;
+            let linear = self.linearise();
+            if let Some((tau, columns, prices)) = &last {
+                for (i, line) in self.lines.iter().enumerate() {
+                    let moved = line.tau() - tau[i];
+                    if moved.abs() > 1e-7 * self.size {
+                        let bend = (linear.columns[i] - columns[i]).dot(prices) / moved;
+                        scales[i] = (1.0 - bend).clamp(0.1, 100.0).sqrt();
+                    }
+                }
+            }
+            let Some(step) = self.step(&linear, target, &scales)? else {
+                self.least_violation()?;
+                last = None;
+                continue;
+            };
+            let change = self.change(&step.tau);
+            if change <= STILL && linear.residual <= BALANCED {
+                return Ok(());
+            }
+            if change > 0.9 * last_change {
+                (part, setback) = ((0.5 * part).max(0.05), change);
+            } else if change < 0.3 * setback {
+                part = (2.0 * part).min(1.0);
+            }
+            last_change = change;
+            let before = self.tensions();
+            let after: Vec<f64> = before.iter().zip(&step.tau).map(|(from, to)| from + part * (to - from)).collect();
+            last = Some((before, linear.columns, step.prices));
+            self.set(&after);
+        }
+        Err(self.not_converged())
+    }
+
+    fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<Step>, StaticsError> {
+        let solutions = self.solutions(linear, scales)?;
+        // The least of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
+        let aim = |i: usize| {
+            let tau = self.lines[i].tau();
+            scales[i] * (tau - (tau - target[i]) / (scales[i] * scales[i]))
+        };
+        let mut set = Polyhedron::new(solutions.redundancy());
+        let mut rows = Vec::with_capacity(2 * scales.len());
+        for (i, [lower, upper]) in linear.limits.iter().enumerate() {
+            let lower = self.floor(i, *lower);
+            set.add(solutions.part(i), 1.0, None, scales[i] * lower.at - solutions.particular[i]);
+            rows.push((i, 1.0));
+            if upper.at.is_finite() {
+                set.add(solutions.part(i), -1.0, None, solutions.particular[i] - scales[i] * upper.at);
+                rows.push((i, -1.0));
+            }
+        }
+        let mut z = solutions.along(aim);
+        let Some(active) = set.nearest(&mut z, self.tolerance(&solutions)) else { return Ok(None) };
+        let sigma = solutions.at(&z);
+        let mut pressed = vec![0.0; scales.len()];
+        for held in active {
+            let (i, sign) = rows[held.row];
+            pressed[i] += sign * held.multiplier;
+        }
+        let prices = solutions.prices(|i| sigma[i] - aim(i) - pressed[i]);
+        Ok(Some(Step { tau: sigma.iter().zip(scales).map(|(sigma, scale)| sigma / scale).collect(), prices }))
+    }
+
+    /// Tensions as far from the limits as possible, in parts of the distance between them.
+    pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
+        let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
+        let mut stride = Stride::default();
+        for _ in 0..MOST_ITERATIONS {
+            self.iterations += 1;
+            let linear = self.linearise();
+            let level = self.level(&linear, Some(&widths), &self.tensions(), stride.climb)?;
+            if level.distance < -VIOLATION {
+                self.least_violation()?;
+                stride = Stride::default();
+                continue;
+            }
+            let change = self.change(&level.tau);
+            if change <= STILL && linear.residual <= BALANCED {
+                return Ok(());
+            }
+            stride.next(change, self.size, level.height);
+            self.set(&level.tau);
+        }
+        Err(self.not_converged())
+    }
+
+    /// Moves to tensions that violate the limits least; an error if they do violate them.
+    ///
+    /// A cable below its minimum is continued by its tangent there, so that one that would have to push has a violation
+    /// as well, and the forces no kink on which linearisations could disagree. If no cable has to push after all, the
+    /// violation is found once more with the cables as they hang.
+    fn least_violation(&mut self) -> Result<(), StaticsError> {
+        let minima: Vec<f64> = self.lines.iter_mut().map(Line::at_minimum).collect();
+        let level = self.least_violation_above(&minima)?;
+        if level.distance >= -VIOLATION * self.size {
+            // There are such tensions; the next linear problem knows.
+            return Ok(());
+        }
+        let slackest: Vec<f64> = self.lines.iter().map(|line| line.slackest).collect();
+        if level.tau.iter().zip(&slackest).all(|(tau, slackest)| tau > slackest)
+            && let Ok(hung) = self.least_violation_above(&slackest)
+            && hung.distance < -VIOLATION * self.size
+        {
+            return Err(StaticsError::BeyondLimits(self.miss(&hung)));
+        }
+        Err(StaticsError::BeyondLimits(self.miss(&level)))
+    }
+
+    /// The least violation when cables are continued by their tangents below these tensions.
+    fn least_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
+        let mut here = self.tensions();
+        let mut stride = Stride::default();
+        let mut mildest: Option<Level> = None;
+        for iteration in 0..MOST_ITERATIONS {
+            self.iterations += 1;
+            let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
+            self.set(&hung);
+            let linear = self.linearise();
+            let level = self.level(&linear, None, &here, stride.climb)?;
+            let change =
+                here.iter().zip(&level.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
+            if change <= VIOLATION {
+                return Ok(level);
+            }
+            stride.next(change, self.size, level.height);
+            here.clone_from(&level.tau);
+            if iteration > MOST_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| level.height > mildest.height) {
+                mildest = Some(level);
+            }
+        }
+        // Very heavy and soft ropes may wander without end. If every linear problem has been impossible, so is the pose;
+        // the mildest of them says by how much, roughly.
+        mildest.filter(|level| level.distance < -VIOLATION * self.size).ok_or_else(|| self.not_converged())
+    }
+
+    /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
+    ///
+    /// With a `climb` the distance grows by a limited amount instead, and the tensions `here` move little.
+    fn level(
+        &self,
+        linear: &Linear,
+        widths: Option<&[f64]>,
+        here: &[f64],
+        climb: Option<Climb>,
+    ) -> Result<Level, StaticsError> {
+        let solutions = self.solutions(linear, &vec![1.0; self.lines.len()])?;
+        // The height is in N either way.
+        let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
+        let mut set = Polyhedron::new(solutions.redundancy() + 1);
+        let mut rows = Vec::with_capacity(3 * self.lines.len());
+        for (i, [lower, upper]) in linear.limits.iter().enumerate() {
+            let width = widths.map_or(1.0, |widths| widths[i] / unit);
+            let lower = if widths.is_some() { *lower } else { self.floor(i, *lower) };
+            let particular = solutions.particular[i];
+            set.add(solutions.part(i), 1.0, Some(-width * lower.rate), lower.at - particular);
+            rows.push(Some((i, Limit::Minimum)));
+            if upper.at.is_finite() {
+                set.add(solutions.part(i), -1.0, Some(-width * upper.rate), particular - upper.at);
+                rows.push(Some((i, Limit::Maximum)));
+            }
+            if widths.is_some() {
+                set.add(solutions.part(i), 1.0, Some(0.0), self.lines[i].slackest - particular);
+                rows.push(None);
+            }
+        }
+        if widths.is_none() {
+            set.add([0.0].iter().cycle().take(solutions.redundancy()), 1.0, Some(-1.0), 0.0);
+            rows.push(None);
+        }
+        let mut point = match widths {
+            Some(_) if climb.is_none() => solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at)),
+            _ => solutions.along(|i| here[i]),
+        };
+        let tolerance = self.tolerance(&solutions);
+        let held = if let Some(climb) = climb {
+            point.push(climb.from + climb.by);
+            set.nearest(&mut point, tolerance)
+        } else {
+            point.push(0.0);
+            let limits = linear.limits.iter().flatten().filter(|bound| bound.at.is_finite());
+            set.highest(&mut point, limits.fold(self.size, |most, bound| most.max(bound.at.abs())), tolerance)
+        };
+        let Some(held) = held else {
+            // Only the slackest cables can be in the way here: they bind harder than the limits.
+            return match widths {
+                Some(_) => self.level(linear, None, here, None),
+                None => Err(self.not_converged()),
+            };
+        };
+        let height = point.pop().unwrap_or(f64::NAN);
+        let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
+        let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
+        let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
+        held_by.sort_by_key(|(i, _)| *i);
+        Ok(Level { tau: solutions.at(&point), height, distance: height / unit, held_by })
+    }
+
+    fn miss(&self, level: &Level) -> Miss {
+        let names = |limit: Limit| {
+            let of = level.held_by.iter().filter(|(_, which)| *which == limit);
+            of.map(|(i, _)| self.robot.cables[*i].name.clone()).collect()
+        };
+        Miss { by: -level.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
+    }
+
+    pub(super) fn not_converged(&self) -> StaticsError {
+        let p = self.pose.position_w;
+        let (residual, limit) = (self.linearise().residual, RESIDUAL_LIMIT);
+        StaticsError::NotConverged { iterations: self.iterations, residual, limit, x: p.x, y: p.y, z: p.z }
+    }
+}
