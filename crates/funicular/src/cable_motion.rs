@@ -1,7 +1,7 @@
 //! How the points along the cables move: in a natural mode, and in a response to a force.
 //!
 //! A cable whose platform end moves by u answers along its length with `Ψ(s) u + Σ φ_k(s) q_k`: the slow shape and its
-//! clamped modes, the amplitudes following from u and the frequency (docs/theory.md, section 10).
+//! clamped modes, the amplitudes following from u and the frequency (docs/theory.md, section 11).
 
 use crate::cable::exact::{Exact, ExactError, Stations, Swing};
 use crate::cable::{CableModel, DynamicCable, LocalAxes, damped_square};

@@ -3,7 +3,7 @@
 //! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. In them the exact cable is
 //! no approximation (K is block diagonal, M couples the platform to each amplitude); what is approximated is that three
 //! modes of each cable stand for all those above the limit, and that damping in proportion to frequency has to become
-//! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 12.
+//! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 13.
 
 use crate::cable::DynamicCable;
 use crate::cable::exact::Exact;
@@ -36,7 +36,7 @@ pub enum Place {
 /// What stands for damping in constant ratio, which no matrix C can be at every frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DampingAt {
-    /// `C = 2ξ M_c^½ Ω M_c^½` in natural coordinates: right at every natural frequency of its own.
+    /// By (46) of docs/theory.md: right at every natural frequency of its own.
     NaturalFrequencies,
     /// `C = 2ξω M_c`: right at this one frequency [Hz].
     Hz(f64),
@@ -143,7 +143,7 @@ const GRID: usize = 1000;
 /// [`ReductionError`].
 ///
 /// # References
-/// R. R. Craig, M. C. C. Bampton, AIAA Journal 6(7), 1968; docs/theory.md, section 12.
+/// R. R. Craig, M. C. C. Bampton, AIAA Journal 6(7), 1968; docs/theory.md, section 13.
 pub fn reduce(
     robot: &Robot,
     equilibrium: &Equilibrium,

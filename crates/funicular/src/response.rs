@@ -148,7 +148,7 @@ pub fn frf(
 /// [`ResponseError`]; a force and a motion on the same cable must be given as stations of one [`CableStations`], loaded.
 ///
 /// # References
-/// docs/theory.md, section 10.
+/// docs/theory.md, section 11.
 pub fn between(
     dynamics: &Dynamics,
     frequencies_hz: &[f64],

@@ -37,8 +37,14 @@ fn same(a: &str, b: &str) -> bool {
 }
 
 #[test]
-fn the_readme_shows_what_the_program_prints() {
-    let path = root().join("README.md");
+fn the_documents_show_what_the_program_prints() {
+    assert!(blocks_are_printed("README.md") >= 3, "statics, modes and compare are shown");
+    assert!(blocks_are_printed("docs/how-to-choose.md") >= 2);
+}
+
+/// Checks the console blocks of a document, or renews them; their number.
+fn blocks_are_printed(document: &str) -> usize {
+    let path = root().join(document);
     let readme = fs::read_to_string(&path).unwrap();
     let mut renewed = String::new();
     let mut rest = readme.as_str();
@@ -48,15 +54,15 @@ fn the_readme_shows_what_the_program_prints() {
         let (line, shown) = block.split_once('\n').expect("a console block has a command");
         let now = printed(line);
         let update = std::env::var_os("UPDATE_README").is_some();
-        assert!(update || same(shown, &now), "{line}: README.md shows\n{shown}\nthe program prints\n{now}");
+        assert!(update || same(shown, &now), "{line}: {document} shows\n{shown}\nthe program prints\n{now}");
         renewed += &[before, BEGIN, line, "\n", &now, END].concat();
         rest = after;
         blocks += 1;
     }
-    assert!(blocks >= 3, "statics, modes and compare are shown");
     if std::env::var_os("UPDATE_README").is_some() {
         fs::write(&path, renewed + rest).unwrap();
     }
+    blocks
 }
 
 #[test]

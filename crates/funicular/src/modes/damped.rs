@@ -82,7 +82,7 @@ const POLES_BEYOND: f64 = 1.3;
 ///
 /// # References
 /// O. Aberth, Math. Comp. 27(122), 1973; D. A. Bini, V. Noferini, Linear Algebra Appl. 439(4), 2013; docs/theory.md,
-/// section 11.
+/// section 12.
 pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
     let search = Search { dynamics, poles: dynamics.poles_below(POLES_BEYOND * limit) };
