@@ -93,6 +93,9 @@ pub struct Modes {
 const POLE_WIDTH: f64 = 1e-12;
 /// Relative width at which modes that the count still finds together are one multiple mode.
 const MULTIPLE_WIDTH: f64 = 2e-13;
+/// Residual above which a zero of the determinant is sought again by counting: true ones have up to 1e-13, those that
+/// rounding makes beside a pole 1e-2.
+const ZERO_RESIDUAL: f64 = 1e-11;
 /// Largest residual of a certified mode.
 pub const RESIDUAL_LIMIT: f64 = 1e-8;
 
@@ -181,26 +184,32 @@ impl List<'_> {
     fn single(&mut self, low: f64, high: f64) {
         let determinant = |omega: f64| self.determinant(omega);
         let (at_low, at_high) = (determinant(low), determinant(high));
-        let omega = if at_low * at_high.signum() < 0.0 {
-            roots::brent(low, at_low, high, at_high, determinant)
-        } else {
-            // Rounding beside a pole hides the sign; the count does not.
-            let (mut low, mut high) = (low, high);
-            let count_low = self.dynamics.modes_below(low);
-            while high - low > 4.0 * f64::EPSILON * high {
-                let middle = 0.5 * (low + high);
-                if self.dynamics.modes_below(middle) > count_low {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
-                if middle <= low && middle >= high {
-                    break;
-                }
+        let mut omega = 0.5 * (low + high);
+        let mut motions = Vec::new();
+        if at_low * at_high.signum() < 0.0 {
+            omega = roots::brent(low, at_low, high, at_high, determinant);
+            motions = self.dynamics.null_vectors(omega, 1);
+        }
+        // Rounding beside a pole hides the sign, or makes zeros that are none; the count does neither.
+        if motions.iter().all(|motion| motion.residual > ZERO_RESIDUAL) {
+            omega = self.by_count(low, high);
+            motions = self.dynamics.null_vectors(omega, 1);
+        }
+        self.add_all(omega, motions);
+    }
+
+    /// Where the count grows, by bisection.
+    fn by_count(&self, mut low: f64, mut high: f64) -> f64 {
+        let count_low = self.dynamics.modes_below(low);
+        while high - low > 4.0 * f64::EPSILON * high {
+            let middle = 0.5 * (low + high);
+            if self.dynamics.modes_below(middle) > count_low {
+                high = middle;
+            } else {
+                low = middle;
             }
-            0.5 * (low + high)
-        };
-        self.multiple(omega, 1);
+        }
+        0.5 * (low + high)
     }
 
     fn determinant(&self, omega: f64) -> f64 {
@@ -210,7 +219,13 @@ impl List<'_> {
 
     /// `several` modes at ω.
     fn multiple(&mut self, omega: f64, several: usize) {
-        for motion in self.dynamics.null_vectors(omega, several) {
+        self.add_all(omega, self.dynamics.null_vectors(omega, several));
+    }
+
+    /// Modes that share ω.
+    fn add_all(&mut self, omega: f64, motions: Vec<NullVector>) {
+        let several = motions.len();
+        for motion in motions {
             let largest = motion.platform[motion.platform.iamax()];
             let ell = self.dynamics.ell;
             let shape = std::array::from_fn(|i| motion.platform[i] / largest / if i < 3 { 1.0 } else { ell });

@@ -58,6 +58,8 @@ pub struct DampedModes {
 const WANTED_ERROR: f64 = 1e-9;
 /// Relative spread, from the second moment, up to which zeros that belong to a multiple undamped mode are one.
 const ONE_ZERO: f64 = 1e-8;
+/// Times that lost zeros are sought again.
+const MOST_ROUNDS: usize = 5;
 /// Relative step below which a zero has settled.
 const SETTLED: f64 = 4e-15;
 /// Poles up to this part of the limit are divided out of det D: so none is near a zero that is sought.
@@ -89,6 +91,7 @@ pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let mut zeros = search.starts(&undamped.modes);
     search.converge(&mut zeros);
     search.separate(&mut zeros, &undamped.modes);
+    search.bring_back(&mut zeros, &undamped.modes);
 
     let mut modes = vec![DampedMode { omega: Complex::new(0.0, 0.0), error: 0.0 }; undamped.modes.len()];
     for zero in &zeros {
@@ -203,6 +206,33 @@ impl Search<'_> {
         }
         *zeros = all;
         if any {
+            self.converge(zeros);
+        }
+    }
+
+    /// Seeks those that have been thrown out of their region again: from their own start and from the starts of those that
+    /// have gone farthest, since one of them may have taken the zero of another. All others stay divided out.
+    fn bring_back(&self, zeros: &mut [Zero], modes: &[Mode]) {
+        let start = |zero: &Zero| {
+            let mode = &modes[zero.members[0]];
+            mode.frequency_hz * TAU * Complex::new(1.0, mode.damping_ratio)
+        };
+        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re < 0.0 || zero.omega.im < 0.0;
+        for round in 0..MOST_ROUNDS {
+            let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
+            if lost.is_empty() {
+                return;
+            }
+            let gone = |zero: &Zero| (zero.omega - start(zero)).norm() / zero.omega.norm();
+            let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
+            places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
+            for (k, i) in lost.into_iter().enumerate() {
+                let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
+                // Beside it: the zero itself may be another's.
+                let beside = Complex::from_polar(1e-3, 0.7 + k as f64);
+                zeros[i].omega = start(&zeros[at]) * (1.0 + beside);
+                zeros[i].error = f64::INFINITY;
+            }
             self.converge(zeros);
         }
     }

@@ -3,6 +3,7 @@
 #![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)] // published values keep their digits
 
 mod cable;
+mod campaign;
 mod catenary;
 mod damped;
 mod exact;
