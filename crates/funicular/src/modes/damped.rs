@@ -217,7 +217,9 @@ impl Search<'_> {
             let mode = &modes[zero.members[0]];
             mode.frequency_hz * TAU * Complex::new(1.0, mode.damping_ratio)
         };
-        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re < 0.0 || zero.omega.im < 0.0;
+        // Undamped ones lie on the real axis but for rounding.
+        let least = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
+        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < least(zero);
         for round in 0..MOST_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
             if lost.is_empty() {
