@@ -4,6 +4,7 @@ mod parts;
 
 use super::Shell;
 use super::figure::response::{Curve, Marks, sampled};
+use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
 use crate::commands::modes::{check_count, uncertified};
@@ -11,6 +12,7 @@ use crate::state::AtRest;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::cable::CableModel;
+use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Vec6, rotation};
 use funicular::modes::{self, Kind, Modes};
@@ -61,6 +63,7 @@ struct ReportPage<'a> {
     stiffness_table: Option<Table>,
     modes_text: String,
     modes_figure: Figure,
+    shapes: Result<Option<Shapes>, String>,
     modes_table: Table,
     response_figure: Figure,
     peaks_table: Table,
@@ -117,6 +120,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         stiffness_table: parts::stiffness_table(robot, equilibrium),
         modes_text: modes_text(linearisation, &found),
         modes_figure: response::strip(&found),
+        shapes: Shapes::new(robot, equilibrium, &dynamics, &found).map_err(|error| no_shapes(&error)),
         modes_table: parts::modes_table(robot, &found),
         response_figure,
         peaks_table,
@@ -221,6 +225,15 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
         of(Kind::Cable),
         of(Kind::Mixed)
     )
+}
+
+/// Why the page has no mode shapes, and how to get them.
+fn no_shapes(error: &CableMotionError) -> String {
+    let way = match error {
+        CableMotionError::Model(_) => " Write this page with `--cable-model exact` for mode shapes.",
+        CableMotionError::Exact { .. } => "",
+    };
+    prose(&format!("Mode shapes are not shown: {error}.{way}"))
 }
 
 /// The response with the model asked, and with the other ones that there are at this state.
