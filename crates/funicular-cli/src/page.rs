@@ -62,13 +62,15 @@ pub(crate) fn unpacked(text: &str) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use super::figure::shapes::Shapes;
     use super::paper::paper;
-    use super::{PLOTLY, unpacked};
     use super::report::{ReportInput, report};
+    use super::{PLOTLY, unpacked};
     use crate::state::AtRest;
     use funicular::cable::CableModel;
-    use funicular::dynamics::Linearisation;
+    use funicular::dynamics::{Dynamics, Linearisation};
     use funicular::math::Vec3;
+    use funicular::modes;
     use funicular::response::{Direction, Quantity};
     use funicular::robot::{Robot, State};
     use funicular::statics::{Equilibrium, StaticModel, forward};
@@ -131,7 +133,7 @@ mod tests {
     fn a_report_carries_all_it_needs_and_has_every_section() {
         for text in [YUAN, COGIRO, POINT_MASS] {
             let page = page_of(text, StaticModel::Catenary);
-            assert!(page.len() < 6_000_000, "{}", page.len());
+            assert!(page.len() < 5_000_000, "{}", page.len());
             let own = own_part(&page);
             loads_nothing(&own);
             for (id, _) in super::report::CONTENTS {
@@ -148,7 +150,7 @@ mod tests {
     #[test]
     fn the_paper_carries_all_it_needs_and_has_every_section() {
         let page = paper("funicular paper".to_owned()).unwrap();
-        assert!(page.len() < 6_000_000, "{}", page.len());
+        assert!(page.len() < 5_000_000, "{}", page.len());
         let own = own_part(&page);
         loads_nothing(&own);
         for (id, _) in super::paper::CONTENTS {
@@ -184,10 +186,30 @@ mod tests {
             let page = page_with(YUAN, StaticModel::Catenary, linearisation);
             assert!(own_part(&page).contains("cables stiff in their planes only"), "{cable_model}");
         }
+        // The closed form knows cable ends only; the page says what does better.
+        let closed_form = own_part(&page_of(YUAN, StaticModel::Catenary));
+        assert!(
+            closed_form.contains("Mode shapes are not shown") && closed_form.contains("--cable-model exact</code>")
+        );
+        assert!(!closed_form.contains("id=\"shapes-data\""));
         // Ideal cables may push; then only the model that asks for no tension is left.
         let linearisation = Linearisation { cable_model: CableModel::Spring, ..Linearisation::default() };
         let page = page_with(YUAN, StaticModel::Ideal, linearisation);
         assert!(own_part(&page).contains("Ideal cables are rigid"));
+    }
+
+    #[test]
+    fn a_page_with_many_modes_is_cut_to_size_and_says_so() {
+        let robot = Robot::from_toml(YUAN).unwrap();
+        let equilibrium = rest(&robot, StaticModel::Catenary);
+        let dynamics = Dynamics::about(&robot, &equilibrium, Linearisation::default(), 150.0).unwrap();
+        let found = modes::below(&dynamics, 150.0);
+        let shapes = Shapes::new(&robot, &equilibrium, &dynamics, &found).unwrap().unwrap().to_string();
+        assert!(shapes.len() < 2_000_000, "{}", shapes.len());
+        let note = shapes.split_once("room for the shapes of the lowest ").unwrap().1;
+        let shown: usize = note.split(' ').next().unwrap().parse().unwrap();
+        assert!(shown > 300 && shown < found.modes.len(), "{shown} of {}", found.modes.len());
+        assert!(note.starts_with(&format!("{shown} of {} modes.", found.modes.len())));
     }
 
     #[test]

@@ -1,9 +1,9 @@
 (function () {
   "use strict";
   const PERIOD_MS = 1600;
-  // Where the drawn motion begins: the largest displacement over the diagonal of the scene, unless the platform would turn
-  // by more than this many radians, where linear motion visibly stretches it.
-  const REACH = 0.06, TURN = 0.3;
+  // How large the motion is drawn at first: the largest displacement over the diagonal of the scene, unless short waves
+  // would be steeper than this or the platform turn by more radians, where linear motion visibly stretches it.
+  const REACH = 0.06, SLOPE = 0.9, TURN = 0.3;
   // matplotlib's plasma from its gold to its blue: even in lightness, told apart by readers of every colour vision.
   const COLOURS = ["#fdc527", "#fca636", "#f2844b", "#e16462", "#cc4778", "#b12a90", "#8f0da4", "#6a00a8", "#41049d", "#0d0887"];
   const place = document.getElementById("shapes");
@@ -14,7 +14,7 @@
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   let robot, steps, offsets;
   let chosen = 0, motion = null, playing = !still, seen = true, phase = 0, last = null, waiting = false;
-  let turn, tilt, zoom;
+  let turn, tilt, zoom, close = false;
 
   function mixed(share) {
     const at = Math.min(1, Math.max(0, share)) * (COLOURS.length - 1), k = Math.min(COLOURS.length - 2, Math.floor(at));
@@ -30,26 +30,42 @@
   function short(x) { return x >= 100 ? x.toFixed(0) : x > 0 ? x.toFixed(Math.max(0, 2 - Math.floor(Math.log10(x)))) : "0"; }
   function percent(share) { return (100 * share).toFixed(1) + " %"; }
 
-  // Displacements of every drawn point: a cubic through the stations, axes of the world.
+  // Between numbers at equal distances: cubics whose slopes are those of their neighbours.
+  function cubic(values, count) {
+    const n = values.length - 1, ratio = count / n, all = [];
+    const at = function (k) {
+      if (k < 0) { return 3 * values[0] - 3 * values[1] + values[2]; }
+      return k > n ? 3 * values[n] - 3 * values[n - 1] + values[n - 2] : values[k];
+    };
+    for (let d = 0; d <= count; d++) {
+      const k = Math.min(n - 1, Math.floor(d / ratio)), t = d / ratio - k;
+      const a = at(k - 1), b = at(k), c = at(k + 1), e = at(k + 2);
+      all.push(b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - e + t * (3 * (b - c) + e - a))));
+    }
+    return all;
+  }
+  // Displacements of every drawn point, axes of the world. The page carries second differences along each cable.
   function expanded(number) {
-    const mode = robot.modes[number], n = mode.intervals, ratio = robot.drawn / n;
-    let largest = 0, where = "";
+    const mode = robot.modes[number], n = mode.intervals;
+    let largest = 0, steepest = 0, where = "", read = offsets[number];
     const note = function (u, name) { if (size(u) > largest) { largest = size(u); where = name; } };
-    const cables = robot.cables.map(function (cable, c) {
-      const value = function (k, axis) {
-        const at = function (k) { return mode.scale * steps.getInt16(offsets[number] + 2 * ((c * (n + 1) + k) * 3 + axis), true); };
-        if (k < 0) { return 3 * at(0) - 3 * at(1) + at(2); }
-        return k > n ? 3 * at(n) - 3 * at(n - 1) + at(n - 2) : at(k);
-      };
+    const cables = robot.cables.map(function (cable) {
+      const parts = cable.axes.map(function () {
+        const values = [];
+        let slope = 0, value = 0;
+        for (let k = 0; k <= n; k++) {
+          slope += steps.getInt16(read, true);
+          value += slope;
+          values.push(mode.scale * value);
+          read += 2;
+        }
+        return cubic(values, robot.drawn);
+      });
       const moved = [];
       for (let d = 0; d <= robot.drawn; d++) {
-        const k = Math.min(n - 1, Math.floor(d / ratio)), t = d / ratio - k;
-        let u = [0, 0, 0];
-        for (let axis = 0; axis < 3; axis++) {
-          const a = value(k - 1, axis), b = value(k, axis), e = value(k + 1, axis), f = value(k + 2, axis);
-          u = plus(u, cable.axes[axis], b + 0.5 * t * (e - a + t * (2 * a - 5 * b + 4 * e - f + t * (3 * (b - e) + f - a))));
-        }
+        const u = cable.axes.reduce(function (sum, axis, k) { return plus(sum, axis, parts[k][d]); }, [0, 0, 0]);
         note(u, "on cable " + cable.name);
+        if (d > 0) { steepest = Math.max(steepest, size(plus(u, moved[d - 1], -1)) / size(plus(cable.points[d], cable.points[d - 1], -1))); }
         moved.push(u);
       }
       return moved;
@@ -63,7 +79,8 @@
     };
     const corners = robot.platform.corners.map(rigid), centre = rigid(robot.platform.mass_centre);
     const angle = size(s.slice(3)), diagonal = size(plus(robot.high, robot.low, -1));
-    const start = Math.min(largest > 0 ? REACH * diagonal / largest : 0, angle > 0 ? TURN / angle : Infinity);
+    const limit = function (most, of) { return of > 0 ? most / of : Infinity; };
+    const start = largest > 0 ? Math.min(REACH * diagonal / largest, limit(SLOPE, steepest), limit(TURN, angle)) : 0;
     return { cables: cables, corners: corners, centre: centre, largest: largest, where: where, start: start };
   }
   function amplitude() { return motion.start * Math.pow(10, Number(slider.value)); }
@@ -80,7 +97,7 @@
   function box(mask) { return [0, 1, 2].map(function (k) { return mask >> k & 1 ? robot.high[k] : robot.low[k]; }); }
   function projection() {
     const width = canvas.clientWidth, height = canvas.clientHeight, eye = camera();
-    const middle = plus(robot.low, plus(robot.high, robot.low, -1), 0.5);
+    const whole = plus(robot.low, plus(robot.high, robot.low, -1), 0.5), middle = close ? robot.platform.mass_centre : whole;
     // The scale stays while the scene turns: what fits from the first direction, with room for the numbers.
     const first = { turn: turn, tilt: tilt };
     facing();
@@ -88,11 +105,12 @@
     turn = first.turn; tilt = first.tilt;
     let across = 0, upright = 0;
     for (let mask = 0; mask < 8; mask++) {
-      const p = plus(box(mask), middle, -1);
+      const p = plus(box(mask), whole, -1);
       across = Math.max(across, Math.abs(dot(p, start.right)));
       upright = Math.max(upright, Math.abs(dot(p, start.up)));
     }
-    const scale = zoom * Math.min((width / 2 - 46) / across, (height / 2 - 34) / upright);
+    const fit = Math.min((width / 2 - 46) / across, (height / 2 - 34) / upright);
+    const scale = zoom * (close ? Math.max(fit, 0.2 * Math.min(width, height) / robot.platform.reach) : fit);
     return {
       eye: eye, scale: scale,
       to: function (p) {
@@ -108,6 +126,12 @@
     tilt = Math.atan2(e[2], Math.hypot(e[0], e[1]));
   }
   function reset() { facing(); zoom = 1; show(); }
+  function approach(on) {
+    close = on;
+    zoom = 1;
+    if (button("near")) { button("near").setAttribute("aria-pressed", String(on)); }
+    show();
+  }
 
   function path(points) {
     context.beginPath();
@@ -145,16 +169,17 @@
       const other = 1 - k, marks = ticks(k);
       const point = function (value, at) { const p = [0, 0, z]; p[k] = value; p[other] = at; return to(p); };
       const edge = [point(low[k], front[other]), point(high[k], front[other])];
-      const out = [0.5 * (edge[0][0] + edge[1][0]) - middle[0], 0.5 * (edge[0][1] + edge[1][1]) - middle[1]];
-      const long = Math.hypot(out[0], out[1]) || 1;
-      const away = [out[0] / long, out[1] / long];
+      // Square to the edge, away from the floor.
+      let away = [edge[0][1] - edge[1][1], edge[1][0] - edge[0][0]];
+      const long = Math.hypot(away[0], away[1]) || 1, side = away[0] * (edge[0][0] - middle[0]) + away[1] * (edge[0][1] - middle[1]);
+      away = away.map(function (part) { return (side < 0 ? -part : part) / long; });
       const spread = Math.hypot(edge[1][0] - edge[0][0], edge[1][1] - edge[0][1]);
       marks.list.forEach(function (value) {
         stroke([point(value, low[other]), point(value, high[other])], "#d9d9d9", 1);
-        if (spread > 60) { write(value.toFixed(marks.digits).replace("-", "−"), point(value, front[other]), "#565656", 10.5, 14 * away[0], 11 * away[1]); }
+        if (spread > 60) { write(value.toFixed(marks.digits).replace("-", "−"), point(value, front[other]), "#565656", 10.5, 14 * away[0], 12 * away[1]); }
       });
       stroke(edge, "#8a8a8a", 1);
-      if (spread > 60) { write("xy"[k] + " [m]", point(0.5 * (low[k] + high[k]), front[other]), "#1b1b1b", 12, 34 * away[0], 25 * away[1]); }
+      if (spread > 60) { write("xy"[k] + " [m]", point(0.5 * (low[k] + high[k]), front[other]), "#1b1b1b", 12, 38 * away[0], 29 * away[1]); }
     });
     const upright = [0, 1, 2, 3].map(function (mask) { return [mask & 1 ? high[0] : low[0], mask & 2 ? high[1] : low[1]]; })
       .reduce(function (best, p) { return to([p[0], p[1], z])[0] < to([best[0], best[1], z])[0] ? p : best; });
@@ -230,7 +255,8 @@
         }
       };
     });
-    things.push({ depth: view.depth(centre), draw: function () { body(view, corners, centre, mode.platform); } });
+    // A point mass lies on its cables' ends.
+    things.push({ depth: robot.platform.faces.length ? view.depth(centre) : Infinity, draw: function () { body(view, corners, centre, mode.platform); } });
     things.sort(function (one, other) { return one.depth - other.depth; }).forEach(function (thing) { thing.draw(); });
     anchors(view);
   }
@@ -272,7 +298,7 @@
   function fact(name, text) { place.querySelector("[data-fact=" + name + "]").textContent = text; }
   function drawn() {
     const a = amplitude(), mode = robot.modes[chosen], rests = !mode.shape.some(function (s) { return s !== 0; });
-    fact("drawn", short(a) + (rests ? " × the motion of 1 kg of modal mass; " : " × the shape in the table; ") + "at most " + short(a * motion.largest) + " m, " + motion.where);
+    fact("drawn", short(a) + (rests ? " × the motion of 1 kg of modal mass; " : " × the shape in the table; ") + "at most " + short(a * motion.largest) + "\u00a0m, " + motion.where);
   }
   function shares(mode) {
     const names = ["platform"].concat(robot.cables.map(function (cable) { return "cable " + cable.name; }));
@@ -295,7 +321,7 @@
     phase = 0;
     last = null;
     const mode = robot.modes[chosen];
-    place.querySelector(".which").textContent = "Mode " + (chosen + 1) + " of " + robot.total + ": " + mode.hz + " Hz";
+    place.querySelector(".which").textContent = "Mode " + (chosen + 1) + " of " + robot.total + ": " + mode.hz + "\u00a0Hz";
     fact("damping", mode.damping + " %");
     fact("kind", mode.kind + (mode.multiplicity > 1 ? ", one of " + mode.multiplicity + " of this frequency" : ""));
     fact("mass", mode.mass + " kg");
@@ -371,7 +397,8 @@
     button("previous").addEventListener("click", function () { choose(chosen - 1); });
     button("next").addEventListener("click", function () { choose(chosen + 1); });
     button("play").addEventListener("click", function () { play(!playing); });
-    button("reset").addEventListener("click", function () { slider.value = 0; drawn(); reset(); });
+    button("reset").addEventListener("click", function () { slider.value = 0; drawn(); approach(false); reset(); });
+    if (button("near")) { button("near").addEventListener("click", function () { approach(!close); }); }
     place.addEventListener("keydown", key);
     window.addEventListener("hashchange", asked);
     // Before printing the view shows the largest motion, drawn finely; this runs after the page has taken its printed width.
@@ -431,10 +458,15 @@
       return at + 2 * 3 * robot.cables.length * (mode.intervals + 1);
     }, 0);
     robot.cables.forEach(function (cable) {
-      cable.points = [];
-      for (let k = 0; k < cable.rest.length; k += 3) { cable.points.push(cable.rest.slice(k, k + 3)); }
+      const parts = [0, 1, 2].map(function (axis) {
+        return cubic(cable.rest.filter(function (_, k) { return k % 3 === axis; }), robot.drawn);
+      });
+      cable.points = parts[0].map(function (x, k) { return [x, parts[1][k], parts[2][k]]; });
     });
     place.querySelector(".scale i").style.background = "linear-gradient(to right," + COLOURS.join(",") + ")";
+    const centre = robot.platform.mass_centre;
+    robot.platform.reach = robot.platform.corners.reduce(function (most, p) { return Math.max(most, size(plus(p, centre, -1))); }, 0);
+    if (robot.platform.reach === 0) { button("near").remove(); }
     facing();
     zoom = 1;
     makeRowsButtons();

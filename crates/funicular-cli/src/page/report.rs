@@ -63,7 +63,7 @@ struct ReportPage<'a> {
     stiffness_table: Option<Table>,
     modes_text: String,
     modes_figure: Figure,
-    shapes: Result<Option<Shapes>, String>,
+    shapes: Result<Shapes, String>,
     modes_table: Table,
     response_figure: Figure,
     peaks_table: Table,
@@ -120,7 +120,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         stiffness_table: parts::stiffness_table(robot, equilibrium),
         modes_text: modes_text(linearisation, &found),
         modes_figure: response::strip(&found),
-        shapes: Shapes::new(robot, equilibrium, &dynamics, &found).map_err(|error| no_shapes(&error)),
+        shapes: shapes_of(robot, equilibrium, &dynamics, &found),
         modes_table: parts::modes_table(robot, &found),
         response_figure,
         peaks_table,
@@ -227,13 +227,16 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
     )
 }
 
-/// Why the page has no mode shapes, and how to get them.
-fn no_shapes(error: &CableMotionError) -> String {
-    let way = match error {
-        CableMotionError::Model(_) => " Write this page with `--cable-model exact` for mode shapes.",
-        CableMotionError::Exact { .. } => "",
+/// The view of the mode shapes, or why there is none and how to get it.
+fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, found: &Modes) -> Result<Shapes, String> {
+    let reason = match Shapes::new(robot, equilibrium, dynamics, found) {
+        Ok(Some(shapes)) => return Ok(shapes),
+        Ok(None) if found.modes.is_empty() => "there is no mode below the limit. Raise `--below-hz`".to_owned(),
+        Ok(None) => "one of them needs more room than a page has".to_owned(),
+        Err(error @ CableMotionError::Model(_)) => format!("{error}. Write this page with `--cable-model exact`"),
+        Err(error) => error.to_string(),
     };
-    prose(&format!("Mode shapes are not shown: {error}.{way}"))
+    Err(prose(&format!("Mode shapes are not shown: {reason}.")))
 }
 
 /// The response with the model asked, and with the other ones that there are at this state.

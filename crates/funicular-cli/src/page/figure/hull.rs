@@ -28,7 +28,8 @@ pub(super) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
                 let height = |p: &Vec3| normal.dot(&(p - points[i]));
                 let above = points.iter().any(|p| height(p) > 1e-3 * reach);
                 let below = points.iter().any(|p| height(p) < -1e-3 * reach);
-                let corners: Vec<usize> = (0..points.len()).filter(|&l| height(&points[l]).abs() <= 1e-3 * reach).collect();
+                let corners: Vec<usize> =
+                    (0..points.len()).filter(|&l| height(&points[l]).abs() <= 1e-3 * reach).collect();
                 if (above && below) || faces.contains(&corners) {
                     continue;
                 }

@@ -1,7 +1,8 @@
 //! Mode shapes: how platform and cables move in each natural mode, for a view that the page animates.
 //!
 //! The page carries displacements at stations along the cables as whole steps of a scale, one scale a mode, after a
-//! header in JSON; both packed together. The script of the view (`templates/shapes.js`) is the reader of this format.
+//! header in JSON; both packed together. Along a cable the steps' second differences stand for them: small numbers, which
+//! pack to half the size. The script of the view (`templates/shapes.js`) is the reader of this format.
 
 use super::hull::faces;
 use super::robot::{EYE, extent, joined, ranges, sides};
@@ -19,14 +20,16 @@ use funicular::statics::Equilibrium;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Largest displacement of a mode in steps of its scale: a tenth of a pixel where it moves by a third of the view.
-const STEPS: f64 = 2000.0;
+/// Largest displacement of a mode in steps of its scale: a tenth of a pixel where it moves by a hundred.
+const STEPS: f64 = 1000.0;
 /// Most bytes of displacements, before packing: with them a page stays below 5 MB.
 const MOST_BYTES: usize = 1_500_000;
-/// Least intervals between stations; a power of two times this is what a mode gets.
+/// Least intervals between stations.
 const LEAST_INTERVALS: usize = 16;
-/// Intervals to half a wave of the taut cable: a cubic through the stations is off by less than a line is thick.
-const PER_HALF_WAVE: f64 = 6.0;
+/// Least intervals to half a wave of the taut cable: the cubics through the stations are off by 0.6 % of its height.
+const PER_HALF_WAVE: f64 = 4.5;
+/// Intervals of a cable at rest; its curve has no waves.
+const AT_REST: usize = 32;
 /// Least intervals of a cable as it is drawn.
 const LEAST_DRAWN: usize = 64;
 
@@ -66,7 +69,9 @@ impl Shapes {
             let values = || moved.iter().flatten().flatten();
             let largest = values().fold(0.0_f64, |most, u| most.max(u.abs()));
             let scale = if largest > 0.0 { largest / STEPS } else { 1.0 };
-            steps.extend(values().map(|u| (u / scale).round() as i16));
+            for (cable, axis) in moved.iter().flat_map(|cable| [0, 1, 2].map(|axis| (cable, axis))) {
+                steps.extend(second_differences(cable.iter().map(|u| (u[axis] / scale).round() as i16)));
+            }
             modes.push(described(mode, intervals, scale));
             finest = finest.max(intervals);
         }
@@ -85,6 +90,15 @@ impl Shapes {
     }
 }
 
+/// Of numbers that follow two zeros; at most four times as large as they are.
+fn second_differences(values: impl Iterator<Item = i16>) -> impl Iterator<Item = i16> {
+    values.scan((0, 0), |(last, before), value| {
+        let difference = value - 2 * *last + *before;
+        (*before, *last) = (*last, value);
+        Some(difference)
+    })
+}
+
 /// Length of the header (four bytes, least first), header, steps (two bytes, least first).
 fn with_header(header: &Value, steps: &[i16]) -> Vec<u8> {
     let header = header.to_string();
@@ -94,15 +108,21 @@ fn with_header(header: &Value, steps: &[i16]) -> Vec<u8> {
     bytes
 }
 
-/// Intervals for this many half waves.
+/// Intervals for this many half waves: 16, 24, 32, 48, 64, ..., so that modes share their stations.
 fn intervals(half_waves: f64) -> usize {
-    let asked = if half_waves.is_finite() { (PER_HALF_WAVE * half_waves) as usize } else { 0 };
-    LEAST_INTERVALS * asked.div_ceil(LEAST_INTERVALS).next_power_of_two()
+    // Beyond this no page has room.
+    let asked = if half_waves.is_finite() { (PER_HALF_WAVE * half_waves).min(1e6) } else { 0.0 };
+    let mut count = LEAST_INTERVALS;
+    while (count as f64) < asked {
+        count = if count.is_power_of_two() { count / 2 * 3 } else { count / 3 * 4 };
+    }
+    count
 }
 
 /// First frequency of the slowest cable as a taut string [Hz]; infinite if none has mass and tension.
 fn slowest_string_hz(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
-    let strings = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state).string_frequency_hz());
+    let strings =
+        equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state).string_frequency_hz());
     strings.filter(|f| *f > 0.0).fold(f64::INFINITY, f64::min)
 }
 
@@ -158,9 +178,9 @@ fn shares(fractions: &[f64]) -> Vec<f64> {
     fractions.iter().map(|share| (1e4 * share).round() / 1e4).collect()
 }
 
-/// What is at rest: cables at `drawn` intervals, anchors, platform, axes.
+/// What is at rest: cables, anchors, platform, axes; and into how many intervals cables are drawn.
 fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
-    let part = |k: usize| k as f64 / drawn as f64;
+    let part = |k: usize| k as f64 / AT_REST as f64;
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let names: Vec<String> = robot.cables.iter().map(|c| c.name.clone()).collect();
@@ -178,7 +198,7 @@ fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
                 Some(hanging) => hanging.point_w(part(k) * state.unstrained_length),
                 None => state.attachment_w + chord_w * part(k),
             };
-            let rest: Vec<Vec3> = (0..=drawn).map(at).collect();
+            let rest: Vec<Vec3> = (0..=AT_REST).map(at).collect();
             let flat: Vec<f64> = rest.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
             points.extend(rest);
             json!({"name": names[i], "label": labels[i], "place": places[i], "rest": rounded(&flat)})
@@ -204,18 +224,31 @@ fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::intervals;
+    use super::{intervals, second_differences};
 
     #[test]
-    fn stations_are_enough_for_the_waves_and_refine_by_halving() {
-        assert_eq!(intervals(0.0), 16);
-        assert_eq!(intervals(f64::NAN), 16);
-        assert_eq!(intervals(f64::INFINITY), 16);
-        assert_eq!(intervals(2.9), 32);
-        for half_waves in [3.0, 10.0, 14.7, 100.0] {
-            let count = intervals(half_waves);
-            assert!(count as f64 >= 6.0 * half_waves && (count as f64) < 12.0 * half_waves + 32.0);
-            assert!((count / 16).is_power_of_two());
+    fn stations_are_enough_for_the_waves_and_not_many_more() {
+        for none in [0.0, 3.5, f64::NAN, f64::INFINITY] {
+            assert_eq!(intervals(none), 16);
         }
+        let counts: Vec<usize> = [4.0, 6.0, 8.0, 12.0, 100.0].map(intervals).to_vec();
+        assert_eq!(counts, [24, 32, 48, 64, 512]);
+        for half_waves in [5.0, 14.7, 33.0, 470.0] {
+            let count = intervals(half_waves) as f64;
+            assert!(count >= 4.5 * half_waves && count <= 7.0 * half_waves);
+        }
+        assert!(intervals(f64::MAX) > 1_000_000);
+    }
+
+    #[test]
+    fn sums_of_sums_give_the_numbers_again() {
+        let values = [1000, -1000, 1000, 0, 3, -999];
+        let (mut slope, mut value) = (0, 0);
+        let again = second_differences(values.into_iter()).map(|difference| {
+            slope += difference;
+            value += slope;
+            value
+        });
+        assert_eq!(again.collect::<Vec<i16>>(), values);
     }
 }
