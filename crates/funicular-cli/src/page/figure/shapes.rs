@@ -57,7 +57,7 @@ impl Shapes {
         found: &Modes,
     ) -> Result<Option<Self>, CableMotionError> {
         let slowest = slowest_string_hz(robot, equilibrium);
-        let mut stations = Levels { robot, equilibrium, dynamics, levels: BTreeMap::new() };
+        let mut stations = Levels { robot, equilibrium, dynamics, by_intervals: BTreeMap::new() };
         let (mut modes, mut steps, mut finest) = (Vec::new(), Vec::new(), LEAST_INTERVALS);
         for mode in &found.modes {
             let intervals = intervals(mode.frequency_hz / slowest);
@@ -131,18 +131,18 @@ struct Levels<'a> {
     robot: &'a Robot,
     equilibrium: &'a Equilibrium,
     dynamics: &'a Dynamics,
-    levels: BTreeMap<usize, Vec<CableStations>>,
+    by_intervals: BTreeMap<usize, Vec<CableStations>>,
 }
 
 impl Levels<'_> {
     fn at(&mut self, intervals: usize) -> Result<&[CableStations], CableMotionError> {
-        if !self.levels.contains_key(&intervals) {
+        if !self.by_intervals.contains_key(&intervals) {
             let fractions: Vec<f64> = (0..=intervals).map(|k| k as f64 / intervals as f64).collect();
             let on = |i| CableStations::new(self.robot, self.equilibrium, self.dynamics, i, &fractions, false);
             let stations = (0..self.robot.cables.len()).map(on).collect::<Result<Vec<_>, _>>()?;
-            self.levels.insert(intervals, stations);
+            self.by_intervals.insert(intervals, stations);
         }
-        Ok(&self.levels[&intervals])
+        Ok(&self.by_intervals[&intervals])
     }
 
     /// Displacements (e, n, b) of a mode [m], by cable and station.
