@@ -8,7 +8,14 @@ pub(crate) mod paper;
 pub(crate) mod report;
 pub(crate) mod table;
 
-use plotly::Plot;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::Write as _;
+
+/// plotly.js, [`packed`] when the program was built.
+const PLOTLY: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.js.gz.base64"));
 
 /// What every page has around its own content.
 pub(crate) struct Shell {
@@ -19,7 +26,7 @@ pub(crate) struct Shell {
     version: &'static str,
     style: &'static str,
     script: &'static str,
-    bundle: String,
+    plotly: &'static str,
 }
 
 impl Shell {
@@ -31,31 +38,39 @@ impl Shell {
             version: env!("CARGO_PKG_VERSION"),
             style: include_str!("../templates/page.css"),
             script: include_str!("../templates/page.js"),
-            bundle: plotly_script(),
+            plotly: PLOTLY,
         }
     }
 }
 
-/// The `<script>` that holds plotly.js.
-///
-/// The crate hands out plotly.js and `MathJax` together; formulas here are plain text, so the second, of 2 MB, stays out.
-fn plotly_script() -> String {
-    const END: &str = "</script>";
-    let mut sources = Plot::offline_js_sources();
-    let end = sources.find(END).map_or(sources.len(), |at| at + END.len());
-    sources.truncate(end);
-    sources
+/// Bytes as the page's script unpacks them: gzip, as text in base64, which no element of a page can be ended by.
+pub(crate) fn packed(bytes: &[u8]) -> String {
+    const INTO_MEMORY: &str = "memory takes all that is written";
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes).expect(INTO_MEMORY);
+    BASE64.encode(encoder.finish().expect(INTO_MEMORY))
+}
+
+/// The inverse of [`packed`].
+#[cfg(test)]
+pub(crate) fn unpacked(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let packed = BASE64.decode(text.trim()).unwrap();
+    std::io::Read::read_to_end(&mut flate2::read::GzDecoder::new(packed.as_slice()), &mut bytes).unwrap();
+    bytes
 }
 
 #[cfg(test)]
 mod tests {
+    use super::figure::shapes::Shapes;
     use super::paper::paper;
-    use super::plotly_script;
     use super::report::{ReportInput, report};
+    use super::{PLOTLY, unpacked};
     use crate::state::AtRest;
     use funicular::cable::CableModel;
-    use funicular::dynamics::Linearisation;
+    use funicular::dynamics::{Dynamics, Linearisation};
     use funicular::math::Vec3;
+    use funicular::modes;
     use funicular::response::{Direction, Quantity};
     use funicular::robot::{Robot, State};
     use funicular::statics::{Equilibrium, StaticModel, forward};
@@ -95,11 +110,17 @@ mod tests {
 
     /// The page without plotly.js, after a check that it is there once.
     fn own_part(page: &str) -> String {
-        let bundle = plotly_script();
-        let parts: Vec<&str> = page.split(bundle.as_str()).collect();
+        let parts: Vec<&str> = page.split(PLOTLY).collect();
         assert_eq!(parts.len(), 2, "plotly.js is on the page once");
-        assert_eq!(page.matches("plotly.js v").count(), 1);
         parts.concat()
+    }
+
+    #[test]
+    fn plotly_is_packed_whole_and_alone() {
+        let script = String::from_utf8(unpacked(PLOTLY)).unwrap();
+        assert!(script.trim_start().starts_with("/**\n* plotly.js v"), "{}", &script[..80]);
+        assert!(script.contains("scatter3d") && !script.contains("MathJax = {"));
+        assert!(PLOTLY.len() < 2_000_000, "{}", PLOTLY.len());
     }
 
     fn loads_nothing(own: &str) {
@@ -112,7 +133,7 @@ mod tests {
     fn a_report_carries_all_it_needs_and_has_every_section() {
         for text in [YUAN, COGIRO, POINT_MASS] {
             let page = page_of(text, StaticModel::Catenary);
-            assert!(page.len() < 6_000_000, "{}", page.len());
+            assert!(page.len() < 5_000_000, "{}", page.len());
             let own = own_part(&page);
             loads_nothing(&own);
             for (id, _) in super::report::CONTENTS {
@@ -129,7 +150,7 @@ mod tests {
     #[test]
     fn the_paper_carries_all_it_needs_and_has_every_section() {
         let page = paper("funicular paper".to_owned()).unwrap();
-        assert!(page.len() < 6_000_000, "{}", page.len());
+        assert!(page.len() < 5_000_000, "{}", page.len());
         let own = own_part(&page);
         loads_nothing(&own);
         for (id, _) in super::paper::CONTENTS {
@@ -165,10 +186,30 @@ mod tests {
             let page = page_with(YUAN, StaticModel::Catenary, linearisation);
             assert!(own_part(&page).contains("cables stiff in their planes only"), "{cable_model}");
         }
+        // The closed form knows cable ends only; the page says what does better.
+        let closed_form = own_part(&page_of(YUAN, StaticModel::Catenary));
+        assert!(
+            closed_form.contains("Mode shapes are not shown") && closed_form.contains("--cable-model exact</code>")
+        );
+        assert!(!closed_form.contains("id=\"shapes-data\""));
         // Ideal cables may push; then only the model that asks for no tension is left.
         let linearisation = Linearisation { cable_model: CableModel::Spring, ..Linearisation::default() };
         let page = page_with(YUAN, StaticModel::Ideal, linearisation);
         assert!(own_part(&page).contains("Ideal cables are rigid"));
+    }
+
+    #[test]
+    fn a_page_with_many_modes_is_cut_to_size_and_says_so() {
+        let robot = Robot::from_toml(YUAN).unwrap();
+        let equilibrium = rest(&robot, StaticModel::Catenary);
+        let dynamics = Dynamics::about(&robot, &equilibrium, Linearisation::default(), 150.0).unwrap();
+        let found = modes::below(&dynamics, 150.0);
+        let shapes = Shapes::new(&robot, &equilibrium, &dynamics, &found).unwrap().unwrap().to_string();
+        assert!(shapes.len() < 2_000_000, "{}", shapes.len());
+        let note = shapes.split_once("room for the shapes of the lowest ").unwrap().1;
+        let shown: usize = note.split(' ').next().unwrap().parse().unwrap();
+        assert!(shown > 300 && shown < found.modes.len(), "{shown} of {}", found.modes.len());
+        assert!(note.starts_with(&format!("{shown} of {} modes.", found.modes.len())));
     }
 
     #[test]

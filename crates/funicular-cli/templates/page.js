@@ -1,14 +1,46 @@
-(function () {
+const page = (function () {
   "use strict";
   // A narrow screen has no room for the buttons beside the legend.
   const config = { responsive: true, displayModeBar: window.innerWidth > 640 ? "hover" : false, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
   const plots = [];
-  document.querySelectorAll("script[data-plot]").forEach(function (source) {
-    const figure = JSON.parse(source.textContent);
-    const place = document.getElementById(source.dataset.plot);
-    Plotly.newPlot(place, figure.data, figure.layout, config);
-    plots.push(place);
-  });
+
+  // What the page carries packed: gzip in base64.
+  async function unpack(id) {
+    if (typeof DecompressionStream === "undefined") {
+      throw new Error("this browser cannot unpack the figures of the page: it takes Chrome or Edge 80, Firefox 113, Safari 16.4, or a later one");
+    }
+    const source = document.getElementById(id);
+    const bytes = Uint8Array.from(atob(source.textContent.trim()), function (letter) { return letter.charCodeAt(0); });
+    source.remove();
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")));
+  }
+  function excuse(place, error) {
+    const text = document.createElement("p");
+    text.className = "unavailable";
+    text.textContent = "Not drawn: " + error.message + ". Text and tables are complete.";
+    place.replaceChildren(text);
+    place.style.height = "auto";
+  }
+  async function draw() {
+    const sources = document.querySelectorAll("script[data-plot]");
+    try {
+      const library = document.createElement("script");
+      library.textContent = await (await unpack("plotly")).text();
+      document.head.append(library);
+      if (typeof Plotly === "undefined") { throw new Error("the library that draws the figures did not start"); }
+    } catch (error) {
+      sources.forEach(function (source) { excuse(document.getElementById(source.dataset.plot), error); });
+      return;
+    }
+    sources.forEach(function (source) {
+      const figure = JSON.parse(source.textContent);
+      const place = document.getElementById(source.dataset.plot);
+      Plotly.newPlot(place, figure.data, figure.layout, config);
+      plots.push(place);
+    });
+  }
+  draw();
+
   function redraw() { plots.forEach(function (place) { Plotly.Plots.resize(place); }); }
   function size(place) { return { width: place.clientWidth, height: place.clientHeight }; }
   window.addEventListener("beforeprint", function () {
@@ -23,4 +55,5 @@
     plots.forEach(function (place) { Plotly.relayout(place, { width: null, height: null, autosize: true }); });
     redraw();
   });
+  return { unpack: unpack, excuse: excuse };
 }());

@@ -3,8 +3,10 @@
 //! The descriptions are written as JSON and not through the crate's builders, which lack parts that are used here (empty
 //! values in a line, several legends) and would be three times as long; the crate brings the library itself.
 
+mod hull;
 pub(crate) mod response;
 pub(crate) mod robot;
+pub(crate) mod shapes;
 
 use askama::Template;
 use funicular::cable::CableModel;

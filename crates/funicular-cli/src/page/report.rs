@@ -4,6 +4,7 @@ mod parts;
 
 use super::Shell;
 use super::figure::response::{Curve, Marks, sampled};
+use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
 use crate::commands::modes::{check_count, uncertified};
@@ -11,6 +12,7 @@ use crate::state::AtRest;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::cable::CableModel;
+use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Vec6, rotation};
 use funicular::modes::{self, Kind, Modes};
@@ -61,6 +63,7 @@ struct ReportPage<'a> {
     stiffness_table: Option<Table>,
     modes_text: String,
     modes_figure: Figure,
+    shapes: Result<Shapes, String>,
     modes_table: Table,
     response_figure: Figure,
     peaks_table: Table,
@@ -117,6 +120,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         stiffness_table: parts::stiffness_table(robot, equilibrium),
         modes_text: modes_text(linearisation, &found),
         modes_figure: response::strip(&found),
+        shapes: shapes_of(robot, equilibrium, &dynamics, &found),
         modes_table: parts::modes_table(robot, &found),
         response_figure,
         peaks_table,
@@ -221,6 +225,18 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
         of(Kind::Cable),
         of(Kind::Mixed)
     )
+}
+
+/// The view of the mode shapes, or why there is none and how to get it.
+fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, found: &Modes) -> Result<Shapes, String> {
+    let reason = match Shapes::new(robot, equilibrium, dynamics, found) {
+        Ok(Some(shapes)) => return Ok(shapes),
+        Ok(None) if found.modes.is_empty() => "there is no mode below the limit. Raise `--below-hz`".to_owned(),
+        Ok(None) => "one of them needs more room than a page has".to_owned(),
+        Err(error @ CableMotionError::Model(_)) => format!("{error}. Write this page with `--cable-model exact`"),
+        Err(error) => error.to_string(),
+    };
+    Err(prose(&format!("Mode shapes are not shown: {reason}.")))
 }
 
 /// The response with the model asked, and with the other ones that there are at this state.

@@ -1,7 +1,19 @@
 //! The pages: where they go, what they repeat, what they refuse.
 
 use super::{command, robot, run, stderr, stdout, succeed};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+use flate2::read::GzDecoder;
+use funicular::cable::CableModel;
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::Vec3;
+use funicular::modes;
+use funicular::robot::{Robot, State};
+use funicular::statics::{self, StaticModel};
+use serde_json::Value;
 use std::fs;
+use std::io::Read as _;
 
 #[test]
 fn without_arguments_the_pages_are_written_here() {
@@ -61,6 +73,7 @@ fn options_of_state_model_and_response_reach_the_page() {
 fn pages_that_cannot_be_are_refused() {
     for (line, code, expected) in [
         ("report --below-hz 1e6", 2, "lower the limit"),
+        ("report --cable-model closed-form --below-hz 1e6", 2, "at most 2000 are listed"),
         ("report --below-hz 0", 2, "0 is not positive"),
         ("report no-such.toml", 2, "cannot read the robot file no-such.toml"),
         ("report ROBOT -o ROBOT", 2, "refusing to write the result over the robot file"),
@@ -92,4 +105,78 @@ fn a_page_warns_on_stderr_too() {
     let output = run(&["report", &robot("yuan2014-8mm.toml"), "--cable-model", "closed-form", "-o", "-"]);
     assert!(stderr(&output).starts_with("warning: cable "), "{}", stderr(&output));
     assert!(stdout(&output).contains("<ul class=\"warnings\">"));
+}
+
+/// Header and displacements of the mode shapes of a page, read as its script reads them: by mode, cable, axis, station.
+fn shapes_of(page: &str) -> (Value, Vec<Vec<Vec<Vec<f64>>>>) {
+    let packed = page.split_once("id=\"shapes-data\" data-packed>").unwrap().1.split_once('<').unwrap().0;
+    let mut bytes = Vec::new();
+    GzDecoder::new(BASE64.decode(packed).unwrap().as_slice()).read_to_end(&mut bytes).unwrap();
+    let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
+    let header: Value = serde_json::from_slice(&bytes[4..4 + length]).unwrap();
+    let mut steps = bytes[4 + length..].chunks(2).map(|pair| i16::from_le_bytes([pair[0], pair[1]]));
+    let cables = header["cables"].as_array().unwrap().len();
+    let mut shapes = Vec::new();
+    for mode in header["modes"].as_array().unwrap() {
+        let (intervals, scale) = (mode["intervals"].as_u64().unwrap(), mode["scale"].as_f64().unwrap());
+        let mut along = || {
+            let (mut slope, mut value) = (0.0, 0.0);
+            let mut next = || {
+                slope += f64::from(steps.next().unwrap());
+                value += slope;
+                scale * value
+            };
+            (0..=intervals).map(|_| next()).collect::<Vec<f64>>()
+        };
+        shapes.push((0..cables).map(|_| (0..3).map(|_| along()).collect()).collect());
+    }
+    assert!(steps.next().is_none(), "nothing is left over");
+    (header, shapes)
+}
+
+#[test]
+fn the_page_moves_cables_as_the_library_says_and_hangs_them_on_the_platform() {
+    for (name, below_hz) in
+        [("yuan2014-4mm.toml", 6.0), ("cogiro.toml", 12.0), ("sap2000-8-cable-point-mass.toml", 30.0)]
+    {
+        let below = below_hz.to_string();
+        let page = succeed(&["report", &robot(name), "--cable-model", "exact", "--below-hz", &below, "-o", "-"]);
+        let (header, shapes) = shapes_of(&page);
+
+        let robot = Robot::from_toml(&fs::read_to_string(super::robot(name)).unwrap()).unwrap();
+        let State::Lengths(lengths) = &robot.state else { panic!("the file gives lengths") };
+        let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
+        let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
+        let dynamics = Dynamics::about(&robot, &rest, linearisation, below_hz).unwrap();
+        let found = modes::below(&dynamics, below_hz);
+        assert_eq!(shapes.len(), found.modes.len());
+        assert_eq!(header["total"], found.modes.len());
+        assert!(!shapes.is_empty());
+        for (k, mode) in found.modes.iter().enumerate() {
+            let described = &header["modes"][k];
+            assert_eq!(described["hz"], format!("{:.4}", mode.frequency_hz));
+            assert_eq!(described["kind"], mode.kind.name());
+            let (intervals, step) = (described["intervals"].as_u64().unwrap(), described["scale"].as_f64().unwrap());
+            let fractions: Vec<f64> = (0..=intervals).map(|at| at as f64 / intervals as f64).collect();
+            let mut largest = 0.0_f64;
+            for (i, state) in rest.cables.iter().enumerate() {
+                let cable = CableStations::new(&robot, &rest, &dynamics, i, &fractions, false).unwrap();
+                for (station, moved) in cable.in_mode(&dynamics, mode).iter().enumerate() {
+                    for (axis, expected) in moved.iter().enumerate() {
+                        let given = shapes[k][i][axis][station];
+                        // Rounded to whole steps.
+                        assert!((given - expected).abs() <= 0.5 * step * (1.0 + 1e-9), "{name} mode {k} cable {i}");
+                        largest = largest.max(given.abs());
+                    }
+                }
+                // The page's own numbers: a cable's first point goes where the platform's corner goes.
+                let [dx, dy, dz, tx, ty, tz]: [f64; 6] = serde_json::from_value(described["shape"].clone()).unwrap();
+                let corner_w = Vec3::new(dx, dy, dz) + Vec3::new(tx, ty, tz).cross(&state.lever_w);
+                let axes: [[f64; 3]; 3] = serde_json::from_value(header["cables"][i]["axes"].clone()).unwrap();
+                let end_w: Vec3 = (0..3).map(|axis| Vec3::from(axes[axis]) * shapes[k][i][axis][0]).sum();
+                assert!((end_w - corner_w).norm() <= step * (1.0 + 1e-9), "{name} mode {k} cable {i}");
+            }
+            assert!((largest / step - 1000.0).abs() < 1e-6, "the scale is used in full");
+        }
+    }
 }

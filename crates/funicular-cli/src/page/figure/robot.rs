@@ -96,25 +96,12 @@ const SQUARE: f64 = 1.2;
 /// Height of the drawn volume in plotly's units: it fills a view with parallel lines of sight, less the labels.
 const FILL: f64 = 1.35;
 /// Where the eye is: to the side and a little above, so that the sag shows in the vertical.
-const EYE: [f64; 3] = [0.7, -1.65, 0.5];
+pub(super) const EYE: [f64; 3] = [0.7, -1.65, 0.5];
 
 /// Axes of one scale around points, as large as fits a view of some width over height. `floor`: down to z = 0 if the
 /// points are above it.
 fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
-    let bounds = |k: usize| {
-        let values = || points.iter().map(|p| p[k]);
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
-    };
-    let mut ranges = [0, 1, 2].map(bounds);
-    // A margin, and some room where a robot is flat.
-    let size = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
-    for (low, high) in &mut ranges {
-        let more = 0.04 * size + (0.06 * size - 0.5 * (*high - *low)).max(0.0);
-        (*low, *high) = (*low - more, *high + more);
-    }
-    if floor && bounds(2).0 >= 0.0 {
-        ranges[2].0 = 0.0;
-    }
+    let ranges = ranges(points, floor);
     let span = ranges.map(|(low, high)| high - low);
     let [x, y, z] = EYE;
     let (level, far) = (x.hypot(y), x.hypot(y).hypot(z));
@@ -136,6 +123,25 @@ fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
         },
         "xaxis": axis(0, "x [m]"), "yaxis": axis(1, "y [m]"), "zaxis": axis(2, "z [m]"),
     })
+}
+
+/// From where to where each axis reaches around points.
+pub(super) fn ranges(points: &[Vec3], floor: bool) -> [(f64, f64); 3] {
+    let bounds = |k: usize| {
+        let values = || points.iter().map(|p| p[k]);
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let mut ranges = [0, 1, 2].map(bounds);
+    // A margin, and some room where a robot is flat.
+    let size = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+    for (low, high) in &mut ranges {
+        let more = 0.04 * size + (0.06 * size - 0.5 * (*high - *low)).max(0.0);
+        (*low, *high) = (*low - more, *high + more);
+    }
+    if floor && bounds(2).0 >= 0.0 {
+        ranges[2].0 = 0.0;
+    }
+    ranges
 }
 
 /// Points of a cable from the attachment up to an unstrained arc length.
@@ -170,7 +176,7 @@ fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, sym
 }
 
 /// One name for neighbours whose names would lie on each other, at the first of them.
-fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
+pub(super) fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
     let same = |i: usize, j: usize| places[i] == places[j] && (points[i] - points[j]).norm() < 0.06 * reach;
     (0..points.len())
         .map(|i| {
@@ -182,7 +188,7 @@ fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec
 
 /// Where each point's name goes: below the point when another one is close above it, else above. Points that coincide
 /// take turns, so that their names stand side by side.
-fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
+pub(super) fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
     const COINCIDING: [&str; 4] = ["middle left", "middle right", "top center", "bottom center"];
     points
         .iter()
@@ -243,7 +249,7 @@ fn body(points: &[Vec3], reach: f64) -> Value {
 }
 
 /// The order of points in a plane around their centre; none if they lie in no plane.
-fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
+pub(super) fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
     let centre = points.iter().sum::<Vec3>() / points.len() as f64;
     let spokes: Vec<Vec3> = points.iter().map(|p| p - centre).collect();
     let along = spokes.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?.normalize();
@@ -263,7 +269,7 @@ fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
 }
 
 /// Diagonal of the box around points [m].
-fn extent(points: &[Vec3]) -> f64 {
+pub(super) fn extent(points: &[Vec3]) -> f64 {
     let span = |k: usize| {
         let values = || points.iter().map(|p| p[k]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)

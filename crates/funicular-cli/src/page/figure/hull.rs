@@ -1,0 +1,76 @@
+//! The faces of the body between points in space.
+
+use super::robot::{extent, polygon};
+use funicular::math::Vec3;
+
+/// Corners of each face in their order around it: of the convex hull, or the one polygon of points in a plane. None if
+/// all points coincide.
+///
+/// Every plane through three points that leaves the others on one side holds a face: n⁴ steps, and a platform has few
+/// attachments.
+pub(super) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
+    let reach = extent(points);
+    if reach <= 0.0 {
+        return Vec::new();
+    }
+    if let Some(order) = polygon(points, reach) {
+        return vec![order];
+    }
+    let mut faces: Vec<Vec<usize>> = Vec::new();
+    for i in 0..points.len() {
+        for j in i + 1..points.len() {
+            for k in j + 1..points.len() {
+                let normal = (points[j] - points[i]).cross(&(points[k] - points[i]));
+                if normal.norm() < 1e-6 * reach * reach {
+                    continue;
+                }
+                let normal = normal.normalize();
+                let height = |p: &Vec3| normal.dot(&(p - points[i]));
+                let above = points.iter().any(|p| height(p) > 1e-3 * reach);
+                let below = points.iter().any(|p| height(p) < -1e-3 * reach);
+                let corners: Vec<usize> =
+                    (0..points.len()).filter(|&l| height(&points[l]).abs() <= 1e-3 * reach).collect();
+                if (above && below) || faces.contains(&corners) {
+                    continue;
+                }
+                faces.push(corners);
+            }
+        }
+    }
+    for corners in &mut faces {
+        let around: Vec<Vec3> = corners.iter().map(|&l| points[l]).collect();
+        if let Some(order) = polygon(&around, reach) {
+            *corners = order.iter().map(|&at| corners[at]).collect();
+        }
+    }
+    faces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_has_six_faces_of_four_corners_each_around_the_face() {
+        let corner = |k: usize| Vec3::new((k & 1) as f64, 0.5 * (k >> 1 & 1) as f64, 0.3 * (k >> 2) as f64);
+        let points: Vec<Vec3> = (0..8).map(corner).collect();
+        let faces = faces(&points);
+        assert_eq!(faces.len(), 6);
+        for face in &faces {
+            assert_eq!(face.len(), 4);
+            // Neighbours share an edge of the box: they differ in one coordinate.
+            for (at, &corner) in face.iter().enumerate() {
+                let next = face[(at + 1) % 4];
+                assert_eq!((corner ^ next).count_ones(), 1, "{face:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn flat_platforms_are_one_polygon_and_points_have_no_face() {
+        let ring: Vec<Vec3> = (0..6).map(|k| Vec3::new(f64::from(k).cos(), f64::from(k).sin(), 1.0)).collect();
+        assert_eq!(faces(&ring).len(), 1);
+        assert_eq!(faces(&ring)[0].len(), 6);
+        assert!(faces(&[Vec3::z(); 4]).is_empty());
+    }
+}
