@@ -260,19 +260,36 @@ impl Search<'_> {
         (count - many).norm() < 0.1 && variance.norm().sqrt() <= ONE_ZERO * zero.omega.norm()
     }
 
+    /// A frequency at or a little beyond the limit [rad/s], in the widest gap between undamped modes: damping shifts their
+    /// ringing, and none must cross the edge of the region in which they are counted.
+    fn free_of_modes(&self, limit: f64) -> f64 {
+        let at = |k: usize| limit * (1.0 + BEYOND * k as f64 / LOOKS as f64);
+        let (mut widest, mut first) = (0..0, 0);
+        let mut count = self.dynamics.modes_below(at(0));
+        for k in 1..=LOOKS {
+            let next = self.dynamics.modes_below(at(k));
+            if next != count {
+                (first, count) = (k, next);
+            } else if k - first > widest.len() {
+                widest = first..k;
+            }
+        }
+        0.5 * (at(widest.start) + at(widest.end))
+    }
+
     /// Whether as many damped zeros as undamped ones lie around the list: the phase of the quotient of both determinants
     /// does not turn on the way around.
     fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64) -> bool {
-        const PIECES: usize = 16;
         let Some(least) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
         let most = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
         // Far enough from all zeros for a slow phase.
         let margin = (2.0 * most).max(0.01 * limit);
+        let right = self.free_of_modes(limit);
         let corner = |re, im| Complex::new(re, im);
         let corners = [
             corner(0.5 * least, -margin),
-            corner(limit, -margin),
-            corner(limit, most + margin),
+            corner(right, -margin),
+            corner(right, most + margin),
             corner(0.5 * least, most + margin),
         ];
         let phase = |omega: Complex| {
@@ -282,8 +299,10 @@ impl Search<'_> {
         let mut turned = 0.0;
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
             let mut last = (*from, phase(*from));
-            for piece in 1..=PIECES {
-                let point = from + (to - from) * (piece as f64 / PIECES as f64);
+            // The phase turns within the distance of the zeros; a longer piece might skip a whole turn of a cluster.
+            let pieces = ((to - from).norm() / (0.5 * margin)).ceil() as usize;
+            for piece in 1..=pieces {
+                let point = from + (to - from) * (piece as f64 / pieces as f64);
                 let next = (point, phase(point));
                 match turn_between(&phase, last, next, 0) {
                     Some(turn) => turned += turn,
@@ -296,6 +315,10 @@ impl Search<'_> {
     }
 }
 
+/// Part of the limit within which a place free of modes is sought beyond it, and looks taken there.
+const BEYOND: f64 = 0.05;
+const LOOKS: usize = 64;
+
 /// Longest step of a search, relative to its frequency.
 const LONGEST_STEP: f64 = 0.1;
 
@@ -304,7 +327,8 @@ fn wrapped(phase: f64) -> f64 {
     phase - TAU * (phase / TAU).round()
 }
 
-/// Change of phase between two points; halved until it is small and both halves agree with the whole.
+/// Change of phase between two points; halved until it is small and both halves agree with the
+/// whole and with each other.
 fn turn_between(
     phase: &impl Fn(Complex) -> f64,
     from: (Complex, f64),
@@ -320,7 +344,7 @@ fn turn_between(
     if !(whole.is_finite() && first.is_finite()) || depth > DEEPEST {
         return None;
     }
-    if whole.abs() < 1.0 && (first + second - whole).abs() < 0.1 {
+    if whole.abs() < 1.0 && (first + second - whole).abs() < 0.1 && (first - second).abs() < 0.5 {
         return Some(whole);
     }
     Some(turn_between(phase, from, middle, depth + 1)? + turn_between(phase, middle, to, depth + 1)?)

@@ -88,8 +88,8 @@ fn every_random_robot_is_certified_or_refused_and_agrees_with_its_bars() {
     }
     tally.print(started.elapsed());
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
-    // Seen: 1.5 % of random robots, mostly those whose cables are all alike.
-    assert!(tally.uncertain.len() <= 2 + tally.certified / 30, "damped lists not certified: {:?}", tally.uncertain);
+    // Seen: 1 of 2000, a zero among nine close ones.
+    assert!(tally.uncertain.len() <= tally.certified / 500, "damped lists not certified: {:?}", tally.uncertain);
     // Seen: 4 of 2000.
     assert!(tally.astray.len() <= 1 + tally.certified / 200, "no equilibrium without a start: {:?}", tally.astray);
     // Something has been looked at.
