@@ -5,6 +5,7 @@
 
 mod catenary;
 mod cube;
+mod damped;
 mod dynamics;
 mod exact;
 mod independent;
@@ -102,6 +103,7 @@ pub(crate) fn sections() -> Result<Vec<Section>> {
         robots::section(&published)?,
         independent::section(&independent)?,
         exact::section(&published, &reference::exact()?, &independent)?,
+        damped::section(&reference::damped()?, &independent)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,

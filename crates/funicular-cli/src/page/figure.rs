@@ -4,6 +4,7 @@
 //! values in a line, several legends) and would be three times as long; the crate brings the library itself.
 
 mod hull;
+pub(crate) mod models;
 pub(crate) mod response;
 pub(crate) mod robot;
 pub(crate) mod shapes;

@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, anyhow};
 use funicular::robot::{Robot, State};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// A table without values of its own.
 #[derive(Deserialize)]
@@ -321,6 +322,74 @@ pub(super) struct ExactFrf {
     pub(super) frequency_hz: Vec<f64>,
     #[serde(flatten)]
     pub(super) response: Response,
+}
+
+/// damped.json.
+#[derive(Deserialize)]
+pub(super) struct Damped {
+    #[serde(rename = "_about")]
+    pub(super) about: String,
+    pub(super) damped_modes: Vec<DampedRobot>,
+    pub(super) point_frf: Vec<PointRobot>,
+}
+
+/// A robot of independent.json with other damping.
+#[derive(Deserialize)]
+pub(super) struct DampedRobot {
+    pub(super) case: String,
+    pub(super) robot: String,
+    pub(super) cable_damping: BTreeMap<String, RopeDamping>,
+    pub(super) platform_damping: Option<PlatformDamping>,
+    pub(super) below_hz: f64,
+    pub(super) modes: Vec<DampedFrequency>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+pub(super) enum RopeDamping {
+    Ratio { damping_ratio: f64 },
+    Viscous { viscous_damping_n_s_m2: f64 },
+}
+
+#[derive(Deserialize)]
+pub(super) struct PlatformDamping {
+    pub(super) translation_n_s_m: [f64; 3],
+    pub(super) rotation_n_m_s_rad: [f64; 3],
+}
+
+#[derive(Deserialize)]
+pub(super) struct DampedFrequency {
+    pub(super) re_hz: f64,
+    pub(super) im_hz: f64,
+}
+
+/// Responses between points of cables and platform.
+#[derive(Deserialize)]
+pub(super) struct PointRobot {
+    pub(super) robot: String,
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) pairs: Vec<PointPair>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct PointPair {
+    pub(super) force: Point,
+    pub(super) displacement: Point,
+    #[serde(flatten)]
+    pub(super) response: Response,
+}
+
+/// On the platform at its origin, or on a cable.
+#[derive(Deserialize)]
+pub(super) struct Point {
+    pub(super) cable: Option<String>,
+    #[serde(default)]
+    pub(super) fraction: f64,
+    pub(super) direction_world: [f64; 3],
+}
+
+pub(super) fn damped() -> Result<Damped> {
+    serde_json::from_str(include_str!("../../../funicular/reference/damped.json")).context("damped.json")
 }
 
 pub(super) fn published() -> Result<Published> {

@@ -2,7 +2,7 @@
 
 use super::prose;
 use crate::commands::modes;
-use crate::page::figure::{Figure, axis, colour, model_name, plain, rounded};
+use crate::page::figure::{self, Figure, axis, colour, model_name, plain, rounded};
 use crate::page::table::{Table, fixed, listed, significant};
 use crate::table::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
@@ -213,6 +213,8 @@ fn strongest(robot: &Robot, mode: &Mode) -> String {
 pub(crate) struct ComparisonPart {
     /// Advice of the core.
     pub(crate) advice: String,
+    /// How far the models are from the reference, where that has modes.
+    pub(crate) figure: Option<Figure>,
     /// One row a model.
     pub(crate) models: Table,
     /// One row a mode.
@@ -229,7 +231,8 @@ pub(crate) fn comparison(
     let comparison = compare::compare(robot, equilibrium, below_hz, linearisation)
         .map_err(|error| prose(&format!("The models cannot be compared at this state: {error}.")))?;
     let (models, modes) = (models_table(&comparison), side_by_side(&comparison));
-    Ok(ComparisonPart { advice: prose(&comparison.advice.text), models, modes })
+    let figure = figure::models::figure(&comparison);
+    Ok(ComparisonPart { advice: prose(&comparison.advice.text), figure, models, modes })
 }
 
 fn models_table(comparison: &Comparison) -> Table {

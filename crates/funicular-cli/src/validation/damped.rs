@@ -1,0 +1,132 @@
+//! Damped natural frequencies, and responses of points on cables.
+
+use super::reference::{Damped, DampedRobot, Independent, Point, PointRobot, RopeDamping, robot};
+use super::{Bound, Case, Kind, Row, Section, worst};
+use anyhow::{Context, Result};
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::Vec3;
+use funicular::modes;
+use funicular::response::{self, Direction, Port, Quantity};
+use funicular::robot::{Damping, Robot};
+use funicular::statics::{self, Equilibrium, StaticModel};
+
+pub(super) fn section(reference: &Damped, robots: &Independent) -> Result<Section> {
+    let toml = |id: &str| {
+        let case = robots.cases.iter().find(|other| other.id == id).context("a robot of independent.json")?;
+        Ok::<_, anyhow::Error>(&case.toml)
+    };
+    let mut rows = Vec::new();
+    for of in &reference.damped_modes {
+        rows.extend(frequencies(&reference.about, of, toml(&of.robot)?)?);
+    }
+    for of in &reference.point_frf {
+        rows.push(points(&reference.about, of, toml(&of.robot)?)?);
+    }
+    Ok(Section {
+        title: "Damped modes and points on cables, computed independently",
+        note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of the \
+               platform; responses whose force or motion is on a cable. The other program solves one eigenvalue problem of \
+               all unknowns in extended precision. Of lists the last value is shown and all are compared.",
+        rows,
+    })
+}
+
+fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Row>> {
+    let case = Case { name: format!("{}, {}", of.robot, of.case), source };
+    let (mut robot, lengths) = robot(toml)?;
+    for cable in &mut robot.cables {
+        cable.material.damping = match of.cable_damping.get(&cable.name).context("damping of every cable")? {
+            RopeDamping::Ratio { damping_ratio } => Damping::Ratio(*damping_ratio),
+            RopeDamping::Viscous { viscous_damping_n_s_m2 } => Damping::Viscous(*viscous_damping_n_s_m2),
+        };
+    }
+    if let Some(platform) = &of.platform_damping {
+        robot.platform.translational_damping_p = Vec3::from(platform.translation_n_s_m);
+        robot.platform.rotational_damping_p = Vec3::from(platform.rotation_n_m_s_rad);
+    }
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), of.below_hz)?;
+    let damped = modes::damped::of(&dynamics, &modes::below(&dynamics, of.below_hz));
+    let mut ours: Vec<(f64, f64)> =
+        damped.modes.iter().map(|mode| (mode.ringing_hz(), mode.frequency_hz() * mode.damping_ratio())).collect();
+    ours.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let certified = if damped.certified { ours.len() } else { 0 };
+    // Frequencies that ring alike may come in any order: each is compared with the nearest that is left.
+    let mut left = ours.clone();
+    let gaps = of.modes.iter().map(|theirs| {
+        let gap = |(re, im): &(f64, f64)| (re - theirs.re_hz).hypot(im - theirs.im_hz) / theirs.re_hz;
+        let nearest = (0..left.len()).min_by(|&i, &j| gap(&left[i]).total_cmp(&gap(&left[j])));
+        nearest.map_or(f64::NAN, |i| gap(&left.swap_remove(i)))
+    });
+    let difference = worst(gaps);
+    let theirs: Vec<f64> = of.modes.last().map_or(Vec::new(), |mode| vec![mode.re_hz, mode.im_hz]);
+    let last: Vec<f64> = ours.last().map_or(Vec::new(), |(re, im)| vec![*re, *im]);
+    Ok(vec![
+        case.count(&format!("damped modes below {} Hz", of.below_hz), of.modes.len(), certified),
+        case.row(
+            "complex natural frequency, last [Hz]",
+            (&theirs, &last),
+            (difference, Kind::Relative),
+            1e-9,
+            Bound::Elements,
+        ),
+    ])
+}
+
+/// All pairs of one robot.
+fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Row> {
+    let case = Case { name: of.robot.clone(), source };
+    let (robot, lengths) = robot(toml)?;
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+    let highest = of.frequency_hz.iter().copied().fold(0.0, f64::max);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), highest)?;
+    let mut gaps = Vec::new();
+    let mut shown = (0.0, 0.0);
+    for pair in &of.pairs {
+        let (from, to) = (&pair.force, &pair.displacement);
+        // Both points of one cable are stations of one list.
+        let together = from.cable.is_some() && from.cable == to.cable;
+        let with = if together { vec![from, to] } else { vec![from] };
+        let of_force = stations(&robot, &rest, &dynamics, &with)?;
+        let of_motion = if together { None } else { stations(&robot, &rest, &dynamics, &[to])? };
+        let seen = if together { of_force.as_ref() } else { of_motion.as_ref() };
+        let input = port(from, of_force.as_ref(), 0, &rest);
+        let output = port(to, seen, usize::from(together), &rest);
+        let ours = response::between(&dynamics, &of.frequency_hz, &input, &output, Quantity::Displacement)?;
+        for (k, value) in ours.iter().enumerate() {
+            let (re, im) = (pair.response.real[k], pair.response.imag[k]);
+            gaps.push((value.re - re).hypot(value.im - im) / re.hypot(im));
+            if re.hypot(im) > shown.0 {
+                shown = (re.hypot(im), value.norm());
+            }
+        }
+    }
+    Ok(case.row(
+        &format!("{} responses of points on cables, largest [m/N]", of.pairs.len()),
+        (&[shown.0], &[shown.1]),
+        (worst(gaps.into_iter()), Kind::Relative),
+        1e-8,
+        Bound::Elements,
+    ))
+}
+
+fn stations(
+    robot: &Robot,
+    rest: &Equilibrium,
+    dynamics: &Dynamics,
+    points: &[&Point],
+) -> Result<Option<CableStations>> {
+    let Some(name) = &points[0].cable else { return Ok(None) };
+    let i = robot.cables.iter().position(|cable| cable.name == *name).context("a cable of the robot")?;
+    let fractions: Vec<f64> = points.iter().map(|point| point.fraction).collect();
+    Ok(Some(CableStations::new(robot, rest, dynamics, i, &fractions, true)?))
+}
+
+fn port<'a>(point: &Point, stations: Option<&'a CableStations>, station: usize, rest: &Equilibrium) -> Port<'a> {
+    let direction_w = Vec3::from(point.direction_world);
+    match stations {
+        Some(stations) => Port::Cable { stations, station, direction_w: direction_w.normalize() },
+        None => Port::Platform(Direction::Along { direction_w, point_p: Vec3::zeros() }.vector(&rest.pose)),
+    }
+}
