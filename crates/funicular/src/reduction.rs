@@ -247,7 +247,11 @@ impl Channels {
             Place::Platform(direction) => Channel::Platform(direction.vector(&equilibrium.pose)),
             Place::Cable { cable, fraction, direction_w } => {
                 let at = fractions.iter().position(|(of, _)| of == cable).expect("every cable has stations");
-                let station = fractions[at].1.iter().position(|of| of == fraction).expect("and every fraction");
+                let station = fractions[at]
+                    .1
+                    .iter()
+                    .position(|of| of.to_bits() == fraction.to_bits())
+                    .expect("and every fraction");
                 Channel::Cable { stations: at, station, direction_w: *direction_w }
             }
         };

@@ -17,7 +17,7 @@ pub(super) fn section(reference: &Damped, robots: &Independent) -> Result<Sectio
         Ok::<_, anyhow::Error>(&case.toml)
     };
     let mut rows = Vec::new();
-    for of in &reference.damped_modes {
+    for of in &reference.robots {
         rows.extend(frequencies(&reference.about, of, toml(&of.robot)?)?);
     }
     for of in &reference.point_frf {

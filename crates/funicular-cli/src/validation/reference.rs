@@ -329,7 +329,8 @@ pub(super) struct ExactFrf {
 pub(super) struct Damped {
     #[serde(rename = "_about")]
     pub(super) about: String,
-    pub(super) damped_modes: Vec<DampedRobot>,
+    #[serde(rename = "damped_modes")]
+    pub(super) robots: Vec<DampedRobot>,
     pub(super) point_frf: Vec<PointRobot>,
 }
 

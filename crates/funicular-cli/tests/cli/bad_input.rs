@@ -125,7 +125,8 @@ fn broken_command_lines_are_refused() {
         ("pose-error ROBOT --mass-kg 10:90:5 --tolerance-mm 0", "0 is not positive"),
         ("pose-error ROBOT --mass-kg 10:90:5 --lengths-m 1,2", "2 unstrained lengths for 6 cables"),
         ("cable ROBOT --name 9 --from-hz 1 --to-hz 2 --points 9", "no cable \"9\"; there are `1`"),
-        ("cable ROBOT --name 1 --from-hz 1 --to-hz 1e9 --points 9", "lower --to-hz"),
+        ("cable ROBOT --name 1 --from-hz 1 --to-hz 1e9 --points 9", "lower the limit"),
+        ("cable ROBOT --name 1 --cable-model closed-form --from-hz 1 --to-hz 1e9 --points 9", "lower --to-hz"),
         // Where the result goes.
         ("statics ROBOT -o ROBOT", "refusing to write the result over the robot file"),
         ("statics ROBOT -o /", "it is a directory"),

@@ -284,7 +284,7 @@ fn validate_passes_every_comparison_and_needs_no_robot() {
     assert_eq!(value["passed"], value["comparisons"]);
     let sections = value["sections"].as_array().unwrap();
     let rows: Vec<&Value> = sections.iter().flat_map(|section| section["rows"].as_array().unwrap()).collect();
-    assert_eq!((sections.len(), rows.len() as u64), (7, value["comparisons"].as_u64().unwrap()));
+    assert_eq!((sections.len(), rows.len() as u64), (8, value["comparisons"].as_u64().unwrap()));
     for row in &rows {
         assert!(number(&row["difference"]) <= number(&row["tolerance"]), "{row}");
         assert!(row["source"].as_str().is_some_and(|source| !source.is_empty()), "{row}");
@@ -364,4 +364,90 @@ fn a_state_beyond_its_limits_is_warned_of_with_numbers() {
     let rope = "materials.rope-4mm.breaking_load_n=52";
     let output = run(&["statics", "ROBOT", "--set", rope]);
     assert!(stderr(&output).contains("its rope breaks at 52 N"), "{}", stderr(&output));
+}
+
+#[test]
+fn modes_take_part_in_a_response_and_move_their_cables() {
+    let value =
+        json(&["modes", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "cable:3@0.5:az", "--stations", "5"]);
+    assert_eq!(value["damped_certified"], true);
+    assert_eq!(value["peak_unit"], "(m/s²)/N");
+    let stations = value["stations"].as_array().unwrap();
+    assert_eq!(stations.len(), 6);
+    let frf = json(&[
+        "frf",
+        "ROBOT",
+        "--from-hz",
+        "1.7",
+        "--to-hz",
+        "2",
+        "--points",
+        "3001",
+        "--input",
+        "fz",
+        "--output",
+        "cable:3@0.5:az",
+    ]);
+    let peak = frf["peaks"].as_array().unwrap().iter().map(|peak| number(&peak["magnitude"])).fold(0.0, f64::max);
+    let mut largest = 0.0_f64;
+    for mode in value["modes"].as_array().unwrap() {
+        let (zeta, [re, im]) = (number(&mode["damping_ratio"]), [0, 1].map(|i| number(&mode["eigenvalue_per_s"][i])));
+        assert!(re < 0.0 && close(zeta, -re / re.hypot(im), 1e-14));
+        assert!(number(&mode["modal_mass_kg"]) > 0.0);
+        let shapes = mode["cable_shapes"].as_array().unwrap();
+        assert!(shapes.len() == 6 && shapes.iter().all(|cable| cable.as_array().unwrap().len() == 5));
+        // Anchors are held.
+        assert!(shapes.iter().all(|cable| numbers(&cable[4]).iter().all(|u| u.abs() < 1e-9)));
+        if (1.7..2.0).contains(&number(&mode["frequency_hz"])) {
+            largest = largest.max(number(&mode["peak"]));
+        }
+    }
+    // One mode stands out, and is most of the peak.
+    assert!(close(largest, peak, 0.1 * peak), "{largest} {peak}");
+}
+
+#[test]
+fn a_reduced_model_is_read_by_others_as_it_was_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let arguments =
+        ["reduce", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "az", "--output", "cable:3@0.5:z"];
+    fn with<'a>(arguments: &[&'a str], model: &'a str) -> Vec<&'a str> {
+        [arguments, &["--model", model]].concat()
+    }
+    let (npz, csv) = (place("my model.npz"), place("a folder"));
+    let found = json(&with(&arguments, &npz));
+    let n = found["order"].as_u64().unwrap();
+    assert!(number(&found["truncation_error"]) <= 1e-3 && number(&found["frequency_error"]) < 1e-4);
+    assert!(succeed(&with(&arguments, &csv)).contains(&format!("{n} coordinates: the platform's 6")));
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(&npz).unwrap()).unwrap();
+    let shapes =
+        [("M", [n, n]), ("K", [n, n]), ("B", [n, 1]), ("L", [2, n]), ("ss_A", [2 * n, 2 * n]), ("ss_D", [2, 1])];
+    for (name, shape) in shapes {
+        let mut bytes = Vec::new();
+        std::io::copy(&mut archive.by_name(&format!("{name}.npy")).unwrap(), &mut bytes).unwrap();
+        let array = npyz::NpyFile::new(&bytes[..]).unwrap();
+        assert_eq!((array.shape(), array.order()), (&shape[..], npyz::Order::Fortran), "{name}");
+        let values: Vec<f64> = array.into_vec().unwrap();
+        // The same numbers in rows.
+        let text = std::fs::read_to_string(format!("{csv}/{name}.csv")).unwrap();
+        let rows: Vec<Vec<f64>> =
+            text.lines().map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+        assert_eq!([rows.len() as u64, rows[0].len() as u64], shape, "{name}");
+        for (i, row) in rows.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                assert_eq!(value.to_bits(), values[j * rows.len() + i].to_bits(), "{name} {i} {j}");
+            }
+        }
+    }
+    assert!(archive.by_name("description.json").is_ok());
+    // What is there is not written over.
+    let refused = run(&with(&arguments, &csv));
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("is not empty"), "{}", stderr(&refused));
+    let refused = run(&with(&arguments, &place("model.mat")));
+    assert!(stderr(&refused).contains("neither an .npz file nor a folder"), "{}", stderr(&refused));
+    let refused = run(&["reduce", "ROBOT", "--below-hz", "3", "--cable-model", "closed-form"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("choose the model `exact`"), "{}", stderr(&refused));
 }

@@ -51,8 +51,8 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
             "line": { "color": colour::GREY, "width": 1, "dash": "dot" },
         }],
         "annotations": [{
-            "xref": "paper", "x": 1, "xanchor": "right", "y": LACKING.log10() + 0.1, "yanchor": "top", "showarrow": false,
-            "text": "above: modes that a model does not have",
+            "xref": "paper", "x": 1, "xanchor": "right", "yref": "paper", "y": 1.01, "yanchor": "bottom",
+            "showarrow": false, "text": "× a mode that the model does not have",
         }],
     });
     let caption = format!(
