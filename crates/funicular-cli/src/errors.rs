@@ -75,7 +75,7 @@ fn code(error: &anyhow::Error) -> u8 {
         Some(_) => false,
         None => {
             matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
-                || error.is::<ResponseError>()
+                || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
                 || error.is::<NoSolution>()
         }
     };

@@ -5,7 +5,6 @@ mod complex;
 mod count;
 mod pencil;
 
-pub(crate) use complex::Losses;
 pub(crate) use pencil::NullVector;
 
 use crate::cable::exact::ExactError;

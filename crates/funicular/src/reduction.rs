@@ -444,8 +444,11 @@ fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result
 /// Largest relative error of the responses by viscous damping in place of constant ratios, at natural frequencies.
 fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, natural: &[f64]) -> Option<f64> {
     // A full elimination a frequency; peaks show damping most, and these are spread over all of them.
-    const MOST: usize = 48;
-    let every = natural.len().div_ceil(MOST).max(1);
+    const MOST: f64 = 48.0;
+    // Operations of all of them.
+    const WORK: f64 = 2e9;
+    let most = (WORK / (model.mass.nrows() as f64).powi(3)).clamp(4.0, MOST) as usize;
+    let every = natural.len().div_ceil(most).max(1);
     let frequencies: Vec<f64> = natural.iter().copied().step_by(every).collect();
     let reference = channels.responses(dynamics, &frequencies).ok()?;
     let mut of_model = vec![Vec::new(); reference.len()];

@@ -95,7 +95,7 @@ impl DeepSag {
 
 /// Relative error of a shallow-sag model at one cable.
 fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableModel) -> Option<f64> {
-    let hanging = state.hanging.as_ref()?;
+    let hanging = state.hanging.as_ref().filter(|hanging| hanging.catenary.rope().weight_per_length > 0.0)?;
     if model == CableModel::StaticSag {
         let e = hanging.chord_w().normalize();
         return Some(static_sag::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);

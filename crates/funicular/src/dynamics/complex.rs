@@ -10,16 +10,6 @@
 use super::{Dynamics, POLE_PART, Term, add_local};
 use crate::cable::{DynamicCable, LocalStiffness, damped_square_with_slope};
 use crate::math::{CDMat, CMat6, Complex};
-use crate::robot::Damping;
-
-/// The damping with which D is formed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Losses {
-    /// As the robot has it.
-    Damped,
-    /// None.
-    Undamped,
-}
 
 /// D at a complex frequency, bordered by near poles, and its derivative.
 struct Bordered {
@@ -38,9 +28,10 @@ impl Dynamics {
     }
 
     /// (d/dω) ln f at ω, where f is det D times ω_k² − ω_c² over the `poles` of [`poles_below`](Self::poles_below): f has
-    /// the damped natural frequencies as its zeros, each as often as it counts, and no pole in their region.
-    pub(crate) fn logarithmic_slope(&self, omega: Complex, poles: &[Vec<f64>]) -> Complex {
-        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, Losses::Damped, poles);
+    /// the damped natural frequencies as its zeros, each as often as it counts, and no pole in their region. `losses` is
+    /// the part of its damping that the robot has: 1 all, 0 none.
+    pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Complex {
+        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles);
         match value.lu().solve(&slope) {
             Some(solved) => solved.trace() + pole_slope,
             None => Complex::new(f64::INFINITY, 0.0),
@@ -48,17 +39,14 @@ impl Dynamics {
     }
 
     /// Phase of the same f [rad], up to whole turns.
-    pub(crate) fn phase(&self, omega: Complex, losses: Losses, poles: &[Vec<f64>]) -> f64 {
+    pub(crate) fn phase(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> f64 {
         let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles);
         value.lu().determinant().arg() + pole_phase
     }
 
-    fn bordered(&self, omega: Complex, losses: Losses, poles: &[Vec<f64>]) -> Bordered {
+    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Bordered {
         let i = Complex::i();
-        let platform_damping = match losses {
-            Losses::Damped => self.platform_damping,
-            Losses::Undamped => self.platform_damping * 0.0,
-        };
+        let platform_damping = self.platform_damping * losses;
         let mut value = CMat6::from_fn(|r, c| {
             self.constant[(r, c)] + i * omega * platform_damping[(r, c)] - omega * omega * self.mass[(r, c)]
         });
@@ -66,11 +54,8 @@ impl Dynamics {
         let (mut pole_slope, mut pole_phase) = (Complex::new(0.0, 0.0), 0.0);
         let mut borders = Vec::new();
         for (term, poles) in self.terms.iter().zip(poles) {
-            let (damping, mass_per_length) = match losses {
-                Losses::Damped => self.damping[term.cable],
-                Losses::Undamped => (Damping::Ratio(0.0), 1.0),
-            };
-            let (square, square_slope) = damped_square_with_slope(omega, damping, mass_per_length);
+            let (damping, mass_per_length) = self.damping[term.cable];
+            let (square, square_slope) = damped_square_with_slope(omega, damping.times(losses), mass_per_length);
             let (stiffness, mass, near) = match &term.form {
                 DynamicCable::ClosedForm(form) => {
                     let (stiffness, mass) = form.at(square);

@@ -8,7 +8,7 @@
 
 use super::{Mode, Modes};
 use crate::cable::damped_zero;
-use crate::dynamics::{Dynamics, Losses};
+use crate::dynamics::Dynamics;
 use crate::math::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -58,6 +58,9 @@ pub struct DampedModes {
 const WANTED_ERROR: f64 = 1e-9;
 /// Relative spread, from the second moment, up to which zeros that belong to a multiple undamped mode are one.
 const ONE_ZERO: f64 = 1e-8;
+/// Damping ratio that is put on at once: strong damping comes in steps, each zero following from its last place.
+const STEP_OF_DAMPING: f64 = 0.1;
+const MOST_STEPS: f64 = 20.0;
 /// Times that lost zeros are sought again.
 const MOST_ROUNDS: usize = 5;
 /// Relative step below which a zero has settled.
@@ -87,9 +90,15 @@ const POLES_BEYOND: f64 = 1.3;
 /// section 12.
 pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
-    let search = Search { dynamics, poles: dynamics.poles_below(POLES_BEYOND * limit) };
+    let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
+    let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MOST_STEPS);
+    let mut search = Search { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit) };
     let mut zeros = search.starts(&undamped.modes);
     search.converge(&mut zeros);
+    while search.losses < 1.0 {
+        search.losses = (search.losses + 1.0 / steps).min(1.0);
+        search.follow(&mut zeros, &undamped.modes);
+    }
     search.separate(&mut zeros, &undamped.modes);
     search.bring_back(&mut zeros, &undamped.modes);
 
@@ -110,6 +119,8 @@ pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
 
 struct Search<'a> {
     dynamics: &'a Dynamics,
+    /// Part of the damping that is on.
+    losses: f64,
     /// Of each cable whose stiffness depends on frequency.
     poles: Vec<Vec<f64>>,
 }
@@ -134,7 +145,8 @@ impl Search<'_> {
             zeros.push(if let Some(omega) = self.of_cables_alone(mode) {
                 Zero { omega, error: 0.0, members }
             } else {
-                let zeta = members.iter().map(|i| modes[*i].damping_ratio).sum::<f64>() / members.len() as f64;
+                let sum: f64 = members.iter().map(|i| modes[*i].damping_ratio).sum();
+                let zeta = self.losses * sum / members.len() as f64;
                 Zero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
             });
         }
@@ -148,10 +160,23 @@ impl Search<'_> {
         }
         let mut damped =
             mode.cable_energy_fractions.iter().zip(&self.dynamics.damping).filter(|(part, _)| **part > 0.0).map(
-                |(_, (damping, mass_per_length))| damped_zero(mode.frequency_hz * TAU, *damping, *mass_per_length),
+                |(_, (damping, mass_per_length))| {
+                    damped_zero(mode.frequency_hz * TAU, damping.times(self.losses), *mass_per_length)
+                },
             );
         let first = damped.next()?;
         damped.all(|omega| omega == first).then_some(first)
+    }
+
+    /// From where the zeros were with less damping to where they are now.
+    fn follow(&self, zeros: &mut [Zero], modes: &[Mode]) {
+        for zero in &mut *zeros {
+            match self.of_cables_alone(&modes[zero.members[0]]) {
+                Some(omega) => zero.omega = omega,
+                None => zero.error = f64::INFINITY,
+            }
+        }
+        self.converge(zeros);
     }
 
     /// Newton's steps on f over all the other zeros, until none moves.
@@ -169,7 +194,7 @@ impl Search<'_> {
                     .filter(|other| other.omega != omega)
                     .map(|other| other.members.len() as f64 / (omega - other.omega))
                     .sum();
-                let slope = self.dynamics.logarithmic_slope(omega, &self.poles) - others;
+                let slope = self.dynamics.logarithmic_slope(omega, self.losses, &self.poles) - others;
                 let step = zeros[i].members.len() as f64 / slope;
                 if !(step.re.is_finite() && step.im.is_finite()) {
                     // Exactly at a zero, as far as rounding shows.
@@ -247,7 +272,8 @@ impl Search<'_> {
         let mut moments = [Complex::new(0.0, 0.0); 3];
         for k in 0..POINTS {
             let at = Complex::from_polar(radius, TAU * k as f64 / POINTS as f64);
-            let mut power = self.dynamics.logarithmic_slope(zero.omega + at, &self.poles) * at / POINTS as f64;
+            let mut power =
+                self.dynamics.logarithmic_slope(zero.omega + at, self.losses, &self.poles) * at / POINTS as f64;
             for moment in &mut moments {
                 *moment += power;
                 power *= at;
@@ -293,8 +319,7 @@ impl Search<'_> {
             corner(0.5 * least, most + margin),
         ];
         let phase = |omega: Complex| {
-            self.dynamics.phase(omega, Losses::Damped, &self.poles)
-                - self.dynamics.phase(omega, Losses::Undamped, &self.poles)
+            self.dynamics.phase(omega, 1.0, &self.poles) - self.dynamics.phase(omega, 0.0, &self.poles)
         };
         let mut turned = 0.0;
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {

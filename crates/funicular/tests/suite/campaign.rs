@@ -89,7 +89,7 @@ fn every_random_robot_is_certified_or_refused_and_agrees_with_its_bars() {
     tally.print(started.elapsed());
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
     // Seen: 1 of 2000, a zero among nine close ones.
-    assert!(tally.uncertain.len() <= tally.certified / 500, "damped lists not certified: {:?}", tally.uncertain);
+    assert!(tally.uncertain.len() <= 1 + tally.certified / 1000, "damped lists not certified: {:?}", tally.uncertain);
     // Seen: 4 of 2000.
     assert!(tally.astray.len() <= 1 + tally.certified / 200, "no equilibrium without a start: {:?}", tally.astray);
     // Something has been looked at.
