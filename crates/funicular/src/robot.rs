@@ -3,7 +3,10 @@
 //! Frames: `w` world, `p` platform. `anchor_w` is a point in world coordinates, `attachment_p` one in platform
 //! coordinates, `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
 
+mod freedoms;
 pub mod spec;
+
+pub use freedoms::{Freedoms, OutOfPlane, Plane};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};
 
@@ -24,32 +27,13 @@ pub struct Robot {
     pub state: State,
 }
 
-/// Which motions the platform has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Freedoms {
-    /// Three translations and three rotations.
-    #[default]
-    Rigid,
-    /// Translations only: all cables end in one point that carries the mass.
-    PointMass,
-}
-
-impl Freedoms {
-    /// Number of freedoms: 6 or 3. The first ones of (δp, δθ).
-    pub fn count(self) -> usize {
-        match self {
-            Self::Rigid => 6,
-            Self::PointMass => 3,
-        }
-    }
-}
-
 /// The moving platform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Platform {
     /// Mass [kg], positive.
     pub mass: f64,
-    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass.
+    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass. Of a
+    /// planar platform only the moment about the normal counts.
     pub inertia_p: Mat3,
     /// Centre of mass in the platform frame [m].
     pub center_of_mass_p: Vec3,

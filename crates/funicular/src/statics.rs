@@ -3,18 +3,20 @@
 mod forward;
 mod inverse;
 mod limits;
+mod nearest;
 mod start;
 mod tension;
 
 pub use forward::forward;
 pub use inverse::inverse;
 pub use limits::{Limit, TensionMargin, TensionRange};
+pub use nearest::{Nearest, distance, nearest};
 pub use tension::{Miss, TensionRule, distribute};
 
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inertia, skew};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::robot::{OutOfPlane, Pose, Robot};
 use thiserror::Error;
 
 /// How a cable carries its static load.
@@ -123,10 +125,10 @@ pub enum StaticsError {
         /// Value [m].
         value: f64,
     },
-    /// Fewer cables than freedoms.
+    /// Ideal cables, not as many as freedoms.
     #[error(
-        "{cables} cables for {freedoms} freedoms: forward statics needs at least {freedoms} (with `spring` and \
-         `catenary` cables) or exactly {freedoms} (with `ideal` cables)"
+        "{cables} cables for {freedoms} freedoms: forward statics of `ideal` cables needs exactly {freedoms}; `spring` \
+         and `catenary` cables may be fewer or more"
     )]
     CableCount {
         /// Cables of the robot.
@@ -136,8 +138,8 @@ pub enum StaticsError {
     },
     /// Fewer cables than freedoms hold no given pose.
     #[error(
-        "inverse statics of {cables} cables for {freedoms} freedoms: it needs at least as many cables as the platform \
-         has freedoms"
+        "{cables} cables for {freedoms} freedoms hold no given pose: with `spring` and `catenary` cables there is the \
+         nearest pose that they can hold, with `ideal` cables there is none"
     )]
     InverseCableCount {
         /// Cables of the robot.
@@ -145,6 +147,9 @@ pub enum StaticsError {
         /// Freedoms of the platform.
         freedoms: usize,
     },
+    /// A pose that a planar platform cannot have.
+    #[error(transparent)]
+    OutOfPlane(#[from] OutOfPlane),
     /// A cable has no length between its ends at this pose.
     #[error("cable \"{cable}\" has coinciding ends at this pose: move the platform away from its anchor")]
     CoincidingEnds {
@@ -214,6 +219,25 @@ pub enum StaticsError {
         "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
     )]
     NothingToStiffen,
+    /// The search for the nearest pose did not end.
+    #[error(
+        "no nearest pose found in {iterations} iterations: the last, at position ({x:.4}, {y:.4}, {z:.4}) m, could come \
+         nearer by {residual:.1e} of the robot's size (limit {limit:.0e}); ask for a pose nearer to one that hangs freely"
+    )]
+    NotNearest {
+        /// Iterations of forward statics taken.
+        iterations: usize,
+        /// Relative length by which the pose could come nearer along the equilibria, to first order.
+        residual: f64,
+        /// What it has to be below.
+        limit: f64,
+        /// Position reached [m].
+        x: f64,
+        /// Position reached [m].
+        y: f64,
+        /// Position reached [m].
+        z: f64,
+    },
     /// The search did not reach the tolerance.
     #[error(
         "no equilibrium found in {iterations} iterations: scaled residual {residual:.3e} (limit {limit:.0e}) at position \
@@ -255,7 +279,7 @@ fn hang(robot: &Robot, i: usize, pose: &Pose, up_w: Vec3, rope: Rope) -> Hanging
 }
 
 /// Wrench (force, moment about the platform origin) of a force at a lever arm.
-fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
+pub(crate) fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
     let moment = lever.cross(force);
     Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
@@ -263,6 +287,11 @@ fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
 /// Wrench of gravity on the platform about its origin, at a pose.
 fn weight_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
     wrench_of(&(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p))
+}
+
+/// A wrench with its moments divided by ℓ: one unit throughout.
+fn scaled_wrench(wrench: &Vec6, ell: f64) -> Vec6 {
+    Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { wrench[i] / ell })
 }
 
 /// Adds `Jᵀ K J` of a 3×3 stiffness at a lever arm, `J = [I, −[r]×]`.
@@ -344,13 +373,11 @@ fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError> {
     }
 }
 
-/// The larger of force and moment/ℓ, over all tensions and the weight. A point mass has no moment.
+/// The larger of force and moment/ℓ, over all tensions and the weight; what the platform cannot do is not counted.
 fn scaled_residual(robot: &Robot, wrench: &Vec6, force_scale: f64) -> f64 {
+    let wrench = robot.platform.freedoms.allowed(wrench);
     let force = wrench.fixed_rows::<3>(0).norm();
-    let moment = match robot.platform.freedoms {
-        Freedoms::Rigid => wrench.fixed_rows::<3>(3).norm() / robot.platform_length(),
-        Freedoms::PointMass => 0.0,
-    };
+    let moment = wrench.fixed_rows::<3>(3).norm() / robot.platform_length();
     if force_scale > 0.0 { force.max(moment) / force_scale } else { force.max(moment) }
 }
 
@@ -404,7 +431,7 @@ fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)
 fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let n = robot.platform.freedoms.count();
     let scaled = scaled(&((stiffness + stiffness.transpose()) * 0.5), robot.platform_length());
-    let (values, _) = inertia::eigen(&scaled, n);
+    let (values, _) = inertia::eigen(&robot.platform.freedoms.reduced_matrix(&scaled), n);
     // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();

@@ -12,8 +12,10 @@
 //! | `gravity_m_s2` | acceleration of gravity, world axes | `[0, 0, -9.81]` |
 //! | **`[platform]`** | | required |
 //! | `mass_kg` | mass, positive | required |
-//! | `freedoms` | `"rigid"` or `"point-mass"` (translations only) | `"rigid"` |
-//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3 | required if rigid, refused if not |
+//! | `freedoms` | `"rigid"`, `"point-mass"` (translations only), `"planar-xy"`, `"planar-xz"`, `"planar-yz"` (two translations and the rotation about the third axis), or `"planar"` with a normal | `"rigid"` |
+//! | `plane_normal` | normal of the plane in which the platform's origin moves, world axes, any length | required if `"planar"`, else refused |
+//! | `plane_offset_m` | distance of that plane from the world's origin along the normal (z, y or x, or `plane_normal`) | 0 |
+//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; if planar also one number, the moment about the normal, the only one that counts | required, refused of a point mass |
 //! | `center_of_mass_m` | in the platform frame | `[0, 0, 0]` |
 //! | **`[materials.NAME]`** | | one or more |
 //! | `youngs_modulus_pa` with `diameter_m` or `area_m2` | axial stiffness as `E A` | one of the two ways |
@@ -26,7 +28,7 @@
 //! | `name` | unique | required |
 //! | `material` | a NAME of `[materials.NAME]` | required |
 //! | `anchor_m` | exit point in the world frame | required |
-//! | `attachment_m` | point in the platform frame | required if rigid, zero if not |
+//! | `attachment_m` | point in the platform frame | required, zero of a point mass |
 //! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
 //! | `unstrained_length_m` | positive; all cables have one, or none | none |
 //! | **`[state]`** | a pose; not together with lengths | none |
@@ -43,7 +45,7 @@ mod materials;
 mod platform;
 mod read;
 
-use super::{Cable, Pose, Robot, State};
+use super::{Cable, Freedoms, Pose, Robot, State};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
@@ -160,7 +162,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let platform = platform::read(reader, &root, freedoms);
     let materials = materials::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), freedoms);
-    let state = read_state(reader, &root, cables.as_deref(), freedoms == Some(super::Freedoms::PointMass));
+    let state = read_state(reader, &root, cables.as_deref(), freedoms);
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
     Some(Robot {
         name: name?,
@@ -173,7 +175,12 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
 }
 
 /// `[state]` or the cables' lengths, and what can be checked of them against the geometry.
-fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>, point_mass: bool) -> Option<State> {
+fn read_state(
+    reader: &mut Reader,
+    root: &Section,
+    cables: Option<&[CableEntry]>,
+    freedoms: Option<Freedoms>,
+) -> Option<State> {
     let lengths = cables.map(|cables| cables::lengths(reader, cables));
     let Some(value) = root.get("state") else {
         let lengths = lengths??;
@@ -188,7 +195,7 @@ fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>
     let angles = match section.get("roll_pitch_yaw_deg") {
         Some(value) => {
             let angles = reader.vector("roll_pitch_yaw_deg", "degrees", value);
-            if point_mass && angles.is_some_and(|angles| !is_zero(&angles)) {
+            if freedoms == Some(Freedoms::PointMass) && angles.is_some_and(|angles| !is_zero(&angles)) {
                 reader
                     .issue(value.span(), "a point mass has no orientation, `roll_pitch_yaw_deg` must be zero or absent")
                     .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
@@ -205,6 +212,10 @@ fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>
         return None;
     }
     let pose = Pose::new(position?, angles?);
+    if let Some(Err(out)) = freedoms.map(|freedoms| freedoms.check(&pose)) {
+        reader.issue(value.span(), format!("this pose is not in the plane: {out}"));
+        return None;
+    }
     cables::refuse_coincident_ends(reader, cables?, &pose);
     Some(State::Pose(pose))
 }
@@ -212,7 +223,7 @@ fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Damping, Freedoms};
+    use crate::robot::Damping;
     use proptest::prelude::*;
 
     /// A file that uses every kind of value.
