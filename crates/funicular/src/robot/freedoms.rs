@@ -143,6 +143,11 @@ impl Freedoms {
         }
     }
 
+    /// Components of (δp, δθ) in world axes in which the platform can move.
+    pub fn components(&self) -> Vec<usize> {
+        (0..6).filter(|&i| self.reduced(&Vec6::ith(i, 1.0)).norm() > IN_PLANE).collect()
+    }
+
     /// Coordinate `k` is a rotation.
     pub fn is_rotation(&self, k: usize) -> bool {
         match self {
