@@ -1,10 +1,10 @@
 //! The static state that an analysis starts from: as the robot file says, or as the options say.
 
-use crate::args::{CableModelName, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
+use crate::args::{CableModelName, LoadArgs, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
-use funicular::robot::{Freedoms, Pose, Robot, State, TensionLimits};
+use funicular::robot::{Freedoms, Load, Pose, Robot, State, TensionLimits};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use crate::table::short;
 use funicular::validity;
@@ -109,6 +109,24 @@ pub(crate) fn with_options(mut robot: Robot, args: &StateArgs) -> Result<Robot> 
     }
     if let Some(mass) = args.mass_kg {
         robot.platform.mass = mass;
+    }
+    let LoadArgs { force_n, moment_n_m, load_point_m } = args.load;
+    let of_file = robot.load;
+    robot.load = Load {
+        force_w: force_n.unwrap_or(of_file.force_w),
+        moment_w: moment_n_m.unwrap_or(of_file.moment_w),
+        point_p: load_point_m.unwrap_or(of_file.point_p),
+    };
+    if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
+        bail!("--load-point-m is where a force acts, and there is none: give --force-n");
+    }
+    if robot.platform.freedoms == Freedoms::PointMass {
+        if robot.load.moment_w.norm() > 0.0 {
+            bail!("a point mass does not turn: remove --moment-n-m");
+        }
+        if robot.load.point_p.norm() > 0.0 {
+            bail!("a point mass has no points but its origin: remove --load-point-m");
+        }
     }
     Ok(robot)
 }

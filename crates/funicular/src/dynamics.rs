@@ -12,7 +12,7 @@ use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, skew};
 use crate::robot::{Damping, Freedoms, Robot};
-use crate::statics::{Equilibrium, add_congruent, add_lever_term, scaled, wrench_of};
+use crate::statics::{Equilibrium, add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
 use thiserror::Error;
 
 /// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown
@@ -157,9 +157,8 @@ impl Dynamics {
                 add_lever_term(&mut constant, &state.force_on_platform_w, &state.lever_w);
             }
         }
-        let com_w = equilibrium.pose.rot_wp * robot.platform.center_of_mass_p;
         if assembly == Assembly::Consistent {
-            add_lever_term(&mut constant, &(robot.gravity_w * robot.platform.mass), &com_w);
+            add_load_terms(&mut constant, robot, &equilibrium.pose);
         }
         // Symmetric to rounding at an equilibrium; exactly so for what follows.
         let coordinates = |matrix: &Mat6| motions.reduced_matrix(&scaled(matrix, ell));

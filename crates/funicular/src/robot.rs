@@ -21,6 +21,8 @@ pub struct Robot {
     pub gravity_w: Vec3,
     /// The moving platform.
     pub platform: Platform,
+    /// What acts on the platform besides its weight.
+    pub load: Load,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
     /// What the file says about the state: unstrained lengths or a pose.
@@ -43,6 +45,17 @@ pub struct Platform {
     pub translational_damping_p: Vec3,
     /// Viscous damping of its rotation about the platform's axes [N m s].
     pub rotational_damping_p: Vec3,
+}
+
+/// A dead load on the platform: it keeps its direction in the world whatever the platform does.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Force, world axes [N].
+    pub force_w: Vec3,
+    /// Moment, world axes [N m].
+    pub moment_w: Vec3,
+    /// Where the force acts, platform frame [m].
+    pub point_p: Vec3,
 }
 
 /// Material damping of a rope; enters the cable's frequency only (theory, section 4).
@@ -174,6 +187,14 @@ impl Robot {
         for cable in &mut robot.cables {
             cable.tension_limits = limits.or(cable.tension_limits);
         }
+        robot
+    }
+
+    /// This robot with another load on its platform.
+    #[must_use]
+    pub fn with_load(&self, load: Load) -> Self {
+        let mut robot = self.clone();
+        robot.load = load;
         robot
     }
 

@@ -16,7 +16,7 @@ pub use tension::{Miss, TensionRule, distribute};
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inertia, skew};
-use crate::robot::{OutOfPlane, Pose, Robot};
+use crate::robot::{Load, OutOfPlane, Pose, Robot};
 use thiserror::Error;
 
 /// How a cable carries its static load.
@@ -284,9 +284,18 @@ pub(crate) fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
     Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-/// Wrench of gravity on the platform about its origin, at a pose.
-fn weight_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
+/// Wrench of gravity and of the load on the platform about its origin, at a pose.
+fn load_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
+    let Load { force_w, moment_w, point_p } = &robot.load;
     wrench_of(&(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p))
+        + wrench_of(force_w, &(pose.rot_wp * point_p))
+        + Vec6::new(0.0, 0.0, 0.0, moment_w.x, moment_w.y, moment_w.z)
+}
+
+/// The size of what acts on the platform [N]: weight, force, and moment over ℓ.
+fn load_size(robot: &Robot) -> f64 {
+    let Load { force_w, moment_w, .. } = &robot.load;
+    robot.platform.mass * robot.gravity_w.norm() + force_w.norm() + moment_w.norm() / robot.platform_length()
 }
 
 /// A wrench with its moments divided by ℓ: one unit throughout.
@@ -314,16 +323,31 @@ pub(crate) fn add_lever_term(total: &mut Mat6, force: &Vec3, lever: &Vec3) {
     view -= skew(force) * skew(lever);
 }
 
+/// Adds the stiffness of weight and load at a pose: those of dead forces, and half the moment, `½[m]×` in the rotation
+/// block, which makes the whole symmetric (theory, section 14).
+pub(crate) fn add_load_terms(total: &mut Mat6, robot: &Robot, pose: &Pose) {
+    let Load { force_w, moment_w, point_p } = &robot.load;
+    add_lever_term(
+        total,
+        &(robot.gravity_w * robot.platform.mass),
+        &(pose.rot_wp * robot.platform.center_of_mass_p),
+    );
+    add_lever_term(total, force_w, &(pose.rot_wp * point_p));
+    let mut view = total.fixed_view_mut::<3, 3>(3, 3);
+    view += skew(moment_w) * 0.5;
+}
+
 /// `S M S` with `S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ)`: one unit throughout.
 pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
     let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / platform_length };
     Mat6::from_fn(|i, j| matrix[(i, j)] * scale(i) * scale(j))
 }
 
-/// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables and platform weight at an equilibrium, about the platform
+/// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
 /// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
 ///
-/// `None` for ideal cables, which have no finite stiffness.
+/// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. Of a moment
+/// the antisymmetric half is left out: such a moment has no energy.
 ///
 /// # References
 /// docs/theory.md, equation (14).
@@ -333,22 +357,23 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
         .iter()
         .map(|cable| Some((cable.tangent_w()?, cable.force_on_platform_w, cable.lever_w)))
         .collect();
-    Some(assembled(robot, &equilibrium.pose, parts?.into_iter()))
+    let freedoms = &robot.platform.freedoms;
+    let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
+    Some(freedoms.expanded_matrix(&freedoms.reduced_matrix(&whole)))
 }
 
-/// Stiffness of cables (3×3, force on the platform, lever arm) and of the platform's weight at a pose.
+/// Stiffness of cables (3×3, force on the platform, lever arm) and of weight and load at a pose.
 fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
     let mut total = Mat6::zeros();
     for (stiffness, force, lever) in cables {
         add_congruent(&mut total, &stiffness, &lever);
         add_lever_term(&mut total, &force, &lever);
     }
-    let com_w = pose.rot_wp * robot.platform.center_of_mass_p;
-    add_lever_term(&mut total, &(robot.gravity_w * robot.platform.mass), &com_w);
+    add_load_terms(&mut total, robot, pose);
     total
 }
 
-/// Total wrench on the platform at any pose, cables and weight, about the platform origin [N, N·m]; the residual of
+/// Total wrench on the platform at any pose, cables, weight and load, about the platform origin [N, N·m]; the residual of
 /// equilibrium.
 ///
 /// # Errors
@@ -418,12 +443,10 @@ fn residual_of(robot: &Robot, pose: &Pose, cables: &[CableState]) -> f64 {
     scaled_residual(robot, &wrench, scale)
 }
 
-/// Sum of the platform's weight and of cable forces at their lever arms, as a wrench about the platform origin; and the
+/// Sum of the platform's weight and load and of cable forces at their lever arms, as a wrench about the platform origin; and the
 /// sum of the sizes of all these forces [N], which residuals are measured by.
 fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)>) -> (Vec6, f64) {
-    let weight = weight_wrench(robot, pose);
-    let scale = weight.fixed_rows::<3>(0).norm();
-    forces.fold((weight, scale), |(wrench, scale), (force, lever)| {
+    forces.fold((load_wrench(robot, pose), load_size(robot)), |(wrench, scale), (force, lever)| {
         (wrench + wrench_of(&force, &lever), scale + force.norm())
     })
 }

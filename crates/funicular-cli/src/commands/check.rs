@@ -3,7 +3,7 @@
 use crate::output::Results;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Cable, Damping, Freedoms, Robot, State, TensionLimits};
+use funicular::robot::{Cable, Damping, Freedoms, Load, Robot, State, TensionLimits};
 use serde::Serialize;
 use std::cmp::Ordering;
 use std::fmt::Write;
@@ -17,6 +17,9 @@ pub(crate) struct Checked {
     gravity_m_s2: [f64; 3],
     freedoms: usize,
     platform: PlatformRow,
+    /// Absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load: Option<LoadRow>,
     materials: Vec<MaterialRow>,
     cables: Vec<CableRow>,
     /// `lengths`, `pose` or `none`.
@@ -38,6 +41,31 @@ struct PlatformRow {
     mass_kg: f64,
     inertia_kg_m2: [[f64; 3]; 3],
     center_of_mass_m: [f64; 3],
+}
+
+/// A load on the platform.
+#[derive(Serialize)]
+pub(crate) struct LoadRow {
+    force_n: [f64; 3],
+    moment_n_m: [f64; 3],
+    point_m: [f64; 3],
+}
+
+impl LoadRow {
+    /// `None` where there is none.
+    pub(crate) fn of(load: &Load) -> Option<Self> {
+        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
+            force_n: load.force_w.into(),
+            moment_n_m: load.moment_w.into(),
+            point_m: load.point_p.into(),
+        })
+    }
+
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
+        format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
+    }
 }
 
 #[derive(Serialize, PartialEq)]
@@ -166,6 +194,7 @@ pub(crate) fn run(robot: Robot) -> Checked {
             inertia_kg_m2: std::array::from_fn(|i| std::array::from_fn(|j| inertia[(i, j)])),
             center_of_mass_m: robot.platform.center_of_mass_p.into(),
         },
+        load: LoadRow::of(&robot.load),
         materials,
         cables,
         state,
@@ -256,6 +285,9 @@ impl Results for Checked {
             say(format!("  mass centre ({}) m in the platform frame", vector(&platform.center_of_mass_m, 4)));
         }
         say(format!("  gravity     ({}) m/s²", vector(&self.gravity_m_s2, 4)));
+        if let Some(load) = &self.load {
+            say(format!("  load        {}", load.text()));
+        }
         let state = match &self.pose {
             Some(pose) => format!(
                 "pose ({}) m, roll, pitch, yaw ({})°",

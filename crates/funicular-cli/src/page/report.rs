@@ -6,6 +6,7 @@ use super::Shell;
 use super::figure::response::{Curve, Marks, sampled};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
+use crate::commands::check::LoadRow;
 use crate::commands::modes::{check_count, uncertified};
 use crate::state::AtRest;
 use anyhow::Context as _;
@@ -164,6 +165,9 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
     if robot.platform.freedoms.can_turn() {
         let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&equilibrium.pose.rot_wp);
         key.push(("roll, pitch, yaw", format!("{}, {}, {} °", fixed(roll, 2), fixed(pitch, 2), fixed(yaw, 2))));
+    }
+    if let Some(load) = LoadRow::of(&robot.load) {
+        key.push(("load", load.text()));
     }
     key.push(("tensions at the platform", format!("{} to {} N", significant(least, 4), significant(most, 4))));
     if let Some(first) = found.modes.first() {

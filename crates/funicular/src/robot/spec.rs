@@ -31,6 +31,10 @@
 //! | `attachment_m` | point in the platform frame | required, zero of a point mass |
 //! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
 //! | `unstrained_length_m` | positive; all cables have one, or none | none |
+//! | **`[loads]`** | on the platform, besides its weight; fixed in the world | none |
+//! | `force_n` | force, world axes | `[0, 0, 0]` |
+//! | `point_m` | where it acts, platform frame | `[0, 0, 0]` |
+//! | `moment_n_m` | moment, world axes; refused of a point mass, as `point_m` | `[0, 0, 0]` |
 //! | **`[state]`** | a pose; not together with lengths | none |
 //! | `position_m` | platform origin in the world frame | required |
 //! | `roll_pitch_yaw_deg` | R = Rz(yaw) Ry(pitch) Rx(roll) | `[0, 0, 0]` |
@@ -45,7 +49,7 @@ mod materials;
 mod platform;
 mod read;
 
-use super::{Cable, Freedoms, Pose, Robot, State};
+use super::{Cable, Freedoms, Load, Pose, Robot, State};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
@@ -63,7 +67,15 @@ const ROOT: &[Key] = &[
     Key { name: "platform", example: "[platform]" },
     Key { name: "materials", example: "[materials.rope]" },
     Key { name: "cables", example: "[[cables]]" },
+    Key { name: "loads", example: "[loads]" },
     Key { name: "state", example: "[state]" },
+];
+
+/// Keys of `[loads]`.
+const LOADS: &[Key] = &[
+    Key { name: "force_n", example: "force_n = [0.0, 0.0, -50.0]" },
+    Key { name: "moment_n_m", example: "moment_n_m = [0.0, 0.0, 2.0]" },
+    Key { name: "point_m", example: "point_m = [0.0, 0.0, -0.1]" },
 ];
 
 /// Keys of `[state]`.
@@ -78,6 +90,7 @@ const TABLES: &[(&str, &[Key])] = &[
     ("[platform]", platform::KEYS),
     ("[materials.NAME]", materials::KEYS),
     ("[[cables]]", cables::KEYS),
+    ("[loads]", LOADS),
     ("[state]", STATE),
 ];
 
@@ -160,6 +173,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     };
     let freedoms = platform::freedoms(reader, &root);
     let platform = platform::read(reader, &root, freedoms);
+    let load = read_load(reader, &root, freedoms);
     let materials = materials::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), freedoms);
     let state = read_state(reader, &root, cables.as_deref(), freedoms);
@@ -169,9 +183,32 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         source: source?,
         gravity_w: Vec3::from(gravity?),
         platform: platform?,
+        load: load?,
         cables,
         state: state?,
     })
+}
+
+/// `[loads]`: force, moment and point.
+fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) -> Option<Load> {
+    let Some(value) = root.get("loads") else { return Some(Load::default()) };
+    let table = reader.table("loads", "[loads]", value)?;
+    let section = reader.open("[loads]", value.span(), table, LOADS);
+    let mut vector = |key: &str, unit: &str| match section.get(key) {
+        Some(value) => {
+            let vector = reader.vector(key, unit, value)?;
+            if key != "force_n" && freedoms == Some(Freedoms::PointMass) && !is_zero(&vector) {
+                reader
+                    .issue(value.span(), format!("a point mass bears forces at its own point only, `{key}` must be absent"))
+                    .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+                return None;
+            }
+            Some(Vec3::from(vector))
+        }
+        None => Some(Vec3::zeros()),
+    };
+    let (force, moment, point) = (vector("force_n", "N"), vector("moment_n_m", "N m"), vector("point_m", "m"));
+    Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
 }
 
 /// `[state]` or the cables' lengths, and what can be checked of them against the geometry.

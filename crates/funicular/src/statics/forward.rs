@@ -2,7 +2,7 @@
 
 use super::{
     CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance, check_lengths,
-    collect, hang, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, weight_wrench, wrench_of,
+    collect, hang, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, load_wrench, wrench_of,
 };
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
@@ -86,7 +86,9 @@ impl Search<'_> {
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
         let weight_w = self.robot.gravity_w * self.robot.platform.mass;
         let com_w = pose.point_w(&self.robot.platform.center_of_mass_p);
-        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - weight_w.dot(&com_w);
+        let loaded_w = pose.point_w(&self.robot.load.point_p);
+        let of_loads = weight_w.dot(&com_w) + self.robot.load.force_w.dot(&loaded_w);
+        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - of_loads;
         let residual = scaled_residual(self.robot, &wrench, force_scale);
         let stiffest: f64 = self.ropes.iter().map(|rope| rope.axial_stiffness).sum();
         let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
@@ -105,6 +107,12 @@ impl Search<'_> {
             total[(row, row)] = 1.0;
         }
         total
+    }
+
+    /// Work of the load's moment along a step; a moment that stays fixed in the world has no energy.
+    fn work(&self, step: &Vec6) -> f64 {
+        let step = self.freedoms.expanded(step);
+        self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.ell
     }
 
     fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
@@ -157,7 +165,7 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
         let next = search.at(search.moved(&here.pose, &step));
         // Near rest the energy drowns in rounding; there the residual decides.
         let expected = step.dot(&here.wrench);
-        let lower = next.energy < here.energy - 1e-4 * expected;
+        let lower = next.energy - search.work(&step) < here.energy - 1e-4 * expected;
         let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
         if next.residual.is_finite() && (lower || quieter) {
             // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
@@ -213,9 +221,12 @@ fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> O
     }
     [0.3, -0.3, 0.1, -0.1, 0.01, -0.01]
         .into_iter()
-        .map(|part| search.at(search.moved(&here.pose, &(vectors[0] * (part * search.ell)))))
-        .filter(|trial| trial.energy < here.energy && trial.residual.is_finite())
-        .min_by(|a, b| a.energy.total_cmp(&b.energy))
+        .map(|part| vectors[0] * (part * search.ell))
+        .map(|step| (search.at(search.moved(&here.pose, &step)), search.work(&step)))
+        .map(|(trial, work)| (trial.energy - work, trial))
+        .filter(|(energy, trial)| *energy < here.energy && trial.residual.is_finite())
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, trial)| trial)
 }
 
 /// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
@@ -263,7 +274,7 @@ fn ideal(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, Sta
         let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
-    let tensions = straight_tensions(robot, &pose, &weight_wrench(robot, &pose))?;
+    let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
     Ok(collect_ideal(robot, pose, &tensions, iterations))
 }
 

@@ -3,7 +3,7 @@
 use super::forward::{collect_ideal, straight_tensions};
 use super::{
     Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang, rope,
-    scaled_residual, scaled_wrench, weight_wrench, wrench_of,
+    scaled_residual, scaled_wrench, load_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
@@ -39,7 +39,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
         return distribute(robot, pose, model, &TensionRule::default());
     }
     robot.platform.freedoms.check(pose)?;
-    let mut load = weight_wrench(robot, pose);
+    let mut load = load_wrench(robot, pose);
     if model == StaticModel::Catenary {
         for cable in &robot.cables {
             let lever = pose.rot_wp * cable.attachment_p;

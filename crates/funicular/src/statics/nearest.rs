@@ -8,7 +8,7 @@
 use super::limits::TensionRange;
 use super::{
     Equilibrium, StaticModel, StaticsError, forward, hang, rope, scaled, scaled_wrench, tangent_stiffness,
-    weight_wrench, wrench_of,
+    load_wrench, wrench_of,
 };
 use crate::catenary::Catenary;
 use crate::math::{DMat, Mat6, Vec3, Vec6};
@@ -141,7 +141,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
     let ell = robot.platform_length();
     let freedoms = &robot.platform.freedoms;
     let n = robot.cables.len();
-    let mut load = weight_wrench(robot, pose);
+    let mut load = load_wrench(robot, pose);
     let mut columns = DMat::zeros(6, n);
     let mut chords = Vec::with_capacity(n);
     for (i, cable) in robot.cables.iter().enumerate() {

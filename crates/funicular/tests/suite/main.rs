@@ -8,6 +8,7 @@ mod damped;
 mod exact;
 mod freedoms;
 mod independent;
+mod loads;
 mod modes;
 mod oracle;
 mod random;

@@ -7,7 +7,7 @@ use super::polyhedron::{Active, Polyhedron};
 use crate::math::Vec6;
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::Limit;
-use crate::statics::{RESIDUAL_LIMIT, StaticsError, balance, scaled_residual, scaled_wrench};
+use crate::statics::{RESIDUAL_LIMIT, StaticsError, balance, load_size, scaled_residual, scaled_wrench};
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
 const MOST_ITERATIONS: usize = 100;
@@ -112,7 +112,7 @@ impl Stride {
 
 impl<'a> Search<'a> {
     pub(super) fn new(robot: &'a Robot, pose: &'a Pose, mut lines: Vec<Line>) -> Self {
-        let weight = robot.platform.mass * robot.gravity_w.norm();
+        let weight = load_size(robot);
         let minima: f64 = lines.iter().map(|line| line.range.minimum + line.slackest).sum();
         let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
         for line in &mut lines {
