@@ -1,12 +1,12 @@
 //! The static state that an analysis starts from: as the robot file says, or as the options say.
 
 use crate::args::{CableModelName, LoadArgs, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
+use crate::table::short;
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::robot::{Freedoms, Load, Pose, Robot, State, TensionLimits};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
-use crate::table::short;
 use funicular::validity;
 use serde::Serialize;
 

@@ -327,11 +327,7 @@ pub(crate) fn add_lever_term(total: &mut Mat6, force: &Vec3, lever: &Vec3) {
 /// block, which makes the whole symmetric (theory, section 14).
 pub(crate) fn add_load_terms(total: &mut Mat6, robot: &Robot, pose: &Pose) {
     let Load { force_w, moment_w, point_p } = &robot.load;
-    add_lever_term(
-        total,
-        &(robot.gravity_w * robot.platform.mass),
-        &(pose.rot_wp * robot.platform.center_of_mass_p),
-    );
+    add_lever_term(total, &(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p));
     add_lever_term(total, force_w, &(pose.rot_wp * point_p));
     let mut view = total.fixed_view_mut::<3, 3>(3, 3);
     view += skew(moment_w) * 0.5;

@@ -264,7 +264,12 @@ impl Results for Checked {
         let platform = &self.platform;
         let kind = match (platform.plane_normal, platform.plane_offset_m) {
             (Some(normal), Some(offset)) => {
-                format!("{} platform, plane with normal ({}), {} m from the origin", platform.freedoms, vector(&normal, 4), short(offset, 4))
+                format!(
+                    "{} platform, plane with normal ({}), {} m from the origin",
+                    platform.freedoms,
+                    vector(&normal, 4),
+                    short(offset, 4)
+                )
             }
             _ if platform.freedoms == Freedoms::PointMass.name() => "point mass".to_owned(),
             _ => "rigid platform".to_owned(),

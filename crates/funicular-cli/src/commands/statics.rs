@@ -1,8 +1,8 @@
 //! `statics`: the equilibrium.
 
 use crate::args::StaticsArgs;
-use crate::output::Results;
 use crate::commands::check::LoadRow;
+use crate::output::Results;
 use crate::state::{self, AtRest, SagNumbers, static_model_name};
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use anyhow::Result;

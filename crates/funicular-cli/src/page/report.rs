@@ -233,7 +233,8 @@ fn respond(
     dynamics: &Dynamics,
     found: &Modes,
 ) -> anyhow::Result<(Figure, Table, Vec<String>)> {
-    let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } = *input;
+    let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
+        *input;
     let (force, u) = &input.frf_input;
     let (motion, v, quantity) = &input.frf_output;
     let draw = |dynamics: &Dynamics, found: &Modes| {

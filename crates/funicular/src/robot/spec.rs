@@ -199,7 +199,10 @@ fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) ->
             let vector = reader.vector(key, unit, value)?;
             if key != "force_n" && freedoms == Some(Freedoms::PointMass) && !is_zero(&vector) {
                 reader
-                    .issue(value.span(), format!("a point mass bears forces at its own point only, `{key}` must be absent"))
+                    .issue(
+                        value.span(),
+                        format!("a point mass bears forces at its own point only, `{key}` must be absent"),
+                    )
                     .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
                 return None;
             }

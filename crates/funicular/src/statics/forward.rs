@@ -2,7 +2,7 @@
 
 use super::{
     CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance, check_lengths,
-    collect, hang, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, load_wrench, wrench_of,
+    collect, hang, load_wrench, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, wrench_of,
 };
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;

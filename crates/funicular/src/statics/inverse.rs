@@ -2,8 +2,8 @@
 
 use super::forward::{collect_ideal, straight_tensions};
 use super::{
-    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang, rope,
-    scaled_residual, scaled_wrench, load_wrench, wrench_of,
+    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang,
+    load_wrench, rope, scaled_residual, scaled_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};

@@ -7,8 +7,8 @@
 
 use super::limits::TensionRange;
 use super::{
-    Equilibrium, StaticModel, StaticsError, forward, hang, rope, scaled, scaled_wrench, tangent_stiffness,
-    load_wrench, wrench_of,
+    Equilibrium, StaticModel, StaticsError, forward, hang, load_wrench, rope, scaled, scaled_wrench, tangent_stiffness,
+    wrench_of,
 };
 use crate::catenary::Catenary;
 use crate::math::{DMat, Mat6, Vec3, Vec6};
@@ -159,8 +159,10 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
     let right = -freedoms.reduced(&scaled_wrench(&load, ell));
     let balanced = columns.svd(true, true).solve(&right, 1e-9).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
     let lengths = (0..n).map(|i| {
-        let tension = balanced[i].max(TensionRange::of(robot, i, chords[i]).minimum).max(f64::MIN_POSITIVE);
         let rope = rope(robot, i, chords[i], model);
+        // Not so slack that its length would be all sag.
+        let least = TensionRange::of(robot, i, chords[i]).minimum.max(0.25 * rope.weight_per_length * chords[i]);
+        let tension = balanced[i].max(least);
         if rope.weight_per_length > 0.0 {
             let cable = hang(robot, i, pose, robot.up_w(), rope);
             let rise = cable.chord_w().dot(&robot.up_w());

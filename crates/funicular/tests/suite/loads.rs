@@ -36,7 +36,9 @@ fn a_force_at_the_centre_of_mass_is_weight() {
         for (a, b) in a.cables.iter().zip(&b.cables) {
             assert!((a.tension_platform - b.tension_platform).abs() < 1e-7);
         }
-        if let (Some(k), Some(expected)) = (statics::tangent_stiffness(&loaded, &a), statics::tangent_stiffness(&heavier, &b)) {
+        if let (Some(k), Some(expected)) =
+            (statics::tangent_stiffness(&loaded, &a), statics::tangent_stiffness(&heavier, &b))
+        {
             assert!((k - expected).amax() < 1e-6 * expected.amax());
         }
     }
@@ -81,7 +83,7 @@ fn a_moment_is_a_force_beside_the_origin_to_statics_and_not_to_stiffness() {
     }
     let [k, l] = [(&beside, &a), (&moved, &b)].map(|(robot, at)| statics::tangent_stiffness(robot, at).unwrap());
     assert!((k - k.transpose()).amax() < 1e-8 * k.amax() && (l - l.transpose()).amax() < 1e-8 * l.amax());
-    // Theory, (45): the force turns on its lever, −[f]×[r]×; the couple keeps only the symmetric half of nothing.
+    // Theory, (42): the force turns on its lever; of the moment there is only what makes the whole symmetric.
     let skew = funicular::math::skew;
     let expected = -skew(&force_w) * skew(&(rest.pose.rot_wp * point_p)) - skew(&moment_w) * 0.5;
     let difference = (k - l).fixed_view::<3, 3>(3, 3).clone_owned();

@@ -142,14 +142,8 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
 /// Every mode.
 pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
     let (turns, possible) = (robot.platform.freedoms.can_turn(), robot.platform.freedoms.components());
-    let mut columns = vec![
-        "no.",
-        "frequency|Hz",
-        "damping|%",
-        "<kind",
-        "platform energy|%",
-        "<strongest cables|share of the energy",
-    ];
+    let mut columns =
+        vec!["no.", "frequency|Hz", "damping|%", "<kind", "platform energy|%", "<strongest cables|share of the energy"];
     columns.extend(possible.iter().map(|&i| ["δx|m", "δy|m", "δz|m", "θx|rad", "θy|rad", "θz|rad"][i]));
     let mut table = Table::new(
         "table-modes",
