@@ -137,6 +137,25 @@ pub(crate) struct StateArgs {
     /// How cables carry their static load
     #[arg(long, value_name = "MODEL", value_enum, default_value_t)]
     pub(crate) static_model: StaticModelName,
+    #[command(flatten)]
+    pub(crate) load: LoadArgs,
+}
+
+/// What acts on the platform besides its weight, fixed in the world; instead of what the robot file says.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Load")]
+pub(crate) struct LoadArgs {
+    /// Force on the platform, world axes [N]
+    #[arg(long, visible_alias = "force", value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) force_n: Option<Vec3>,
+
+    /// Moment on the platform, world axes [N m]
+    #[arg(long, visible_alias = "moment", value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) moment_n_m: Option<Vec3>,
+
+    /// Point where the force acts, platform frame [m] [default: as the robot file says, or the origin]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) load_point_m: Option<Vec3>,
 }
 
 /// How the robot is linearised.

@@ -70,6 +70,7 @@ fn code(error: &anyhow::Error) -> u8 {
             StaticsError::Singular
             | StaticsError::WouldPush { .. }
             | StaticsError::BeyondLimits(_)
+            | StaticsError::NotNearest { .. }
             | StaticsError::NotConverged { .. },
         ) => true,
         Some(_) => false,

@@ -94,7 +94,7 @@ mod tests {
         let up = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
         let u = up.vector(&equilibrium.pose);
         report(&ReportInput {
-            at_rest: &AtRest { robot, equilibrium },
+            at_rest: &AtRest { robot, equilibrium, instead_of: None },
             file_label: "robot.toml",
             robot_text: text,
             linearisation,

@@ -26,7 +26,7 @@ impl Places {
         input: Option<&OnCable>,
         output: Option<&OnCable>,
     ) -> Result<Self> {
-        let AtRest { robot, equilibrium } = at_rest;
+        let AtRest { robot, equilibrium, .. } = at_rest;
         let stations =
             |i: usize, fractions: &[f64]| CableStations::new(robot, equilibrium, dynamics, i, fractions, true);
         let cable = |place: &OnCable| cable_of(robot, place);
@@ -110,6 +110,9 @@ impl Side<'_> {
             bail!("{option}-point-m has no effect: {option} {name} is the same at every point; remove it");
         }
         check_point_mass(robot, turns, option, name, point)?;
+        if !on_cable {
+            check_plane(robot, turns, option, name, &direction_w)?;
+        }
         Ok(if turns {
             Direction::About { axis_w: direction_w }
         } else {
@@ -118,9 +121,28 @@ impl Side<'_> {
     }
 }
 
+/// A planar platform moves along its plane and turns about the normal.
+fn check_plane(robot: &Robot, turns: bool, option: &str, name: &str, direction_w: &Vec3) -> Result<()> {
+    let Freedoms::Planar(plane) = robot.platform.freedoms else { return Ok(()) };
+    let (normal, u) = (plane.normal_w(), direction_w.normalize());
+    let along = normal.dot(&u);
+    let possible = if turns { along.abs() } else { (u - normal * along).norm() };
+    if possible < 1e-9 {
+        let freedoms = robot.platform.freedoms.name();
+        bail!(
+            "{option} {name} is out of the plane of the platform ({freedoms}, normal {}, {}, {}), in which a guide holds \
+             it: choose a direction in the plane, or the rotation about its normal",
+            normal.x,
+            normal.y,
+            normal.z
+        );
+    }
+    Ok(())
+}
+
 /// A point mass neither turns nor extends.
 fn check_point_mass(robot: &Robot, turns: bool, option: &str, name: &str, point: Option<Vec3>) -> Result<()> {
-    if robot.platform.freedoms == Freedoms::Rigid {
+    if robot.platform.freedoms != Freedoms::PointMass {
         return Ok(());
     }
     if turns {

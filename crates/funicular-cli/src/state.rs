@@ -1,10 +1,11 @@
 //! The static state that an analysis starts from: as the robot file says, or as the options say.
 
-use crate::args::{CableModelName, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
+use crate::args::{CableModelName, LoadArgs, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
+use crate::table::short;
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
-use funicular::robot::{Freedoms, Pose, Robot, State, TensionLimits};
+use funicular::robot::{Freedoms, Load, Pose, Robot, State, TensionLimits};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use funicular::validity;
 use serde::Serialize;
@@ -13,21 +14,29 @@ use serde::Serialize;
 pub(crate) struct AtRest {
     pub(crate) robot: Robot,
     pub(crate) equilibrium: Equilibrium,
+    /// The pose asked where the cables cannot hold it and this is the nearest, and how far it is [m].
+    pub(crate) instead_of: Option<(Pose, f64)>,
 }
 
 /// Finds the equilibrium that the options ask for.
 pub(crate) fn equilibrium(robot: Robot, args: &StateArgs) -> Result<AtRest> {
     let robot = with_options(robot, args)?;
     let model = args.static_model.into();
+    let mut instead_of = None;
     let equilibrium = match &robot.state {
         State::Lengths(lengths) => statics::forward(&robot, lengths, model, None)?,
+        State::Pose(pose) if robot.cables.len() < robot.platform.freedoms.count() => {
+            let nearest = statics::nearest(&robot, pose, model)?;
+            instead_of = Some((*pose, nearest.distance));
+            nearest.equilibrium
+        }
         State::Pose(pose) => statics::inverse(&robot, pose, model)?,
         State::Unknown => bail!(
             "the robot has no state: give --lengths-m or --pose, or give every cable of the robot file an \
              `unstrained_length_m`, or the file a [state] with `position_m`"
         ),
     };
-    Ok(AtRest { robot, equilibrium })
+    Ok(AtRest { robot, equilibrium, instead_of })
 }
 
 /// As [`equilibrium`], the tensions of a pose as these options ask; with the rule they were chosen by, if there was a
@@ -56,7 +65,7 @@ pub(crate) fn equilibrium_with(
         State::Pose(pose) if cables > freedoms => {
             let rule = asked.unwrap_or_default();
             let equilibrium = statics::distribute(&robot, pose, args.static_model.into(), &rule)?;
-            Ok((AtRest { robot, equilibrium }, Some(rule)))
+            Ok((AtRest { robot, equilibrium, instead_of: None }, Some(rule)))
         }
         State::Pose(_) if asked.is_some() => bail!(
             "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
@@ -94,10 +103,30 @@ pub(crate) fn with_options(mut robot: Robot, args: &StateArgs) -> Result<Robot> 
         if robot.platform.freedoms == Freedoms::PointMass && pose.roll_pitch_yaw_deg.iter().any(|angle| *angle != 0.0) {
             bail!("a point mass has no orientation: give --pose x,y,z");
         }
-        robot.state = State::Pose(Pose::new(pose.position, pose.roll_pitch_yaw_deg));
+        let pose = Pose::new(pose.position, pose.roll_pitch_yaw_deg);
+        robot.platform.freedoms.check(&pose)?;
+        robot.state = State::Pose(pose);
     }
     if let Some(mass) = args.mass_kg {
         robot.platform.mass = mass;
+    }
+    let LoadArgs { force_n, moment_n_m, load_point_m } = args.load;
+    let of_file = robot.load;
+    robot.load = Load {
+        force_w: force_n.unwrap_or(of_file.force_w),
+        moment_w: moment_n_m.unwrap_or(of_file.moment_w),
+        point_p: load_point_m.unwrap_or(of_file.point_p),
+    };
+    if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
+        bail!("--load-point-m is where a force acts, and there is none: give --force-n");
+    }
+    if robot.platform.freedoms == Freedoms::PointMass {
+        if robot.load.moment_w.norm() > 0.0 {
+            bail!("a point mass does not turn: remove --moment-n-m");
+        }
+        if robot.load.point_p.norm() > 0.0 {
+            bail!("a point mass has no points but its origin: remove --load-point-m");
+        }
     }
     Ok(robot)
 }
@@ -183,9 +212,30 @@ impl AtRest {
         if let Some((model, up_to_hz)) = dynamics {
             warnings.extend(validity::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }
-        warnings.iter().map(ToString::to_string).collect()
+        self.instead().into_iter().chain(warnings.iter().map(ToString::to_string)).collect()
+    }
+
+    /// That the pose is not the one asked, and how far it is from it.
+    fn instead(&self) -> Option<String> {
+        let (asked, distance) = self.instead_of?;
+        let AtRest { robot, equilibrium, .. } = self;
+        if distance <= HELD * robot.platform_length() {
+            return None;
+        }
+        let found = &equilibrium.pose;
+        let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+        Some(format!(
+            "{cables} cables for {freedoms} freedoms cannot hold the pose asked by any lengths: this is the nearest that they \
+             can, {} mm and {}° away (nearest_pose_distance_m {})",
+            short(1e3 * (found.position_w - asked.position_w).norm(), 4),
+            short(found.rot_wp.angle_to(&asked.rot_wp).to_degrees(), 4),
+            short(distance, 4)
+        ))
     }
 }
+
+/// Distance from the pose asked, over the size of the platform, up to which it is that pose: what forward statics leaves.
+const HELD: f64 = 1e-7;
 
 /// Name of a static model on the command line and in files.
 pub(crate) fn static_model_name(model: StaticModel) -> &'static str {

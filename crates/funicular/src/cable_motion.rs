@@ -111,7 +111,8 @@ impl CableStations {
     /// modal mass of 1 kg. The mode is one of the same `dynamics` as the stations.
     pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> Vec<[f64; 3]> {
         let motion = &mode.motion;
-        let largest = motion.platform[motion.platform.iamax()];
+        let motion_w = dynamics.motions.expanded(&motion.platform);
+        let largest = motion_w[motion_w.iamax()];
         let scale = if largest == 0.0 { 1.0 } else { 1.0 / largest };
         match &self.kind {
             Kind::Straight(parts) => {

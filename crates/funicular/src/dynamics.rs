@@ -11,7 +11,7 @@ use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, skew};
 use crate::robot::{Damping, Freedoms, Robot};
-use crate::statics::{Equilibrium, add_congruent, add_lever_term, scaled};
+use crate::statics::{Equilibrium, add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
 use thiserror::Error;
 
 /// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown
@@ -80,10 +80,14 @@ impl DynamicsError {
 
 /// A robot linearised about an equilibrium.
 ///
-/// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all are in N/m and kg.
+/// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all are in N/m and kg. They are in the platform's
+/// coordinates ([`Freedoms::reduced`]), zero beyond their number.
 #[derive(Debug, Clone)]
 pub struct Dynamics {
     pub(crate) ell: f64,
+    /// The platform's coordinates.
+    pub(crate) motions: Freedoms,
+    /// Their number.
     pub(crate) freedoms: usize,
     /// Scaled stiffness that does not depend on frequency [N/m].
     pub(crate) constant: Mat6,
@@ -133,6 +137,7 @@ impl Dynamics {
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
         let ell = robot.platform_length();
+        let motions = robot.platform.freedoms;
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -141,10 +146,7 @@ impl Dynamics {
             match stiffness {
                 EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
                 EndStiffness::Dynamic(form) => {
-                    let vector = |u: &Vec3| {
-                        let moment = state.lever_w.cross(u) / ell;
-                        Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
-                    };
+                    let vector = |u: &Vec3| motions.reduced(&wrench_of(u, &(state.lever_w / ell)));
                     let LocalAxes { e, n, b } = *form.axes();
                     let (along, normal, out) = (vector(&e), vector(&n), vector(&b));
                     terms.push(Term { cable: i, form, along, normal, out });
@@ -154,18 +156,18 @@ impl Dynamics {
                 add_lever_term(&mut constant, &state.force_on_platform_w, &state.lever_w);
             }
         }
-        let com_w = equilibrium.pose.rot_wp * robot.platform.center_of_mass_p;
         if assembly == Assembly::Consistent {
-            add_lever_term(&mut constant, &(robot.gravity_w * robot.platform.mass), &com_w);
+            add_load_terms(&mut constant, robot, &equilibrium.pose);
         }
         // Symmetric to rounding at an equilibrium; exactly so for what follows.
-        let constant = scaled(&((constant + constant.transpose()) * 0.5), ell);
+        let coordinates = |matrix: &Mat6| motions.reduced_matrix(&scaled(matrix, ell));
         Ok(Self {
             ell,
-            freedoms: robot.platform.freedoms.count(),
-            constant,
-            mass: scaled(&mass_matrix(robot, equilibrium), ell),
-            platform_damping: scaled(&damping_matrix(robot, equilibrium), ell),
+            motions,
+            freedoms: motions.count(),
+            constant: coordinates(&((constant + constant.transpose()) * 0.5)),
+            mass: coordinates(&mass_matrix(robot, equilibrium)),
+            platform_damping: coordinates(&damping_matrix(robot, equilibrium)),
             terms,
             linearisation,
             cable_count: robot.cables.len(),
@@ -194,15 +196,16 @@ impl Dynamics {
         self.freedoms
     }
 
-    /// Stiffness with all damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m].
+    /// Stiffness with all damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m]; zero for motions
+    /// that the platform does not have.
     pub fn stiffness(&self, omega: f64) -> CMat6 {
         self.unscaled(&self.scaled_stiffness(omega))
     }
 
     /// Mass matrix about the platform origin, world axes, 6×6 [kg, kg m, kg m²].
     pub fn mass(&self) -> Mat6 {
-        let scale = self.scale();
-        Mat6::from_fn(|i, j| self.mass[(i, j)] * scale[i] * scale[j])
+        let (scale, mass) = (self.scale(), self.motions.expanded_matrix(&self.mass));
+        Mat6::from_fn(|i, j| mass[(i, j)] * scale[i] * scale[j])
     }
 
     /// ℓ or 1: factors from scaled forces to wrench components.
@@ -210,8 +213,25 @@ impl Dynamics {
         [1.0, 1.0, 1.0, self.ell, self.ell, self.ell]
     }
 
+    /// The same of each of the platform's coordinates.
+    pub(crate) fn coordinate_scale(&self) -> [f64; 6] {
+        std::array::from_fn(|k| if self.motions.is_rotation(k) { self.ell } else { 1.0 })
+    }
+
+    /// A matrix over motions in world axes, still scaled, of one over the platform's coordinates.
+    pub(crate) fn expanded(&self, matrix: &CMat6) -> CMat6 {
+        match self.motions {
+            Freedoms::Rigid | Freedoms::PointMass => *matrix,
+            Freedoms::Planar(_) => {
+                let parts =
+                    [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|part| self.motions.expanded_matrix(&part));
+                parts[0].zip_map(&parts[1], Complex::new)
+            }
+        }
+    }
+
     fn unscaled(&self, matrix: &CMat6) -> CMat6 {
-        let scale = self.scale();
+        let (scale, matrix) = (self.scale(), self.expanded(matrix));
         CMat6::from_fn(|i, j| matrix[(i, j)] * (scale[i] * scale[j]))
     }
 
@@ -296,7 +316,7 @@ fn add_local<T: Copy + std::ops::AddAssign + nalgebra::Scalar>(
     }
 }
 
-/// Mass matrix about the platform origin, world axes; a point mass has only its translation block.
+/// Mass matrix about the platform origin, world axes.
 fn mass_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
     let platform = &robot.platform;
     let rot = equilibrium.pose.rot_wp.to_rotation_matrix();
@@ -304,12 +324,10 @@ fn mass_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
     let mut mass = Mat6::zeros();
     let mut put = |row, column, block: Mat3| mass.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
     put(0, 0, Mat3::identity() * platform.mass);
-    if platform.freedoms == Freedoms::Rigid {
-        let inertia_w = rot.matrix() * platform.inertia_p * rot.matrix().transpose();
-        put(0, 3, -com * platform.mass);
-        put(3, 0, com * platform.mass);
-        put(3, 3, inertia_w - com * com * platform.mass);
-    }
+    let inertia_w = rot.matrix() * platform.inertia_p * rot.matrix().transpose();
+    put(0, 3, -com * platform.mass);
+    put(3, 0, com * platform.mass);
+    put(3, 3, inertia_w - com * com * platform.mass);
     mass
 }
 

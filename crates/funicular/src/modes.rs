@@ -214,7 +214,12 @@ impl List<'_> {
 
     fn determinant(&self, omega: f64) -> f64 {
         let d = self.dynamics.dynamic_stiffness(omega);
-        if self.dynamics.freedoms == 6 { d.determinant() } else { d.fixed_view::<3, 3>(0, 0).determinant() }
+        // By elimination: the expansion of 3×3 would have the squares of a pole's large term cancel, and lose the sign.
+        if self.dynamics.freedoms == 6 {
+            d.determinant()
+        } else {
+            d.fixed_view::<3, 3>(0, 0).clone_owned().lu().determinant()
+        }
     }
 
     /// `several` modes at ω.
@@ -226,9 +231,10 @@ impl List<'_> {
     fn add_all(&mut self, omega: f64, motions: Vec<NullVector>) {
         let several = motions.len();
         for motion in motions {
-            let largest = motion.platform[motion.platform.iamax()];
+            let motion_w = self.dynamics.motions.expanded(&motion.platform);
+            let largest = motion_w[motion_w.iamax()];
             let ell = self.dynamics.ell;
-            let shape = std::array::from_fn(|i| motion.platform[i] / largest / if i < 3 { 1.0 } else { ell });
+            let shape = std::array::from_fn(|i| motion_w[i] / largest / if i < 3 { 1.0 } else { ell });
             self.add(omega, several, motion, shape, (1.0 / largest).powi(2));
         }
     }

@@ -56,7 +56,8 @@ pub struct Wanted {
 /// What a coordinate of the model is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Coordinate {
-    /// Component 0 to 5 of the platform's motion (δp [m], δθ [rad]) about its origin, world axes.
+    /// Coordinate of the platform's motion about its origin ([m] or [rad]), in the order of
+    /// [`coordinate_names`](crate::robot::Freedoms::coordinate_names): of a rigid body δp and δθ in world axes.
     Platform(usize),
     /// Amplitude of a clamped mode of a cable, of unit modal mass [m √kg].
     Clamped {
@@ -283,11 +284,14 @@ impl Channels {
     /// The row of a channel over the coordinates.
     fn row(&self, channel: &Channel, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
         let mut row = vec![0.0; layout.coordinates.len()];
+        let coordinates = |vector: &Vec6| dynamics.motions.reduced(vector);
         match channel {
-            Channel::Platform(vector) => row[..layout.freedoms].copy_from_slice(&vector.as_slice()[..layout.freedoms]),
+            Channel::Platform(vector) => {
+                row[..layout.freedoms].copy_from_slice(&coordinates(vector).as_slice()[..layout.freedoms]);
+            }
             Channel::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = self.stations[*stations].row(dynamics, *station, direction_w);
-                row[..layout.freedoms].copy_from_slice(&platform.as_slice()[..layout.freedoms]);
+                row[..layout.freedoms].copy_from_slice(&coordinates(&platform).as_slice()[..layout.freedoms]);
                 if let Some(term) = term {
                     let from = layout.first_of_term[term];
                     row[from..from + amplitudes.len()].copy_from_slice(&amplitudes);
@@ -340,7 +344,7 @@ fn assembled(
 ) -> Result<SecondOrder, ReductionError> {
     let layout = Layout::of(dynamics);
     let (f, n) = (layout.freedoms, layout.coordinates.len());
-    let scale = dynamics.scale();
+    let scale = dynamics.coordinate_scale();
     let across = !dynamics.linearisation.in_plane_only;
     let unscaled = |matrix: &crate::math::Mat6, i: usize, j: usize| matrix[(i, j)] * scale[i] * scale[j];
     let (mut mass, mut stiffness, mut damping) = (DMat::zeros(n, n), DMat::zeros(n, n), DMat::zeros(n, n));

@@ -215,18 +215,17 @@ pub fn receptances(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<CM
 
 /// Receptance at one angular frequency ω [rad/s], by elimination with pivots; not finite at an undamped resonance.
 ///
-/// Freedoms that the platform lacks have zero rows and columns.
+/// Motions that the platform does not have have zero rows and columns, if they are along axes.
 pub fn receptance(dynamics: &Dynamics, omega: f64) -> CMat6 {
     let mut d = dynamics.scaled_stiffness(omega) - dynamics.mass.map(|m| Complex::new(m * omega * omega, 0.0));
     for i in dynamics.freedoms..6 {
-        d.row_mut(i).fill(Complex::new(0.0, 0.0));
-        d.column_mut(i).fill(Complex::new(0.0, 0.0));
         d[(i, i)] = Complex::new(1.0, 0.0);
     }
     let mut inverse = d.try_inverse().unwrap_or_else(|| CMat6::repeat(Complex::new(f64::INFINITY, 0.0)));
     for i in dynamics.freedoms..6 {
         inverse[(i, i)] = Complex::new(0.0, 0.0);
     }
+    let inverse = dynamics.expanded(&inverse);
     let scale = dynamics.scale();
     CMat6::from_fn(|i, j| inverse[(i, j)] / (scale[i] * scale[j]))
 }

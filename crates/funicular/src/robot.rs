@@ -3,7 +3,10 @@
 //! Frames: `w` world, `p` platform. `anchor_w` is a point in world coordinates, `attachment_p` one in platform
 //! coordinates, `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
 
+mod freedoms;
 pub mod spec;
+
+pub use freedoms::{Freedoms, OutOfPlane, Plane};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};
 
@@ -18,30 +21,12 @@ pub struct Robot {
     pub gravity_w: Vec3,
     /// The moving platform.
     pub platform: Platform,
+    /// What acts on the platform besides its weight.
+    pub load: Load,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
     /// What the file says about the state: unstrained lengths or a pose.
     pub state: State,
-}
-
-/// Which motions the platform has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Freedoms {
-    /// Three translations and three rotations.
-    #[default]
-    Rigid,
-    /// Translations only: all cables end in one point that carries the mass.
-    PointMass,
-}
-
-impl Freedoms {
-    /// Number of freedoms: 6 or 3. The first ones of (δp, δθ).
-    pub fn count(self) -> usize {
-        match self {
-            Self::Rigid => 6,
-            Self::PointMass => 3,
-        }
-    }
 }
 
 /// The moving platform.
@@ -49,7 +34,8 @@ impl Freedoms {
 pub struct Platform {
     /// Mass [kg], positive.
     pub mass: f64,
-    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass.
+    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass. Of a
+    /// planar platform only the moment about the normal counts.
     pub inertia_p: Mat3,
     /// Centre of mass in the platform frame [m].
     pub center_of_mass_p: Vec3,
@@ -59,6 +45,17 @@ pub struct Platform {
     pub translational_damping_p: Vec3,
     /// Viscous damping of its rotation about the platform's axes [N m s].
     pub rotational_damping_p: Vec3,
+}
+
+/// A dead load on the platform: it keeps its direction in the world whatever the platform does.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Force, world axes [N].
+    pub force_w: Vec3,
+    /// Moment, world axes [N m].
+    pub moment_w: Vec3,
+    /// Where the force acts, platform frame [m].
+    pub point_p: Vec3,
 }
 
 /// Material damping of a rope; enters the cable's frequency only (theory, section 4).
@@ -200,6 +197,14 @@ impl Robot {
         for cable in &mut robot.cables {
             cable.tension_limits = limits.or(cable.tension_limits);
         }
+        robot
+    }
+
+    /// This robot with another load on its platform.
+    #[must_use]
+    pub fn with_load(&self, load: Load) -> Self {
+        let mut robot = self.clone();
+        robot.load = load;
         robot
     }
 

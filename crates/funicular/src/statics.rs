@@ -3,18 +3,20 @@
 mod forward;
 mod inverse;
 mod limits;
+mod nearest;
 mod start;
 mod tension;
 
 pub use forward::forward;
 pub use inverse::inverse;
 pub use limits::{Limit, TensionMargin, TensionRange};
+pub use nearest::{Nearest, distance, nearest};
 pub use tension::{Miss, TensionRule, distribute};
 
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inertia, skew};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::robot::{Load, OutOfPlane, Pose, Robot};
 use thiserror::Error;
 
 /// How a cable carries its static load.
@@ -123,10 +125,10 @@ pub enum StaticsError {
         /// Value [m].
         value: f64,
     },
-    /// Fewer cables than freedoms.
+    /// Ideal cables, not as many as freedoms.
     #[error(
-        "{cables} cables for {freedoms} freedoms: forward statics needs at least {freedoms} (with `spring` and \
-         `catenary` cables) or exactly {freedoms} (with `ideal` cables)"
+        "{cables} cables for {freedoms} freedoms: forward statics of `ideal` cables needs exactly {freedoms}; `spring` \
+         and `catenary` cables may be fewer or more"
     )]
     CableCount {
         /// Cables of the robot.
@@ -136,8 +138,8 @@ pub enum StaticsError {
     },
     /// Fewer cables than freedoms hold no given pose.
     #[error(
-        "inverse statics of {cables} cables for {freedoms} freedoms: it needs at least as many cables as the platform \
-         has freedoms"
+        "{cables} cables for {freedoms} freedoms hold no given pose: with `spring` and `catenary` cables there is the \
+         nearest pose that they can hold, with `ideal` cables there is none"
     )]
     InverseCableCount {
         /// Cables of the robot.
@@ -145,6 +147,9 @@ pub enum StaticsError {
         /// Freedoms of the platform.
         freedoms: usize,
     },
+    /// A pose that a planar platform cannot have.
+    #[error(transparent)]
+    OutOfPlane(#[from] OutOfPlane),
     /// A cable has no length between its ends at this pose.
     #[error("cable \"{cable}\" has coinciding ends at this pose: move the platform away from its anchor")]
     CoincidingEnds {
@@ -214,6 +219,25 @@ pub enum StaticsError {
         "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
     )]
     NothingToStiffen,
+    /// The search for the nearest pose did not end.
+    #[error(
+        "no nearest pose found in {iterations} iterations: the last, at position ({x:.4}, {y:.4}, {z:.4}) m, could come \
+         nearer by {residual:.1e} of the robot's size (limit {limit:.0e}); ask for a pose nearer to one that hangs freely"
+    )]
+    NotNearest {
+        /// Iterations of forward statics taken.
+        iterations: usize,
+        /// Relative length by which the pose could come nearer along the equilibria, to first order.
+        residual: f64,
+        /// What it has to be below.
+        limit: f64,
+        /// Position reached [m].
+        x: f64,
+        /// Position reached [m].
+        y: f64,
+        /// Position reached [m].
+        z: f64,
+    },
     /// The search did not reach the tolerance.
     #[error(
         "no equilibrium found in {iterations} iterations: scaled residual {residual:.3e} (limit {limit:.0e}) at position \
@@ -255,14 +279,28 @@ fn hang(robot: &Robot, i: usize, pose: &Pose, up_w: Vec3, rope: Rope) -> Hanging
 }
 
 /// Wrench (force, moment about the platform origin) of a force at a lever arm.
-fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
+pub(crate) fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
     let moment = lever.cross(force);
     Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-/// Wrench of gravity on the platform about its origin, at a pose.
-fn weight_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
+/// Wrench of gravity and of the load on the platform about its origin, at a pose.
+fn load_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
+    let Load { force_w, moment_w, point_p } = &robot.load;
     wrench_of(&(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p))
+        + wrench_of(force_w, &(pose.rot_wp * point_p))
+        + Vec6::new(0.0, 0.0, 0.0, moment_w.x, moment_w.y, moment_w.z)
+}
+
+/// The size of what acts on the platform [N]: weight, force, and moment over ℓ.
+fn load_size(robot: &Robot) -> f64 {
+    let Load { force_w, moment_w, .. } = &robot.load;
+    robot.platform.mass * robot.gravity_w.norm() + force_w.norm() + moment_w.norm() / robot.platform_length()
+}
+
+/// A wrench with its moments divided by ℓ: one unit throughout.
+fn scaled_wrench(wrench: &Vec6, ell: f64) -> Vec6 {
+    Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { wrench[i] / ell })
 }
 
 /// Adds `Jᵀ K J` of a 3×3 stiffness at a lever arm, `J = [I, −[r]×]`.
@@ -285,16 +323,27 @@ pub(crate) fn add_lever_term(total: &mut Mat6, force: &Vec3, lever: &Vec3) {
     view -= skew(force) * skew(lever);
 }
 
+/// Adds the stiffness of weight and load at a pose: those of dead forces, and half the moment, `½[m]×` in the rotation
+/// block, which makes the whole symmetric (theory, section 14).
+pub(crate) fn add_load_terms(total: &mut Mat6, robot: &Robot, pose: &Pose) {
+    let Load { force_w, moment_w, point_p } = &robot.load;
+    add_lever_term(total, &(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p));
+    add_lever_term(total, force_w, &(pose.rot_wp * point_p));
+    let mut view = total.fixed_view_mut::<3, 3>(3, 3);
+    view += skew(moment_w) * 0.5;
+}
+
 /// `S M S` with `S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ)`: one unit throughout.
 pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
     let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / platform_length };
     Mat6::from_fn(|i, j| matrix[(i, j)] * scale(i) * scale(j))
 }
 
-/// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables and platform weight at an equilibrium, about the platform
+/// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
 /// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
 ///
-/// `None` for ideal cables, which have no finite stiffness.
+/// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. Of a moment
+/// the antisymmetric half is left out: such a moment has no energy.
 ///
 /// # References
 /// docs/theory.md, equation (14).
@@ -304,22 +353,23 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
         .iter()
         .map(|cable| Some((cable.tangent_w()?, cable.force_on_platform_w, cable.lever_w)))
         .collect();
-    Some(assembled(robot, &equilibrium.pose, parts?.into_iter()))
+    let freedoms = &robot.platform.freedoms;
+    let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
+    Some(freedoms.expanded_matrix(&freedoms.reduced_matrix(&whole)))
 }
 
-/// Stiffness of cables (3×3, force on the platform, lever arm) and of the platform's weight at a pose.
+/// Stiffness of cables (3×3, force on the platform, lever arm) and of weight and load at a pose.
 fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
     let mut total = Mat6::zeros();
     for (stiffness, force, lever) in cables {
         add_congruent(&mut total, &stiffness, &lever);
         add_lever_term(&mut total, &force, &lever);
     }
-    let com_w = pose.rot_wp * robot.platform.center_of_mass_p;
-    add_lever_term(&mut total, &(robot.gravity_w * robot.platform.mass), &com_w);
+    add_load_terms(&mut total, robot, pose);
     total
 }
 
-/// Total wrench on the platform at any pose, cables and weight, about the platform origin [N, N·m]; the residual of
+/// Total wrench on the platform at any pose, cables, weight and load, about the platform origin [N, N·m]; the residual of
 /// equilibrium.
 ///
 /// # Errors
@@ -344,13 +394,11 @@ fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError> {
     }
 }
 
-/// The larger of force and moment/ℓ, over all tensions and the weight. A point mass has no moment.
+/// The larger of force and moment/ℓ, over all tensions and the weight; what the platform cannot do is not counted.
 fn scaled_residual(robot: &Robot, wrench: &Vec6, force_scale: f64) -> f64 {
+    let wrench = robot.platform.freedoms.allowed(wrench);
     let force = wrench.fixed_rows::<3>(0).norm();
-    let moment = match robot.platform.freedoms {
-        Freedoms::Rigid => wrench.fixed_rows::<3>(3).norm() / robot.platform_length(),
-        Freedoms::PointMass => 0.0,
-    };
+    let moment = wrench.fixed_rows::<3>(3).norm() / robot.platform_length();
     if force_scale > 0.0 { force.max(moment) / force_scale } else { force.max(moment) }
 }
 
@@ -391,12 +439,10 @@ fn residual_of(robot: &Robot, pose: &Pose, cables: &[CableState]) -> f64 {
     scaled_residual(robot, &wrench, scale)
 }
 
-/// Sum of the platform's weight and of cable forces at their lever arms, as a wrench about the platform origin; and the
+/// Sum of the platform's weight and load and of cable forces at their lever arms, as a wrench about the platform origin; and the
 /// sum of the sizes of all these forces [N], which residuals are measured by.
 fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)>) -> (Vec6, f64) {
-    let weight = weight_wrench(robot, pose);
-    let scale = weight.fixed_rows::<3>(0).norm();
-    forces.fold((weight, scale), |(wrench, scale), (force, lever)| {
+    forces.fold((load_wrench(robot, pose), load_size(robot)), |(wrench, scale), (force, lever)| {
         (wrench + wrench_of(&force, &lever), scale + force.norm())
     })
 }
@@ -404,7 +450,7 @@ fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)
 fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let n = robot.platform.freedoms.count();
     let scaled = scaled(&((stiffness + stiffness.transpose()) * 0.5), robot.platform_length());
-    let (values, _) = inertia::eigen(&scaled, n);
+    let (values, _) = inertia::eigen(&robot.platform.freedoms.reduced_matrix(&scaled), n);
     // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();

@@ -3,7 +3,7 @@
 use crate::output::Results;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Damping, Freedoms, Robot, State, TensionLimits};
+use funicular::robot::{Cable, Damping, Freedoms, Load, Robot, State, TensionLimits};
 use serde::Serialize;
 use std::cmp::Ordering;
 use std::fmt::Write;
@@ -17,6 +17,9 @@ pub(crate) struct Checked {
     gravity_m_s2: [f64; 3],
     freedoms: usize,
     platform: PlatformRow,
+    /// Absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load: Option<LoadRow>,
     materials: Vec<MaterialRow>,
     cables: Vec<CableRow>,
     /// `lengths`, `pose` or `none`.
@@ -29,9 +32,40 @@ pub(crate) struct Checked {
 
 #[derive(Serialize)]
 struct PlatformRow {
+    freedoms: &'static str,
+    /// Only of a planar platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plane_normal: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plane_offset_m: Option<f64>,
     mass_kg: f64,
     inertia_kg_m2: [[f64; 3]; 3],
     center_of_mass_m: [f64; 3],
+}
+
+/// A load on the platform.
+#[derive(Serialize)]
+pub(crate) struct LoadRow {
+    force_n: [f64; 3],
+    moment_n_m: [f64; 3],
+    point_m: [f64; 3],
+}
+
+impl LoadRow {
+    /// `None` where there is none.
+    pub(crate) fn of(load: &Load) -> Option<Self> {
+        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
+            force_n: load.force_w.into(),
+            moment_n_m: load.moment_w.into(),
+            point_m: load.point_p.into(),
+        })
+    }
+
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
+        format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
+    }
 }
 
 #[derive(Serialize, PartialEq)]
@@ -142,6 +176,10 @@ pub(crate) fn run(robot: Robot) -> Checked {
     };
     let inertia = robot.platform.inertia_p;
     let freedoms = robot.platform.freedoms.count();
+    let plane = match robot.platform.freedoms {
+        Freedoms::Planar(plane) => Some(plane),
+        Freedoms::Rigid | Freedoms::PointMass => None,
+    };
     Checked {
         warnings: warnings(&robot),
         name: robot.name,
@@ -149,10 +187,14 @@ pub(crate) fn run(robot: Robot) -> Checked {
         gravity_m_s2: robot.gravity_w.into(),
         freedoms,
         platform: PlatformRow {
+            freedoms: robot.platform.freedoms.name(),
+            plane_normal: plane.map(|plane| plane.normal_w().into()),
+            plane_offset_m: plane.map(|plane| plane.offset()),
             mass_kg: robot.platform.mass,
             inertia_kg_m2: std::array::from_fn(|i| std::array::from_fn(|j| inertia[(i, j)])),
             center_of_mass_m: robot.platform.center_of_mass_p.into(),
         },
+        load: LoadRow::of(&robot.load),
         materials,
         cables,
         state,
@@ -165,9 +207,32 @@ fn warnings(robot: &Robot) -> Vec<String> {
     let mut warnings = Vec::new();
     if cables < freedoms {
         warnings.push(format!(
-            "{cables} cables cannot hold {freedoms} freedoms: statics needs at least as many cables as the platform has \
-             freedoms ({freedoms}; a point mass has 3)"
+            "{cables} cables for {freedoms} freedoms: from lengths the platform hangs where its energy is least; of a pose \
+             that they cannot hold, statics gives the nearest that they can"
         ));
+    }
+    if let Freedoms::Planar(plane) = robot.platform.freedoms {
+        let across = |cable: &Cable| plane.distance(&cable.anchor_w) - plane.normal_w().dot(&cable.attachment_p);
+        let beside: Vec<String> = robot
+            .cables
+            .iter()
+            .filter(|cable| across(cable).abs() > 1e-9 * (1.0 + cable.anchor_w.norm()))
+            .map(|cable| format!("\"{}\" by {} m", cable.name, short(across(cable), 4)))
+            .collect();
+        if !beside.is_empty() {
+            warnings.push(format!(
+                "cables leave the plane of the platform: {}; what they pull across it is carried by the guide, which has no \
+                 friction and does not yield here",
+                beside.join(", ")
+            ));
+        }
+        let across = plane.normal_w().dot(&robot.gravity_w);
+        if across.abs() > 1e-9 * robot.gravity_w.norm() {
+            warnings.push(format!(
+                "gravity has {} m/s² across the plane of the platform: the guide carries it, and cables sag out of the plane",
+                short(across, 4)
+            ));
+        }
     }
     warnings
 }
@@ -197,9 +262,20 @@ impl Results for Checked {
         };
         say(format!("  cables      {}, {redundancy}", self.cables.len()));
         let platform = &self.platform;
-        let kind = if self.freedoms == Freedoms::PointMass.count() { "point mass" } else { "rigid platform" };
+        let kind = match (platform.plane_normal, platform.plane_offset_m) {
+            (Some(normal), Some(offset)) => {
+                format!(
+                    "{} platform, plane with normal ({}), {} m from the origin",
+                    platform.freedoms,
+                    vector(&normal, 4),
+                    short(offset, 4)
+                )
+            }
+            _ if platform.freedoms == Freedoms::PointMass.name() => "point mass".to_owned(),
+            _ => "rigid platform".to_owned(),
+        };
         say(format!("  platform    {kind}, {} kg", short(platform.mass_kg, 6)));
-        if self.freedoms == Freedoms::Rigid.count() {
+        if platform.freedoms != Freedoms::PointMass.name() {
             let rows = platform.inertia_kg_m2;
             let cell = |i: usize, j: usize| short(rows[i][j], 5);
             say(format!(
@@ -214,6 +290,9 @@ impl Results for Checked {
             say(format!("  mass centre ({}) m in the platform frame", vector(&platform.center_of_mass_m, 4)));
         }
         say(format!("  gravity     ({}) m/s²", vector(&self.gravity_m_s2, 4)));
+        if let Some(load) = &self.load {
+            say(format!("  load        {}", load.text()));
+        }
         let state = match &self.pose {
             Some(pose) => format!(
                 "pose ({}) m, roll, pitch, yaw ({})°",

@@ -154,7 +154,7 @@ pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
     check_count(&dynamics, args.below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, args.below_hz);
     warnings.extend(uncertified(&found));
-    let AtRest { robot, equilibrium } = &at_rest;
+    let AtRest { robot, equilibrium, .. } = &at_rest;
 
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
     let damped = damped(&dynamics, &found, &mut warnings);
@@ -241,7 +241,7 @@ fn damped(dynamics: &Dynamics, found: &modes::Modes, warnings: &mut Vec<String>)
 
 /// Equal steps along every cable.
 fn stations(at_rest: &AtRest, dynamics: &Dynamics, count: usize) -> Result<Vec<CableStations>> {
-    let AtRest { robot, equilibrium } = at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let fractions: Vec<f64> = (0..count).map(|i| i as f64 / (count - 1) as f64).collect();
     let of = |i: usize| Ok(CableStations::new(robot, equilibrium, dynamics, i, &fractions, false)?);
     (0..robot.cables.len()).map(of).collect()

@@ -12,7 +12,7 @@ use anyhow::{Context, Result, bail};
 use funicular::math::{DMat, Vec3};
 use funicular::reduction::{Coordinate, DampingAt, Place, SecondOrder, StateSpace, Wanted, reduce};
 use funicular::response::Quantity;
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::Robot;
 use npyz::WriterBuilder;
 use serde::Serialize;
 use std::io::{Cursor, Write};
@@ -119,7 +119,8 @@ pub(crate) fn run(robot: Robot, args: &ReduceArgs) -> Result<Reduced> {
 fn inputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Input, Place)>> {
     let all = ["fx", "fy", "fz", "mx", "my", "mz"];
     let asked = if args.input.is_empty() {
-        all[..freedoms(robot)].iter().map(|name| crate::args::values::input(name).map_err(anyhow::Error::msg)).collect()
+        let possible = robot.platform.freedoms.components();
+        possible.iter().map(|&i| crate::args::values::input(all[i]).map_err(anyhow::Error::msg)).collect()
     } else {
         Ok(args.input.clone())
     };
@@ -135,10 +136,8 @@ fn inputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Input, Place)>> {
 fn outputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Output, Place)>> {
     let all = ["x", "y", "z", "rx", "ry", "rz"];
     let asked = if args.output.is_empty() {
-        all[..freedoms(robot)]
-            .iter()
-            .map(|name| crate::args::values::output(name).map_err(anyhow::Error::msg))
-            .collect()
+        let possible = robot.platform.freedoms.components();
+        possible.iter().map(|&i| crate::args::values::output(all[i]).map_err(anyhow::Error::msg)).collect()
     } else {
         Ok(args.output.clone())
     };
@@ -148,10 +147,6 @@ fn outputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Output, Place)>> {
         Ok((output, place))
     };
     asked?.into_iter().map(place).collect()
-}
-
-fn freedoms(robot: &Robot) -> usize {
-    if robot.platform.freedoms == Freedoms::Rigid { 6 } else { 3 }
 }
 
 fn place(
@@ -185,8 +180,8 @@ impl CoordinateRow {
     fn of(robot: &Robot, coordinate: &Coordinate) -> Self {
         match coordinate {
             Coordinate::Platform(i) => Self {
-                name: ["x", "y", "z", "rx", "ry", "rz"][*i].to_owned(),
-                unit: if *i < 3 { "m" } else { "rad" },
+                name: robot.platform.freedoms.coordinate_names()[*i].to_owned(),
+                unit: if robot.platform.freedoms.is_rotation(*i) { "rad" } else { "m" },
                 clamped_frequency_hz: None,
             },
             Coordinate::Clamped { cable, out_of_plane, frequency_hz } => Self {

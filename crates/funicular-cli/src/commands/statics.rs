@@ -1,6 +1,7 @@
 //! `statics`: the equilibrium.
 
 use crate::args::StaticsArgs;
+use crate::commands::check::LoadRow;
 use crate::output::Results;
 use crate::state::{self, AtRest, SagNumbers, static_model_name};
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
@@ -17,7 +18,13 @@ pub(crate) struct Statics {
     robot: String,
     static_model: &'static str,
     mass_kg: f64,
+    /// On the platform; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load: Option<LoadRow>,
     pose: PoseRow,
+    /// Distance from the pose asked; absent where the cables are as many as the freedoms, or lengths were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest_pose_distance_m: Option<f64>,
     /// Absent where the tensions were no choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     tension_rule: Option<&'static str>,
@@ -97,7 +104,7 @@ impl LimitNumbers {
 
 pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
     let (at_rest, rule) = state::equilibrium_with(robot, &args.state, &args.tensions)?;
-    let AtRest { robot, equilibrium } = &at_rest;
+    let AtRest { robot, equilibrium, .. } = &at_rest;
     let limited = rule.is_some() || robot.cables.iter().any(|cable| cable.limits() != TensionLimits::default());
     let cables = equilibrium
         .cables
@@ -125,11 +132,13 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
         robot: robot.name.clone(),
         static_model: static_model_name(equilibrium.model),
         mass_kg: robot.platform.mass,
+        load: LoadRow::of(&robot.load),
         pose: PoseRow {
             position_m: pose.position_w.into(),
             quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
             roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
         },
+        nearest_pose_distance_m: at_rest.instead_of.map(|(_, distance)| distance),
         tension_rule: rule.map(|rule| rule.name()),
         cables,
         residual: equilibrium.residual,
@@ -186,8 +195,12 @@ impl Results for Statics {
             _ => "Rigid cables: no stiffness".to_owned(),
         };
         let rule = self.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
+        let load = self.load.as_ref().map_or_else(String::new, |load| format!(", {}", load.text()));
+        let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
+            format!("  nearest pose that the cables can hold, {} m from the one asked\n", short(distance, 4))
+        });
         format!(
-            "{}: equilibrium with {} cables, {} kg{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n\n\
+            "{}: equilibrium with {} cables, {} kg{load}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
              {cables}\n{stability}. Residual {:.1e} after {}.\n",
             self.robot,
             self.static_model,

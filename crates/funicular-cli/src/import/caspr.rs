@@ -41,7 +41,6 @@ pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Resu
             center_of_mass_p: Some(body.center_of_mass_p),
             freedoms: body.freedoms,
             place: body.place,
-            freedoms_place: body.freedoms_place,
         },
         cables: set.cables,
         state: DraftState::Pose(body.pose),

@@ -37,8 +37,6 @@ pub(crate) struct DraftPlatform {
     pub(crate) freedoms: DraftFreedoms,
     /// Where the source speaks of mass and inertia: `file:line`, with the column in XML.
     pub(crate) place: String,
-    /// Where it speaks of freedoms.
-    pub(crate) freedoms_place: String,
 }
 
 /// Which motions the platform has.

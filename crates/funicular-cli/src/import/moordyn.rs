@@ -109,7 +109,6 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
             center_of_mass_p: Some(center),
             freedoms: DraftFreedoms::Rigid,
             place: body.row.place(file),
-            freedoms_place: body.row.place(file),
         };
         return Ok((platform, On::Body(body.id)));
     }
@@ -128,7 +127,6 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
                 center_of_mass_p: None,
                 freedoms: DraftFreedoms::PointMass,
                 place: point.row.place(file),
-                freedoms_place: point.row.place(file),
             };
             Ok((platform, On::Point(point.id)))
         }

@@ -112,7 +112,6 @@ fn platform(xml: &Xml, robot: Node, freedoms: DraftFreedoms, assumed: &mut Vec<S
             center_of_mass_p: None,
             freedoms,
             place: xml.place(robot),
-            freedoms_place: xml.place(robot),
         });
     };
     let mass = xml.optional_attribute_number(node, "mass")?;
@@ -143,7 +142,6 @@ fn platform(xml: &Xml, robot: Node, freedoms: DraftFreedoms, assumed: &mut Vec<S
         center_of_mass_p: center,
         freedoms,
         place: xml.place(node),
-        freedoms_place: xml.place(robot),
     })
 }
 

@@ -7,6 +7,7 @@ use super::figure::response::{Curve, Marks, sampled};
 use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
+use crate::commands::check::LoadRow;
 use crate::commands::modes::{check_count, uncertified};
 use crate::state::AtRest;
 use anyhow::Context as _;
@@ -17,7 +18,7 @@ use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Vec6, rotation};
 use funicular::modes::{self, Kind, Modes};
 use funicular::response::{Peak, Quantity, peaks};
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
 
 /// Prominence from which on a peak is named [dB].
@@ -101,7 +102,7 @@ pub(crate) struct Report {
 /// If the robot cannot be linearised at this state with the model asked, or has no finite response there.
 pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
-    let AtRest { robot, equilibrium } = at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
     check_count(&dynamics, below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, below_hz);
@@ -165,9 +166,12 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
         ("platform mass", format!("{} kg", significant(robot.platform.mass, 4))),
         ("position x, y, z", format!("{}, {}, {} m", fixed(p.x, 4), fixed(p.y, 4), fixed(p.z, 4))),
     ];
-    if robot.platform.freedoms == Freedoms::Rigid {
+    if robot.platform.freedoms.can_turn() {
         let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&equilibrium.pose.rot_wp);
         key.push(("roll, pitch, yaw", format!("{}, {}, {} °", fixed(roll, 2), fixed(pitch, 2), fixed(yaw, 2))));
+    }
+    if let Some(load) = LoadRow::of(&robot.load) {
+        key.push(("load", load.text()));
     }
     key.push(("tensions at the platform", format!("{} to {} N", significant(least, 4), significant(most, 4))));
     if let Some(first) = found.modes.first() {
@@ -245,7 +249,8 @@ fn respond(
     dynamics: &Dynamics,
     found: &Modes,
 ) -> anyhow::Result<(Figure, Table, Vec<String>)> {
-    let ReportInput { at_rest: AtRest { robot, equilibrium }, linearisation, below_hz, frf_unit: unit, .. } = *input;
+    let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
+        *input;
     let (force, u) = &input.frf_input;
     let (motion, v, quantity) = &input.frf_output;
     let draw = |dynamics: &Dynamics, found: &Modes| {

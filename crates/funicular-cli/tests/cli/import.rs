@@ -259,6 +259,24 @@ fn what_is_lost_or_assumed_is_said_twice_on_stderr_and_in_the_file() {
 }
 
 #[test]
+fn a_platform_that_moves_in_a_plane_is_planar_in_the_plane_of_its_pose() {
+    let caspr = Changed::of(
+        &CASPR,
+        &[("SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"", "PLANAR_XZ\" q_initial=\"0.1 1.5 0\"")],
+    );
+    let robot = json("check", &caspr.imported(&ROPES), &[]);
+    assert_eq!((&robot["freedoms"], &robot["platform"]["freedoms"]), (&3.into(), &"planar-xz".into()));
+    let wirex = Changed::of(&["tripod.wcrfx"], &[("3R3T", "1R2T")]);
+    let robot = json("check", &wirex.imported(&["--pose", "0.1,0,1.5,0,0,3"]), &[]);
+    assert_eq!(
+        (&robot["platform"]["freedoms"], &robot["platform"]["plane_offset_m"]),
+        (&"planar-xy".into(), &1.5.into())
+    );
+    let tilted = wirex.import(&["--pose", "0.1,0,1.5,2,0,0"]);
+    assert!(stderr(&tilted).contains("tilted out of its plane by 2"), "{}", stderr(&tilted));
+}
+
+#[test]
 fn a_platform_that_only_translates_is_a_point_mass_with_moved_anchors() {
     let caspr = Changed::of(
         &CASPR,
@@ -349,7 +367,6 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
     const POSE: &str = "SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"";
     let cases: &[Refused] = &[
         // CASPR: bodies.
-        (&CASPR, (POSE, "PLANAR_XZ\" q_initial=\"0 1 0\""), &[], "bodies.xml:7:7: the platform moves in the xz plane"),
         (&CASPR, (POSE, "R_Z\" q_initial=\"0\""), &[], "joint `R_Z` is a link that only rotates about a fixed point"),
         (&CASPR, (POSE, "P_XY\" q_initial=\"0 0\""), &[], "translates along less than three axes"),
         (&CASPR, (POSE, "HINGE\" q_initial=\"0\""), &[], "joint `HINGE` is of a kind that is not known"),
@@ -393,7 +410,6 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
         (&CASPR, ("id=\"springs\"", "id=\"ideal\""), &[], "a second set is called \"ideal\""),
         (&CASPR, ("<cables ", "<cables "), &["--cable-set", "spring"], "did you mean \"springs\"?"),
         // WireX.
-        (WIREX, ("3R3T", "1R2T"), &[], "tripod.wcrfx:2:5: the platform moves in the xy plane"),
         (WIREX, ("3R3T", "2R3T"), &[], "motion pattern 2R3T is none that a robot file can hold"),
         (WIREX, ("3R3T", "6T"), &[], "attribute `motionpattern` is `6T`"),
         (WIREX, ("x=\"0.15\"", "x=\"0,15\""), &[], "tripod.wcrfx:5:17: attribute `x` of <base> is `0,15`"),

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod files;
+mod freedoms;
 mod import;
 mod pages;
 mod readme;

@@ -47,19 +47,14 @@ impl<'a> Prepared<'a> {
             entries
         };
         let lacking = |i: usize| i >= dynamics.freedoms;
-        // Freedoms that the platform lacks get a unit diagonal and nothing else.
-        let constant = lower(&|i, j| match (lacking(i) || lacking(j), i == j) {
-            (true, true) => 1.0,
-            (true, false) => 0.0,
-            _ => dynamics.constant[(i, j)],
-        });
+        // Beyond the platform's coordinates there is a unit diagonal and nothing else.
+        let constant = lower(&|i, j| if lacking(i) && i == j { 1.0 } else { dynamics.constant[(i, j)] });
         let (mass, damping) = (&dynamics.mass, &dynamics.platform_damping);
         let products = dynamics
             .terms
             .iter()
             .map(|term| {
-                let cut = |v: &Vec6| Vec6::from_fn(|i, _| if lacking(i) { 0.0 } else { v[i] });
-                let (a, n, b) = (cut(&term.along), cut(&term.normal), cut(&term.out));
+                let (a, n, b) = (&term.along, &term.normal, &term.out);
                 Products {
                     axial: lower(&|i, j| a[i] * a[j]),
                     coupling: lower(&|i, j| a[i] * n[j] + n[i] * a[j]),
@@ -216,8 +211,7 @@ fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
 /// `outputᵀ D⁻¹ input` at each frequency [Hz].
 pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
     let scale = dynamics.scale();
-    // Motions and wrenches of lacking freedoms are not there; unit diagonals in D must not pass them through.
-    let vector = |v: &Vec6| from_fn(|i| if i < dynamics.freedoms { v[i] / scale[i] } else { 0.0 });
+    let vector = |v: &Vec6| dynamics.motions.reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
     let mut values = vec![Complex::new(0.0, 0.0); frequencies_hz.len()];
     pulp::Arch::new().dispatch(OneEntry {
         prepared: Prepared::new(dynamics),
@@ -298,13 +292,16 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
                     *value = receptance(dynamics, omega[i]);
                     continue;
                 }
+                let mut of_lane = CMat6::zeros();
                 for column in 0..dynamics.freedoms {
                     for row in column..dynamics.freedoms {
-                        let entry = inverse[at(row, column)].lane(i) * (1.0 / (scale[row] * scale[column]));
-                        value[(row, column)] = entry;
-                        value[(column, row)] = entry;
+                        let entry = inverse[at(row, column)].lane(i);
+                        of_lane[(row, column)] = entry;
+                        of_lane[(column, row)] = entry;
                     }
                 }
+                let of_lane = dynamics.expanded(&of_lane);
+                *value = CMat6::from_fn(|i, j| of_lane[(i, j)] * (1.0 / (scale[i] * scale[j])));
             }
         }
     }

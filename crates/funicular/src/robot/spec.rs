@@ -12,8 +12,10 @@
 //! | `gravity_m_s2` | acceleration of gravity, world axes | `[0, 0, -9.81]` |
 //! | **`[platform]`** | | required |
 //! | `mass_kg` | mass, positive | required |
-//! | `freedoms` | `"rigid"` or `"point-mass"` (translations only) | `"rigid"` |
-//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3 | required if rigid, refused if not |
+//! | `freedoms` | `"rigid"`, `"point-mass"` (translations only), `"planar-xy"`, `"planar-xz"`, `"planar-yz"` (two translations and the rotation about the third axis), or `"planar"` with a normal | `"rigid"` |
+//! | `plane_normal` | normal of the plane in which the platform's origin moves, world axes, any length | required if `"planar"`, else refused |
+//! | `plane_offset_m` | distance of that plane from the world's origin along the normal (z, y or x, or `plane_normal`) | 0 |
+//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; if planar also one number, the moment about the normal, the only one that counts | required, refused of a point mass |
 //! | `center_of_mass_m` | in the platform frame | `[0, 0, 0]` |
 //! | **`[materials.NAME]`** | | one or more |
 //! | `youngs_modulus_pa` with `diameter_m` or `area_m2` | axial stiffness as `E A` | one of the two ways |
@@ -26,9 +28,13 @@
 //! | `name` | unique | required |
 //! | `material` | a NAME of `[materials.NAME]` | required |
 //! | `anchor_m` | exit point in the world frame | required |
-//! | `attachment_m` | point in the platform frame | required if rigid, zero if not |
+//! | `attachment_m` | point in the platform frame | required, zero of a point mass |
 //! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
 //! | `unstrained_length_m` | positive; all cables have one, or none | none |
+//! | **`[loads]`** | on the platform, besides its weight; fixed in the world | none |
+//! | `force_n` | force, world axes | `[0, 0, 0]` |
+//! | `point_m` | where it acts, platform frame | `[0, 0, 0]` |
+//! | `moment_n_m` | moment, world axes; refused of a point mass, as `point_m` | `[0, 0, 0]` |
 //! | **`[state]`** | a pose; not together with lengths | none |
 //! | `position_m` | platform origin in the world frame | required |
 //! | `roll_pitch_yaw_deg` | R = Rz(yaw) Ry(pitch) Rx(roll) | `[0, 0, 0]` |
@@ -43,7 +49,7 @@ mod materials;
 mod platform;
 mod read;
 
-use super::{Cable, Pose, Robot, State};
+use super::{Cable, Freedoms, Load, Pose, Robot, State};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
@@ -61,7 +67,15 @@ const ROOT: &[Key] = &[
     Key { name: "platform", example: "[platform]" },
     Key { name: "materials", example: "[materials.rope]" },
     Key { name: "cables", example: "[[cables]]" },
+    Key { name: "loads", example: "[loads]" },
     Key { name: "state", example: "[state]" },
+];
+
+/// Keys of `[loads]`.
+const LOADS: &[Key] = &[
+    Key { name: "force_n", example: "force_n = [0.0, 0.0, -50.0]" },
+    Key { name: "moment_n_m", example: "moment_n_m = [0.0, 0.0, 2.0]" },
+    Key { name: "point_m", example: "point_m = [0.0, 0.0, -0.1]" },
 ];
 
 /// Keys of `[state]`.
@@ -76,6 +90,7 @@ const TABLES: &[(&str, &[Key])] = &[
     ("[platform]", platform::KEYS),
     ("[materials.NAME]", materials::KEYS),
     ("[[cables]]", cables::KEYS),
+    ("[loads]", LOADS),
     ("[state]", STATE),
 ];
 
@@ -158,22 +173,54 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     };
     let freedoms = platform::freedoms(reader, &root);
     let platform = platform::read(reader, &root, freedoms);
+    let load = read_load(reader, &root, freedoms);
     let materials = materials::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), freedoms);
-    let state = read_state(reader, &root, cables.as_deref(), freedoms == Some(super::Freedoms::PointMass));
+    let state = read_state(reader, &root, cables.as_deref(), freedoms);
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
     Some(Robot {
         name: name?,
         source: source?,
         gravity_w: Vec3::from(gravity?),
         platform: platform?,
+        load: load?,
         cables,
         state: state?,
     })
 }
 
+/// `[loads]`: force, moment and point.
+fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) -> Option<Load> {
+    let Some(value) = root.get("loads") else { return Some(Load::default()) };
+    let table = reader.table("loads", "[loads]", value)?;
+    let section = reader.open("[loads]", value.span(), table, LOADS);
+    let mut vector = |key: &str, unit: &str| match section.get(key) {
+        Some(value) => {
+            let vector = reader.vector(key, unit, value)?;
+            if key != "force_n" && freedoms == Some(Freedoms::PointMass) && !is_zero(&vector) {
+                reader
+                    .issue(
+                        value.span(),
+                        format!("a point mass bears forces at its own point only, `{key}` must be absent"),
+                    )
+                    .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+                return None;
+            }
+            Some(Vec3::from(vector))
+        }
+        None => Some(Vec3::zeros()),
+    };
+    let (force, moment, point) = (vector("force_n", "N"), vector("moment_n_m", "N m"), vector("point_m", "m"));
+    Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
+}
+
 /// `[state]` or the cables' lengths, and what can be checked of them against the geometry.
-fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>, point_mass: bool) -> Option<State> {
+fn read_state(
+    reader: &mut Reader,
+    root: &Section,
+    cables: Option<&[CableEntry]>,
+    freedoms: Option<Freedoms>,
+) -> Option<State> {
     let lengths = cables.map(|cables| cables::lengths(reader, cables));
     let Some(value) = root.get("state") else {
         let lengths = lengths??;
@@ -188,7 +235,7 @@ fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>
     let angles = match section.get("roll_pitch_yaw_deg") {
         Some(value) => {
             let angles = reader.vector("roll_pitch_yaw_deg", "degrees", value);
-            if point_mass && angles.is_some_and(|angles| !is_zero(&angles)) {
+            if freedoms == Some(Freedoms::PointMass) && angles.is_some_and(|angles| !is_zero(&angles)) {
                 reader
                     .issue(value.span(), "a point mass has no orientation, `roll_pitch_yaw_deg` must be zero or absent")
                     .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
@@ -205,6 +252,10 @@ fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>
         return None;
     }
     let pose = Pose::new(position?, angles?);
+    if let Some(Err(out)) = freedoms.map(|freedoms| freedoms.check(&pose)) {
+        reader.issue(value.span(), format!("this pose is not in the plane: {out}"));
+        return None;
+    }
     cables::refuse_coincident_ends(reader, cables?, &pose);
     Some(State::Pose(pose))
 }
@@ -212,7 +263,7 @@ fn read_state(reader: &mut Reader, root: &Section, cables: Option<&[CableEntry]>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Damping, Freedoms};
+    use crate::robot::Damping;
     use proptest::prelude::*;
 
     /// A file that uses every kind of value.

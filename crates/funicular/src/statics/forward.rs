@@ -2,7 +2,7 @@
 
 use super::{
     CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance, check_lengths,
-    collect, hang, residual_of, rope, scaled, scaled_residual, start, weight_wrench, wrench_of,
+    collect, hang, load_wrench, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, wrench_of,
 };
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
@@ -16,12 +16,13 @@ const MOST_ITERATIONS: usize = 5000;
 /// The pose in which the platform rests for given unstrained lengths [m], one a cable in file order.
 ///
 /// `spring` and `catenary`: minimises the potential energy of cables and platform by Newton's method with shifted
-/// stiffness, so that what it finds is a stable equilibrium wherever there is one near; any number of cables from the
-/// number of freedoms. `ideal`: closes the lengths, as many cables as freedoms. `start`: where to begin; without it
+/// stiffness, so that what it finds is a stable equilibrium wherever there is one near, or an indifferent one; any number
+/// of cables. `ideal`: closes the lengths, as many cables as freedoms. `start`: where to begin; without it
 /// the pose that straight cables of these lengths come closest to.
 ///
 /// # Errors
-/// [`StaticsError`]: lengths that do not fit the robot, too few cables, or no equilibrium within the tolerance.
+/// [`StaticsError`]: lengths that do not fit the robot, ideal cables that are not as many as freedoms, a start out of a
+/// planar platform's plane, or no equilibrium within the tolerance.
 ///
 /// # Example
 /// ```
@@ -40,8 +41,11 @@ pub fn forward(
 ) -> Result<Equilibrium, StaticsError> {
     check_lengths(robot, lengths)?;
     let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-    if cables < freedoms || (model == StaticModel::Ideal && cables != freedoms) {
+    if model == StaticModel::Ideal && cables != freedoms {
         return Err(StaticsError::CableCount { cables, freedoms });
+    }
+    if let Some(start) = start {
+        robot.platform.freedoms.check(start)?;
     }
     let pose = start.copied().unwrap_or_else(|| start::pose_from_lengths(robot, lengths));
     match model {
@@ -54,7 +58,7 @@ pub fn forward(
 struct Trial {
     pose: Pose,
     cables: Vec<HangingCable>,
-    /// Wrench on the platform, moments divided by ℓ.
+    /// Wrench on the platform in its coordinates, scaled.
     wrench: Vec6,
     residual: f64,
     /// What `residual` has to fall below: [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables
@@ -71,7 +75,7 @@ struct Search<'a> {
     ropes: Vec<Rope>,
     up_w: Vec3,
     ell: f64,
-    freedoms: usize,
+    freedoms: Freedoms,
 }
 
 impl Search<'_> {
@@ -79,35 +83,40 @@ impl Search<'_> {
         let cables: Vec<HangingCable> =
             self.ropes.iter().enumerate().map(|(i, &rope)| hang(self.robot, i, &pose, self.up_w, rope)).collect();
         let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
-        let (mut wrench, force_scale) = balance(self.robot, &pose, forces);
+        let (wrench, force_scale) = balance(self.robot, &pose, forces);
         let weight_w = self.robot.gravity_w * self.robot.platform.mass;
         let com_w = pose.point_w(&self.robot.platform.center_of_mass_p);
-        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - weight_w.dot(&com_w);
+        let loaded_w = pose.point_w(&self.robot.load.point_p);
+        let of_loads = weight_w.dot(&com_w) + self.robot.load.force_w.dot(&loaded_w);
+        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - of_loads;
         let residual = scaled_residual(self.robot, &wrench, force_scale);
         let stiffest: f64 = self.ropes.iter().map(|rope| rope.axial_stiffness).sum();
         let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
         let limit = RESIDUAL_LIMIT.max(rounding);
-        for row in 3..6 {
-            wrench[row] = if self.freedoms > row { wrench[row] / self.ell } else { 0.0 };
-        }
+        let wrench = self.freedoms.reduced(&scaled_wrench(&wrench, self.ell));
         Trial { pose, cables, wrench, residual, limit, energy }
     }
 
-    /// Symmetric part of the tangent stiffness, scaled; freedoms the platform lacks get a unit diagonal.
+    /// Symmetric part of the tangent stiffness in the platform's coordinates, scaled; a unit diagonal beyond them.
     fn stiffness(&self, trial: &Trial) -> Mat6 {
         let parts =
             trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
-        let mut total = scaled(&((total + total.transpose()) * 0.5), self.ell);
-        for row in self.freedoms..6 {
-            total.row_mut(row).fill(0.0);
-            total.column_mut(row).fill(0.0);
+        let mut total = self.freedoms.reduced_matrix(&scaled(&((total + total.transpose()) * 0.5), self.ell));
+        for row in self.freedoms.count()..6 {
             total[(row, row)] = 1.0;
         }
         total
     }
 
+    /// Work of the load's moment along a step; a moment that stays fixed in the world has no energy.
+    fn work(&self, step: &Vec6) -> f64 {
+        let step = self.freedoms.expanded(step);
+        self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.ell
+    }
+
     fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
+        let step = self.freedoms.expanded(step);
         pose.moved(&Vec3::new(step[0], step[1], step[2]), &(Vec3::new(step[3], step[4], step[5]) / self.ell))
     }
 }
@@ -118,7 +127,7 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
         ropes: lengths.iter().enumerate().map(|(i, &length)| rope(robot, i, length, model)).collect(),
         up_w: robot.up_w(),
         ell: robot.platform_length(),
-        freedoms: robot.platform.freedoms.count(),
+        freedoms: robot.platform.freedoms,
     };
     // A step may turn the platform by half a radian and move it by a fifth of the mean cable.
     let reach = 0.2 * lengths.iter().sum::<f64>() / lengths.len() as f64;
@@ -138,7 +147,7 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
         if here.residual < 1e-13 || (near && exhausted) {
             // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
             if escapes < 3
-                && inertia::negative_eigenvalues(&stiffness, search.freedoms) > 0
+                && inertia::negative_eigenvalues(&stiffness, search.freedoms.count()) > 0
                 && let Some(lower) = descend_from_saddle(&search, &here, &stiffness)
             {
                 escapes += 1;
@@ -149,12 +158,14 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
         }
         let diagonal = stiffness.diagonal().amax();
         let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
-        let length = (step.fixed_rows::<3>(0).norm() / reach).max(step.fixed_rows::<3>(3).norm() / (0.5 * search.ell));
+        let motion = search.freedoms.expanded(&step);
+        let length =
+            (motion.fixed_rows::<3>(0).norm() / reach).max(motion.fixed_rows::<3>(3).norm() / (0.5 * search.ell));
         let step = if length > 1.0 { step / length } else { step };
         let next = search.at(search.moved(&here.pose, &step));
         // Near rest the energy drowns in rounding; there the residual decides.
         let expected = step.dot(&here.wrench);
-        let lower = next.energy < here.energy - 1e-4 * expected;
+        let lower = next.energy - search.work(&step) < here.energy - 1e-4 * expected;
         let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
         if next.residual.is_finite() && (lower || quieter) {
             // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
@@ -203,16 +214,19 @@ fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64)
 
 /// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
 fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
-    let (values, vectors) = inertia::eigen(stiffness, search.freedoms);
+    let (values, vectors) = inertia::eigen(stiffness, search.freedoms.count());
     let noise = 1e-10 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
         return None;
     }
     [0.3, -0.3, 0.1, -0.1, 0.01, -0.01]
         .into_iter()
-        .map(|part| search.at(search.moved(&here.pose, &(vectors[0] * (part * search.ell)))))
-        .filter(|trial| trial.energy < here.energy && trial.residual.is_finite())
-        .min_by(|a, b| a.energy.total_cmp(&b.energy))
+        .map(|part| vectors[0] * (part * search.ell))
+        .map(|step| (search.at(search.moved(&here.pose, &step)), search.work(&step)))
+        .map(|(trial, work)| (trial.energy - work, trial))
+        .filter(|(energy, trial)| *energy < here.energy && trial.residual.is_finite())
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, trial)| trial)
 }
 
 /// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
@@ -236,6 +250,7 @@ fn ideal(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, Sta
             _ => 0.0,
         });
         let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
+        let step = robot.platform.freedoms.expanded(&step);
         // Halve the step until the gap falls.
         let mut part = 1.0;
         let next = loop {
@@ -259,22 +274,18 @@ fn ideal(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, Sta
         let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
-    let tensions = straight_tensions(robot, &pose, &weight_wrench(robot, &pose))?;
+    let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
     Ok(collect_ideal(robot, pose, &tensions, iterations))
 }
 
-/// Unit tension wrenches (e, r × e/ℓ) of straight cables as columns; freedoms and cables that are missing get the
-/// identity.
+/// Unit tension wrenches (e, r × e/ℓ) of straight cables in the platform's coordinates as columns; the identity beyond
+/// them.
 fn unit_wrenches(robot: &Robot, pose: &Pose, ell: f64) -> Mat6 {
     let mut columns = Mat6::identity();
     for (i, cable) in robot.cables.iter().enumerate().take(6) {
         let lever = pose.rot_wp * cable.attachment_p;
         let e = (cable.anchor_w - pose.position_w - lever).normalize();
-        let mut column = wrench_of(&e, &(lever / ell));
-        if robot.platform.freedoms == Freedoms::PointMass {
-            column.fixed_rows_mut::<3>(3).fill(0.0);
-        }
-        columns.set_column(i, &column);
+        columns.set_column(i, &robot.platform.freedoms.reduced(&wrench_of(&e, &(lever / ell))));
     }
     columns
 }
@@ -287,16 +298,7 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
         }
     }
     let ell = robot.platform_length();
-    let n = robot.platform.freedoms.count();
-    let right = Vec6::from_fn(|i, _| {
-        if i < 3 {
-            -load[i]
-        } else if i < n {
-            -load[i] / ell
-        } else {
-            0.0
-        }
-    });
+    let right = -robot.platform.freedoms.reduced(&scaled_wrench(load, ell));
     let columns = unit_wrenches(robot, pose, ell);
     let singular = columns.svd(false, false).singular_values;
     if singular.min() < 1e-10 * singular.max() {

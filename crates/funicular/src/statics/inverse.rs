@@ -2,12 +2,12 @@
 
 use super::forward::{collect_ideal, straight_tensions};
 use super::{
-    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang, rope,
-    scaled_residual, weight_wrench, wrench_of,
+    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang,
+    load_wrench, rope, scaled_residual, scaled_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::robot::{Pose, Robot};
 
 /// The unstrained lengths and tensions that hold the platform at a pose.
 ///
@@ -19,7 +19,7 @@ use crate::robot::{Freedoms, Pose, Robot};
 /// forces are nearly linear.
 ///
 /// # Errors
-/// [`StaticsError`]: fewer cables than freedoms, tensions beyond their limits if there is a choice, a singular pose, a cable that would have to
+/// [`StaticsError`]: fewer cables than freedoms ([`nearest`](super::nearest) knows what they can hold), tensions beyond their limits if there is a choice, a singular pose, a cable that would have to
 /// push, coinciding ends, or no convergence.
 ///
 /// # Example
@@ -38,7 +38,8 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     if cables != freedoms {
         return distribute(robot, pose, model, &TensionRule::default());
     }
-    let mut load = weight_wrench(robot, pose);
+    robot.platform.freedoms.check(pose)?;
+    let mut load = load_wrench(robot, pose);
     if model == StaticModel::Catenary {
         for cable in &robot.cables {
             let lever = pose.rot_wp * cable.attachment_p;
@@ -101,13 +102,10 @@ fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, 
         iterations += 1;
         let mut columns = Mat6::identity();
         for (i, cable) in hanging.iter().enumerate() {
-            let mut column = wrench_of(&cable.force_by_length_w(), &((cable.start_w - pose.position_w) / ell));
-            if robot.platform.freedoms == Freedoms::PointMass {
-                column.fixed_rows_mut::<3>(3).fill(0.0);
-            }
-            columns.set_column(i, &column);
+            let column = wrench_of(&cable.force_by_length_w(), &((cable.start_w - pose.position_w) / ell));
+            columns.set_column(i, &robot.platform.freedoms.reduced(&column));
         }
-        let right = Vec6::from_fn(|i, _| if i < 3 { -wrench[i] } else { -wrench[i] / ell });
+        let right = -robot.platform.freedoms.reduced(&scaled_wrench(&wrench, ell));
         let Some(change) = columns.lu().solve(&right) else { break };
         let trial: Vec<f64> = (0..count)
             .map(|i| {

@@ -1,5 +1,6 @@
 //! A start pose from the lengths alone.
 
+use super::wrench_of;
 use crate::math::{Mat6, Vec3, Vec6};
 use crate::robot::{Freedoms, Pose, Robot};
 
@@ -20,13 +21,16 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
     };
     let ell = robot.platform_length();
     let freedoms = robot.platform.freedoms;
+    if let Freedoms::Planar(plane) = freedoms {
+        pose.position_w -= plane.normal_w() * plane.distance(&pose.position_w);
+    }
     let mut damping = 1e-3;
     let mut gaps = closure(robot, lengths, &pose, freedoms, ell);
     // Only a start is wanted: the gaps need not vanish, sagging cables are longer than the chord.
     for _ in 0..20 {
         let (normal, gradient, cost) = gaps;
         let Some(factor) = (normal + Mat6::identity() * damping).cholesky() else { break };
-        let step = factor.solve(&gradient);
+        let step = freedoms.expanded(&factor.solve(&gradient));
         let turn = Vec3::new(step[3], step[4], step[5]) / ell;
         let next = pose.moved(&Vec3::new(step[0], step[1], step[2]), &turn);
         let next_gaps = closure(robot, lengths, &next, freedoms, ell);
@@ -55,11 +59,7 @@ fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, freedoms: Freedoms, ell:
         let chord = cable.anchor_w - pose.position_w - lever;
         let distance = chord.norm().max(1e-12);
         let e = chord / distance;
-        let moment = match freedoms {
-            Freedoms::Rigid => lever.cross(&e) / ell,
-            Freedoms::PointMass => Vec3::zeros(),
-        };
-        let row = Vec6::new(e.x, e.y, e.z, moment.x, moment.y, moment.z);
+        let row = freedoms.reduced(&wrench_of(&e, &(lever / ell)));
         let gap = distance - length;
         normal += row * row.transpose();
         gradient += row * gap;

@@ -109,6 +109,7 @@ pub fn distribute(
     if cables < freedoms {
         return Err(StaticsError::InverseCableCount { cables, freedoms });
     }
+    robot.platform.freedoms.check(pose)?;
     for cable in &robot.cables {
         if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });

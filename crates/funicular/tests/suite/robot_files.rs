@@ -410,8 +410,8 @@ fn the_help_says_what_to_do() {
     };
     assert_eq!(
         help("mass_kg = 10.0", "mas_kg = 10.0"),
-        "did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `inertia_kg_m2`, `center_of_mass_m`, \
-         `translational_damping_n_s_m`, `rotational_damping_n_m_s`"
+        "did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, \
+         `inertia_kg_m2`, `center_of_mass_m`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`"
     );
     assert!(
         help("[platform]\n", "[platform]\ndamping_ratio = 0\n")
@@ -435,7 +435,7 @@ fn the_rendered_error_looks_as_a_user_expects() {
 5 | mas_kg = 10.0
   | ^^^^^^
   |
-  = help: did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `inertia_kg_m2`, `center_of_mass_m`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
+  = help: did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
 
 error: two cables are called "left"
   --> robots/mine.toml:27:8

@@ -18,7 +18,6 @@ pub(super) struct Body {
     pub(super) freedoms: DraftFreedoms,
     pub(super) pose: Pose,
     pub(super) place: String,
-    pub(super) freedoms_place: String,
     pub(super) assumed: Vec<String>,
     pub(super) lost: Vec<String>,
 }
@@ -129,7 +128,6 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
         freedoms,
         pose: Pose { position_w: xml.child_vector(parent, "location")? + translation, rot_wp },
         place: xml.place(physical),
-        freedoms_place: xml.place(joint_node),
         assumed,
         lost,
     })

@@ -2,7 +2,7 @@
 
 use super::{Draft, DraftCable, DraftFreedoms, DraftRope, DraftState};
 use crate::import::text::clean;
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, anyhow};
 use funicular::math::{Mat3, Vec3, rotation};
 use funicular::robot::Robot;
 use std::fmt::Write;
@@ -20,13 +20,6 @@ impl Draft {
     ///
     /// A robot that a robot file cannot hold, and why.
     pub(crate) fn to_toml(&self) -> Result<String> {
-        if let DraftFreedoms::Planar { plane } = self.platform.freedoms {
-            bail!(
-                "{}: the platform moves in the {plane} plane, and a robot file cannot say that yet: it knows rigid \
-                 platforms and point masses",
-                self.platform.freedoms_place
-            );
-        }
         let mut out = String::new();
         self.head(&mut out);
         self.tables(&mut out);
@@ -66,7 +59,15 @@ impl Draft {
         line(format!("mass_kg = {}", float(self.platform.mass.unwrap_or_default())));
         match self.platform.freedoms {
             DraftFreedoms::PointMass => line("freedoms = \"point-mass\"".to_owned()),
-            DraftFreedoms::Rigid | DraftFreedoms::Planar { .. } => {
+            of @ (DraftFreedoms::Rigid | DraftFreedoms::Planar { .. }) => {
+                if let DraftFreedoms::Planar { plane } = of {
+                    line(format!("freedoms = \"planar-{plane}\""));
+                    // The plane of a planar robot is the one that its pose is in.
+                    if let DraftState::Pose(pose) = &self.state {
+                        let across = ["yz", "xz", "xy"].iter().position(|name| *name == plane).unwrap_or(2);
+                        line(format!("plane_offset_m = {}", float(pose.position_w[across])));
+                    }
+                }
                 line(format!("inertia_kg_m2 = {}", tensor(&self.platform.inertia_p.unwrap_or_default())));
                 line(format!("center_of_mass_m = {}", vector(&self.platform.center_of_mass_p.unwrap_or_default())));
             }

@@ -9,7 +9,7 @@ use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison};
 use funicular::dynamics::Linearisation;
 use funicular::modes::{Kind, Mode, Modes};
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, StaticModel, tangent_stiffness};
 use serde_json::{Value, json};
 
@@ -115,18 +115,14 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
 /// The static stiffness of catenaries, consistently assembled.
 pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
     let stiffness = tangent_stiffness(robot, equilibrium)?;
-    let (columns, rows): (&[&str], &[&str]) = match robot.platform.freedoms {
-        Freedoms::PointMass => (&["<", "δx|m", "δy|m", "δz|m"], &["fx [N]", "fy [N]", "fz [N]"]),
-        Freedoms::Rigid => (
-            &["<", "δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"],
-            &["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"],
-        ),
-    };
-    let units = match robot.platform.freedoms {
-        Freedoms::PointMass => "",
-        Freedoms::Rigid => {
-            " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
-        }
+    let possible = robot.platform.freedoms.components();
+    let motions = ["δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"];
+    let wrenches = ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"];
+    let columns: Vec<&str> = std::iter::once("<").chain(possible.iter().map(|&i| motions[i])).collect();
+    let units = if robot.platform.freedoms.can_turn() {
+        " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
+    } else {
+        ""
     };
     let mut table = Table::new(
         "table-stiffness",
@@ -134,39 +130,28 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
             "Static stiffness: the wrench that holds a small motion, about the platform origin, world axes.{units} Exact \
              tangent of the cables, with the turning of static forces on their lever arms."
         ),
-        columns,
+        &columns,
     );
-    for (i, name) in rows.iter().enumerate() {
-        let numbers = (0..rows.len()).map(|j| fixed(stiffness[(i, j)], 2));
-        table.row(std::iter::once((*name).to_owned()).chain(numbers).collect());
+    for &i in &possible {
+        let numbers = possible.iter().map(|&j| fixed(stiffness[(i, j)], 2));
+        table.row(std::iter::once(wrenches[i].to_owned()).chain(numbers).collect());
     }
     Some(table)
 }
 
 /// Every mode.
 pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
-    let rigid = robot.platform.freedoms == Freedoms::Rigid;
-    let mut columns = vec![
-        "no.",
-        "frequency|Hz",
-        "damping|%",
-        "<kind",
-        "platform energy|%",
-        "<strongest cables|share of the energy",
-        "δx|m",
-        "δy|m",
-        "δz|m",
-    ];
-    if rigid {
-        columns.extend(["θx|rad", "θy|rad", "θz|rad"]);
-    }
+    let (turns, possible) = (robot.platform.freedoms.can_turn(), robot.platform.freedoms.components());
+    let mut columns =
+        vec!["no.", "frequency|Hz", "damping|%", "<kind", "platform energy|%", "<strongest cables|share of the energy"];
+    columns.extend(possible.iter().map(|&i| ["δx|m", "δy|m", "δz|m", "θx|rad", "θy|rad", "θz|rad"][i]));
     let mut table = Table::new(
         "table-modes",
         format!(
             "All natural frequencies below {} Hz, undamped, with multiplicity; damping ratio to first order; motion of the \
              platform origin, world axes{}. A dash: the platform rests.",
             found.below_hz,
-            if rigid {
+            if turns {
                 ", scaled so that the largest of translation and ℓ · rotation is 1"
             } else {
                 ", largest part 1"
@@ -176,7 +161,7 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
     );
     for (i, mode) in found.modes.iter().enumerate() {
         let rests = mode.shape.iter().all(|s| s.abs() <= 0.0);
-        let shape = mode.shape.iter().take(if rigid { 6 } else { 3 });
+        let shape = possible.iter().map(|&i| mode.shape[i]);
         let mut cells = vec![
             (i + 1).to_string(),
             fixed(mode.frequency_hz, 4),
@@ -185,7 +170,7 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
             fixed(100.0 * mode.platform_energy_fraction, 1),
             strongest(robot, mode),
         ];
-        cells.extend(shape.map(|s| if rests { "–".to_owned() } else { fixed(*s, 3) }));
+        cells.extend(shape.map(|s| if rests { "–".to_owned() } else { fixed(s, 3) }));
         table.marked_row(class_of(mode.kind), cells);
     }
     table

@@ -146,7 +146,7 @@ fn unknown_material(reader: &mut Reader, material: &str, materials: &Materials, 
 /// The attachment; a point mass has all of them at its own point.
 fn attachment(reader: &mut Reader, section: &Section, freedoms: Option<Freedoms>) -> Option<[f64; 3]> {
     let value = match freedoms {
-        Some(Freedoms::Rigid) => reader.required(section, "attachment_m")?,
+        Some(Freedoms::Rigid | Freedoms::Planar(_)) => reader.required(section, "attachment_m")?,
         _ => match section.get("attachment_m") {
             Some(value) => value,
             None => return Some([0.0; 3]),

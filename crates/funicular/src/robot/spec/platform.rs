@@ -2,7 +2,7 @@
 
 use super::read::{Key, Reader, SMALLEST, Section, Sign, Value, is_zero, nearest, shortened};
 use crate::math::{Mat3, Vec3};
-use crate::robot::{Freedoms, Platform};
+use crate::robot::{Freedoms, Plane, Platform};
 use toml::de::DeValue;
 
 /// Largest difference of mirrored products of inertia, and largest excess of a principal moment over the sum of the
@@ -13,31 +13,86 @@ const SLACK: f64 = 1e-9;
 pub(super) const KEYS: &[Key] = &[
     Key { name: "mass_kg", example: "mass_kg = 10.0" },
     Key { name: "freedoms", example: r#"freedoms = "rigid""# },
+    Key { name: "plane_normal", example: "plane_normal = [0.0, 1.0, 0.0]" },
+    Key { name: "plane_offset_m", example: "plane_offset_m = 0.0" },
     Key { name: "inertia_kg_m2", example: "inertia_kg_m2 = [0.1, 0.1, 0.2]" },
     Key { name: "center_of_mass_m", example: "center_of_mass_m = [0.0, 0.0, 0.0]" },
     Key { name: "translational_damping_n_s_m", example: "translational_damping_n_s_m = [10.0, 10.0, 10.0]" },
     Key { name: "rotational_damping_n_m_s", example: "rotational_damping_n_m_s = [0.1, 0.1, 0.1]" },
 ];
 
-const WORDS: [(&str, Freedoms); 2] = [("rigid", Freedoms::Rigid), ("point-mass", Freedoms::PointMass)];
+/// What `freedoms` may be.
+const WORDS: [&str; 6] = ["rigid", "point-mass", "planar-xy", "planar-xz", "planar-yz", "planar"];
 
 /// The freedoms, `None` where the file's word is unknown. Silent where there is no `[platform]`: [`read`] speaks of it.
 pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> {
-    let Some(value) = root.get("platform").and_then(|platform| match platform.get_ref() {
-        DeValue::Table(table) => table.get("freedoms"),
-        _ => None,
-    }) else {
+    let Some(DeValue::Table(table)) = root.get("platform").map(toml::Spanned::get_ref) else {
         return Some(Freedoms::default());
     };
+    let (normal, offset) = (table.get("plane_normal"), table.get("plane_offset_m"));
+    let word = match table.get("freedoms") {
+        Some(value) => known_word(reader, value)?,
+        None => "rigid",
+    };
+    let axis = match word {
+        "planar-xy" => Some(Vec3::z()),
+        "planar-xz" => Some(Vec3::y()),
+        "planar-yz" => Some(Vec3::x()),
+        _ => None,
+    };
+    if word != "planar"
+        && let Some(value) = normal
+    {
+        let help = "set `freedoms = \"planar\"`, or remove the line";
+        reader.issue(value.span(), format!("`plane_normal` goes with `freedoms = \"planar\"`, not {word}")).help(help);
+        return None;
+    }
+    if axis.is_none() && word != "planar" {
+        if let Some(value) = offset {
+            reader
+                .issue(value.span(), "`plane_offset_m` is of a planar platform")
+                .help("remove the line, or set `freedoms = \"planar-xz\"`");
+            return None;
+        }
+        return Some(if word == "rigid" { Freedoms::Rigid } else { Freedoms::PointMass });
+    }
+    let normal_w = match (axis, normal) {
+        (Some(axis), _) => axis,
+        (None, Some(value)) => {
+            let three = Vec3::from(reader.vector("plane_normal", "any unit", value)?);
+            if three.norm() < SMALLEST {
+                reader
+                    .issue(value.span(), "`plane_normal` has no direction")
+                    .help("give the normal of the plane, any length");
+                return None;
+            }
+            three
+        }
+        (None, None) => {
+            let span = table.get("freedoms").map_or(0..0, toml::Spanned::span);
+            reader
+                .issue(span, "`freedoms = \"planar\"` needs the normal of its plane")
+                .help("add `plane_normal = [0.0, 1.0, 0.0]`, or write \"planar-xy\", \"planar-xz\" or \"planar-yz\"");
+            return None;
+        }
+    };
+    let offset = match offset {
+        Some(value) => reader.number("`plane_offset_m`", Sign::Any, value)?,
+        None => 0.0,
+    };
+    Plane::new(normal_w, offset).map(Freedoms::Planar)
+}
+
+fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
     let word = reader.text("freedoms", value)?;
-    let known = WORDS.iter().find(|(known, _)| *known == word).map(|(_, freedoms)| *freedoms);
+    let known = WORDS.into_iter().find(|known| *known == word);
     if known.is_none() {
-        let suggestion = nearest(&word, WORDS.iter().map(|(known, _)| *known))
-            .map(|near| format!("; did you mean \"{near}\"?"))
-            .unwrap_or_default();
-        reader
-            .issue(value.span(), format!("`freedoms` is \"{}\", which is unknown", shortened(&word)))
-            .help(format!("write \"rigid\" or \"point-mass\"{suggestion}"));
+        let suggestion =
+            nearest(&word, WORDS.into_iter()).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+        reader.issue(value.span(), format!("`freedoms` is \"{}\", which is unknown", shortened(&word))).help(format!(
+            "write \"rigid\", \"point-mass\", \"planar-xy\", \"planar-xz\", \"planar-yz\", or \"planar\" with a \
+             `plane_normal`{suggestion}"
+        ));
     }
     known
 }
@@ -50,6 +105,9 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number("`mass_kg`", Sign::Positive, v));
     let inertia = match freedoms {
         Some(Freedoms::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
+        Some(Freedoms::Planar(plane)) => {
+            reader.required(&section, "inertia_kg_m2").and_then(|v| planar_inertia(reader, v, &plane))
+        }
         Some(Freedoms::PointMass) => {
             if let Some(value) = section.get("inertia_kg_m2") {
                 reader
@@ -95,6 +153,15 @@ fn damping(reader: &mut Reader, section: &Section, key: &str, unit: &str) -> Opt
     let label = format!("`{key}`");
     let three = reader.three(&label, &format!("three numbers in {unit}"), value)?;
     reader.three_numbers(&label, Sign::NotNegative, three).map(Vec3::from)
+}
+
+/// One number is the moment about the normal, all that counts; a tensor is read as that of a rigid body.
+fn planar_inertia(reader: &mut Reader, value: &Value, plane: &Plane) -> Option<Mat3> {
+    if matches!(value.get_ref(), DeValue::Array(_)) {
+        return inertia(reader, value);
+    }
+    let moment = reader.number("`inertia_kg_m2`", Sign::Positive, value)?;
+    Some(plane.normal_w() * plane.normal_w().transpose() * moment)
 }
 
 /// Three principal moments or a full tensor; symmetric, positive definite, and possible for a body.

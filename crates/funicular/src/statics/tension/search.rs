@@ -7,7 +7,7 @@ use super::polyhedron::{Active, Polyhedron};
 use crate::math::Vec6;
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::Limit;
-use crate::statics::{RESIDUAL_LIMIT, StaticsError, balance, scaled_residual};
+use crate::statics::{RESIDUAL_LIMIT, StaticsError, balance, load_size, scaled_residual, scaled_wrench};
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
 const MOST_ITERATIONS: usize = 100;
@@ -33,7 +33,7 @@ pub(super) struct Search<'a> {
 
 /// The problem linearised about the present tensions.
 pub(super) struct Linear {
-    /// Derivatives of the wrench by the tensions, moments over ℓ.
+    /// Derivatives of the wrench by the tensions, scaled, in the platform's coordinates.
     pub columns: Vec<Vec6>,
     /// `columns · τ` of balanced tensions.
     pub right: Vec6,
@@ -112,7 +112,7 @@ impl Stride {
 
 impl<'a> Search<'a> {
     pub(super) fn new(robot: &'a Robot, pose: &'a Pose, mut lines: Vec<Line>) -> Self {
-        let weight = robot.platform.mass * robot.gravity_w.norm();
+        let weight = load_size(robot);
         let minima: f64 = lines.iter().map(|line| line.range.minimum + line.slackest).sum();
         let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
         for line in &mut lines {
@@ -171,8 +171,9 @@ impl<'a> Search<'a> {
         let ell = self.robot.platform_length();
         let (wrench, scale) = balance(self.robot, self.pose, self.lines.iter().map(Line::force));
         let residual = scaled_residual(self.robot, &wrench, scale);
-        let mut right = Vec6::from_fn(|i, _| if i < 3 { -wrench[i] } else { -wrench[i] / ell });
-        let columns: Vec<Vec6> = self.lines.iter().map(Line::column).collect();
+        let freedoms = &self.robot.platform.freedoms;
+        let mut right = -freedoms.reduced(&scaled_wrench(&wrench, ell));
+        let columns: Vec<Vec6> = self.lines.iter().map(|line| freedoms.reduced(&line.column())).collect();
         for (column, line) in columns.iter().zip(&self.lines) {
             right += column * line.tau();
         }

@@ -53,14 +53,14 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
     Ok(())
 }
 
-/// The scaled stiffness of the robot at the present tensions.
+/// The scaled stiffness of the robot at the present tensions, in the platform's coordinates.
 fn present(search: &Search<'_>) -> Mat6 {
     let cables = search.lines().iter().map(|line| {
         let (force, lever) = line.force();
         (line.hanging.tangent_w(), force, lever)
     });
     let total = scaled(&assembled(search.robot(), search.pose(), cables), search.robot().platform_length());
-    (total + total.transpose()) * 0.5
+    search.robot().platform.freedoms.reduced_matrix(&((total + total.transpose()) * 0.5))
 }
 
 fn least_eigenvalue(search: &Search<'_>) -> f64 {
@@ -79,7 +79,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         .iter()
         .map(|line| {
             let rate = line.stiffness_by_tension();
-            (rate + rate.transpose()) * 0.5
+            search.robot().platform.freedoms.reduced_matrix(&((rate + rate.transpose()) * 0.5))
         })
         .collect();
     // The height in the unit of tensions.

@@ -1,0 +1,274 @@
+//! Which motions a platform has, and the coordinates that every analysis works in.
+
+use super::Pose;
+use crate::math::{Mat6, Vec3, Vec6};
+use thiserror::Error;
+
+/// Which motions the platform has.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Freedoms {
+    /// Three translations and three rotations.
+    #[default]
+    Rigid,
+    /// Translations only: all cables end in one point that carries the mass.
+    PointMass,
+    /// Two translations in a plane and the rotation about its normal; a guide carries what acts across.
+    Planar(Plane),
+}
+
+/// The plane in which the origin of a planar platform moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// Unit normal, world axes.
+    normal_w: Vec3,
+    /// Distance from the world's origin along the normal [m].
+    offset: f64,
+}
+
+/// Why a planar platform cannot have a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum OutOfPlane {
+    /// The origin beside the plane.
+    #[error(
+        "the platform's origin is {distance} m off the plane in which it moves: give a position in the plane, or the \
+         plane's `plane_offset_m` in [platform]"
+    )]
+    Beside {
+        /// Distance along the normal [m].
+        distance: f64,
+    },
+    /// Turned about another axis than the normal.
+    #[error(
+        "the platform is tilted out of its plane by {degrees}°: a planar platform turns about the normal of its plane \
+         only (pitch in the xz plane, yaw in xy, roll in yz)"
+    )]
+    Tilted {
+        /// Angle between the normal and where the platform has turned it [degrees].
+        degrees: f64,
+    },
+}
+
+/// Part of its distance from the origin, or angle [rad], up to which a pose is in the plane: far above the rounding of
+/// angles in degrees, far below what anyone means.
+const IN_PLANE: f64 = 1e-9;
+
+impl Plane {
+    /// The plane with this normal (of any length), at a distance [m] from the world's origin along it. `None` for a normal
+    /// without direction.
+    pub fn new(normal_w: Vec3, offset: f64) -> Option<Self> {
+        let length = normal_w.norm();
+        (length > 0.0 && length.is_finite() && offset.is_finite()).then(|| Self { normal_w: normal_w / length, offset })
+    }
+
+    /// Unit normal, world axes.
+    pub fn normal_w(&self) -> Vec3 {
+        self.normal_w
+    }
+
+    /// Distance from the world's origin along the normal [m].
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// How far a point is off the plane [m].
+    pub fn distance(&self, point_w: &Vec3) -> f64 {
+        self.normal_w.dot(point_w) - self.offset
+    }
+
+    /// Two orthonormal directions in the plane: coordinate axes where the plane has them.
+    fn axes(&self) -> [Vec3; 2] {
+        let n = &self.normal_w;
+        let least = (0..3).fold(0, |least, i| if n[i].abs() < n[least].abs() { i } else { least });
+        let axis = Vec3::ith(least, 1.0);
+        let first = (axis - n * n[least]).normalize();
+        let second = n.cross(&first);
+        [first, if second[second.iamax()] < 0.0 { -second } else { second }]
+    }
+}
+
+impl Freedoms {
+    /// Number of freedoms: 6 or 3.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Rigid => 6,
+            Self::PointMass | Self::Planar(_) => 3,
+        }
+    }
+
+    /// The platform can turn.
+    pub fn can_turn(&self) -> bool {
+        *self != Self::PointMass
+    }
+
+    /// Name in the robot file; of a plane that is none of the coordinates', `planar`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::PointMass => "point-mass",
+            Self::Planar(plane) => {
+                let words = ["planar-yz", "planar-xz", "planar-xy"];
+                let axis = (0..3).find(|&i| plane.normal_w == Vec3::ith(i, 1.0));
+                axis.map_or("planar", |axis| words[axis])
+            }
+        }
+    }
+
+    /// The unit motion (δp, δθ) of every coordinate, as columns; zero beyond [`Self::count`]. Orthonormal, and none
+    /// mixes translation and rotation, so that it is the same in scaled quantities.
+    fn motions(&self) -> Mat6 {
+        match self {
+            Self::Rigid => Mat6::identity(),
+            Self::PointMass => Mat6::from_diagonal(&Vec6::new(1.0, 1.0, 1.0, 0.0, 0.0, 0.0)),
+            Self::Planar(plane) => {
+                let mut motions = Mat6::zeros();
+                for (k, (row, axis)) in
+                    [0, 0, 3].into_iter().zip(plane.axes().into_iter().chain([plane.normal_w])).enumerate()
+                {
+                    motions.fixed_view_mut::<3, 1>(row, k).copy_from(&axis);
+                }
+                motions
+            }
+        }
+    }
+
+    /// Names of the coordinates: those of the world's axes; in another plane u and v, its two directions, and turn.
+    pub fn coordinate_names(&self) -> &'static [&'static str] {
+        match (self, self.name()) {
+            (Self::Rigid, _) => &["x", "y", "z", "rx", "ry", "rz"],
+            (Self::PointMass, _) => &["x", "y", "z"],
+            (_, "planar-xy") => &["x", "y", "rz"],
+            (_, "planar-xz") => &["x", "z", "ry"],
+            (_, "planar-yz") => &["y", "z", "rx"],
+            _ => &["u", "v", "turn"],
+        }
+    }
+
+    /// Components of (δp, δθ) in world axes in which the platform can move.
+    pub fn components(&self) -> Vec<usize> {
+        (0..6).filter(|&i| self.reduced(&Vec6::ith(i, 1.0)).norm() > IN_PLANE).collect()
+    }
+
+    /// Coordinate `k` is a rotation.
+    pub fn is_rotation(&self, k: usize) -> bool {
+        match self {
+            Self::Rigid | Self::PointMass => k >= 3,
+            Self::Planar(_) => k == 2,
+        }
+    }
+
+    /// Components of a motion or of a wrench (both with one unit throughout) in the platform's coordinates; zero beyond
+    /// [`Self::count`]. What the platform cannot do is left out.
+    #[inline]
+    pub fn reduced(&self, vector: &Vec6) -> Vec6 {
+        match self {
+            Self::Rigid => *vector,
+            Self::PointMass => Vec6::new(vector[0], vector[1], vector[2], 0.0, 0.0, 0.0),
+            Self::Planar(_) => self.motions().tr_mul(vector),
+        }
+    }
+
+    /// The motion or wrench of six components that has these coordinates.
+    #[inline]
+    pub fn expanded(&self, coordinates: &Vec6) -> Vec6 {
+        match self {
+            Self::Rigid => *coordinates,
+            Self::PointMass => self.reduced(coordinates),
+            Self::Planar(_) => self.motions() * coordinates,
+        }
+    }
+
+    /// A 6×6 matrix over motions in the platform's coordinates; zero beyond [`Self::count`].
+    #[inline]
+    pub fn reduced_matrix(&self, matrix: &Mat6) -> Mat6 {
+        match self {
+            Self::Rigid => *matrix,
+            Self::PointMass | Self::Planar(_) => {
+                let motions = self.motions();
+                motions.transpose() * matrix * motions
+            }
+        }
+    }
+
+    /// The matrix over motions of six components of one over the platform's coordinates.
+    pub fn expanded_matrix(&self, matrix: &Mat6) -> Mat6 {
+        match self {
+            Self::Rigid => *matrix,
+            Self::PointMass | Self::Planar(_) => {
+                let motions = self.motions();
+                motions * matrix * motions.transpose()
+            }
+        }
+    }
+
+    /// Which part of a wrench or motion concerns the platform; the rest is the guide's.
+    #[inline]
+    pub fn allowed(&self, vector: &Vec6) -> Vec6 {
+        match self {
+            Self::Rigid => *vector,
+            Self::PointMass | Self::Planar(_) => self.expanded(&self.reduced(vector)),
+        }
+    }
+
+    /// Whether the platform can have a pose.
+    ///
+    /// # Errors
+    /// [`OutOfPlane`] for a pose off the plane of a planar platform.
+    pub fn check(&self, pose: &Pose) -> Result<(), OutOfPlane> {
+        let Self::Planar(plane) = self else { return Ok(()) };
+        let distance = plane.distance(&pose.position_w);
+        if distance.abs() > IN_PLANE * (pose.position_w.norm() + plane.offset.abs()).max(1.0) {
+            return Err(OutOfPlane::Beside { distance });
+        }
+        let normal = plane.normal_w;
+        let turned = pose.rot_wp * normal;
+        let angle = turned.cross(&normal).norm().atan2(turned.dot(&normal));
+        if angle > IN_PLANE {
+            return Err(OutOfPlane::Tilted { degrees: angle.to_degrees() });
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn planar(normal: [f64; 3]) -> Freedoms {
+        Freedoms::Planar(Plane::new(Vec3::from(normal), 0.5).unwrap())
+    }
+
+    #[test]
+    fn coordinate_planes_have_coordinate_axes() {
+        let v = Vec6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
+        for (normal, name, expected) in [
+            ([0.0, 0.0, 2.0], "planar-xy", [1.0, 2.0, 6.0]),
+            ([0.0, 1.0, 0.0], "planar-xz", [1.0, 3.0, 5.0]),
+            ([3.0, 0.0, 0.0], "planar-yz", [2.0, 3.0, 4.0]),
+        ] {
+            let freedoms = planar(normal);
+            assert_eq!(freedoms.name(), name);
+            assert_eq!(freedoms.reduced(&v).as_slice()[..3], expected);
+        }
+        assert!(Plane::new(Vec3::zeros(), 0.0).is_none());
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_allowed_stays_and_the_coordinates_are_orthonormal(
+            normal in prop::array::uniform3(-1.0_f64..1.0),
+            v in prop::array::uniform6(-1.0_f64..1.0),
+        ) {
+            prop_assume!(Vec3::from(normal).norm() > 1e-3);
+            let (freedoms, v) = (planar(normal), Vec6::from(v));
+            let x = freedoms.reduced(&v);
+            let allowed = freedoms.expanded(&x);
+            prop_assert!((allowed.norm() - x.norm()).abs() < 1e-14);
+            prop_assert!((freedoms.allowed(&allowed) - allowed).norm() < 1e-14);
+            let Freedoms::Planar(plane) = freedoms else { unreachable!() };
+            let across = plane.normal_w().dot(&allowed.fixed_rows::<3>(0).clone_owned());
+            let turn = allowed.fixed_rows::<3>(3).cross(&plane.normal_w());
+            prop_assert!(across.abs() < 1e-14 && turn.norm() < 1e-14);
+        }
+    }
+}
