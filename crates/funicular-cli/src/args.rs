@@ -6,11 +6,11 @@ pub(crate) mod values;
 
 use crate::set::Assignment;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use export::{ExportArgs, ExportFormat};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
 use funicular::statics::StaticModel;
-pub(crate) use export::{ExportArgs, ExportFormat};
 pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
 use values::{Input, Lengths, MassRange, Output, PoseNumbers, Tensions};

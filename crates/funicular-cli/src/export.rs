@@ -22,7 +22,9 @@ fn modes_below(at_rest: &AtRest, below_hz: f64) -> Result<(Dynamics, Modes)> {
     let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, below_hz)?;
     check_count(&dynamics, below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, below_hz);
-    uncertified(&found).iter().for_each(|doubt| errors::warn(doubt));
+    if let Some(doubt) = uncertified(&found) {
+        errors::warn(&doubt);
+    }
     Ok((dynamics, found))
 }
 

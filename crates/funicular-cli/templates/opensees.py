@@ -4,9 +4,9 @@
 Written by `funicular export --to opensees`; needs openseespy from PyPI. SI units, world axes.
 
 Cables are chains of {{ segments }} equal corotational truss bars, weight in the joints, mass half consistent and half lumped.
-The bars are a little shorter than the cable by what a chain cuts at its corners, so that it pulls along its chord as
-the cable does. The platform is points that have its mass, centre of mass and inertia, on a frame of stiff bars. What is
-left of the difference falls with the square of the number of bars: `funicular export --segments`.
+Such a chain cuts corners: its bars are a little shorter than the cable, and its weight a little other, so that it pulls
+at the platform as the cable does. The platform is points that have its mass, centre of mass and inertia, on a frame of
+stiff bars. Frequencies differ by a part that falls with the square of the number of bars: `funicular export --segments`.
 """
 
 import math
@@ -21,7 +21,8 @@ PLATFORM = {{ platform }}
 SIZE = {{ size }}  # of the platform [m]
 TOUCHING = {{ touching|fmt("{:e}") }}  # points nearer than this are one [m]
 FRAME_STIFFNESS = {{ frame_stiffness|fmt("{:e}") }}  # of each bar of the platform [N/m]
-# Each cable from the platform to its anchor: mass [kg], EA [N], lengths [m], joints [m] where the chain is in equilibrium.
+# Each cable from the platform to its anchor: mass [kg], weight of the chain over the cable's, EA [N], lengths [m], joints
+# [m] where the chain is in equilibrium.
 CABLES = [
 {% for cable in cables -%}
 {{ "    " }}{{ cable }},
@@ -82,14 +83,15 @@ for cable, first in zip(CABLES, held):
     tags = [first] + [node(point) for point in cable["nodes"]]
     ops.fix(tags[-1], 1, 1, 1)
     mass = cable["mass"] / (len(tags) - 1)
+    heavy = mass * cable["weight_factor"]
     bars = []
     for start, end in zip(tags, tags[1:]):
         # Waves are too fast with consistent mass and too slow with lumped mass, by the same: so half of each.
         bars.append(bar(start, end, cable["bar_length"], cable["axial_stiffness"], 0.5 * mass))
         for tag in (start, end):
-            add(weights, tag, 0.5 * mass)
+            add(weights, tag, 0.5 * heavy)
             add(masses, tag, 0.25 * mass)
-    cable_ends.append([(bars[0], tags[0], tags[1], 0.5 * mass), (bars[-1], tags[-2], tags[-1], -0.5 * mass)])
+    cable_ends.append([(bars[0], tags[0], tags[1], 0.5 * heavy), (bars[-1], tags[-2], tags[-1], -0.5 * heavy)])
 for tag, mass in masses.items():
     ops.mass(tag, mass, mass, mass)
 

@@ -1,9 +1,9 @@
 //! A hanging cable as a chain of equal straight elastic bars with its weight in the joints.
 //!
-//! A chain of the cable's own length hangs in another place than the cable: it cuts corners, by `w² L³/(24 N² H²)` of its
-//! length for N bars. So the bars are made shorter by as much as they cut, that is, so that the chain pulls along its
-//! chord as the catenary does. What is left of the difference is a force across the chord, some 1e-5 of the tension
-//! for twenty bars, which falls with N².
+//! A chain of the cable's own length and weight pulls at the platform with another force than the cable: its bars cut
+//! corners, and its joints have their weight at other places than the cable between them. Both errors fall with the
+//! square of the number of bars, and both can be undone: the bars are shorter, their weight is another, by some 1e-5 of
+//! it for twenty bars, so that the force on the platform is the catenary's.
 
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
@@ -15,6 +15,8 @@ use funicular::statics::Equilibrium;
 pub(crate) struct Chain {
     /// Unstrained length of each bar [m].
     pub(crate) bar_length: f64,
+    /// Weight of the chain over that of the cable.
+    pub(crate) weight_factor: f64,
     /// Joints in equilibrium from the platform to the anchor, ends included, world axes [m].
     pub(crate) nodes_w: Vec<Vec3>,
 }
@@ -22,8 +24,8 @@ pub(crate) struct Chain {
 /// What the chain is to stand for.
 struct Cable {
     chord_w: Vec3,
-    /// Mean of the internal force along the cable, towards the anchor [N].
-    mean_force_w: Vec3,
+    /// Force on the platform [N].
+    force_w: Vec3,
     weight_w: Vec3,
     axial_stiffness: f64,
 }
@@ -40,7 +42,7 @@ impl Chain {
         let count = if mass > 0.0 { count } else { 1 };
         let straight = Cable {
             chord_w: state.anchor_w - state.attachment_w,
-            mean_force_w: state.force_on_platform_w - weight_w * 0.5,
+            force_w: state.force_on_platform_w,
             weight_w,
             axial_stiffness: cable.material.axial_stiffness,
         };
@@ -63,22 +65,22 @@ impl Cable {
         // The one direction across the chord in which weight acts; of a vertical cable there is none.
         let across = self.weight_w - along * along.dot(&self.weight_w);
         let across = across.try_normalize(1e-9 * self.weight_w.norm()).unwrap_or_default();
-        let mut extra = 0.0;
+        let mut factor = 1.0;
         for _ in 0..MOST {
-            // A force across that brings the chain's end back to the chord: convex, one root.
-            let (mut off, mut slope) = (0.0, 0.0);
-            for force in self.forces(across * extra, count) {
+            // The weight that brings the chain's end back to the chord.
+            let (mut off, mut slope, mut scale) = (0.0, 0.0, 0.0);
+            for (force, by_factor) in self.forces(factor, count) {
                 let (compliance, part) = (self.compliance(&force), force.dot(&across));
                 off += compliance * part;
-                slope += compliance - part * part / force.norm().powi(3);
+                slope += compliance * by_factor.dot(&across) - part * force.dot(&by_factor) / force.norm().powi(3);
+                scale += compliance * force.norm();
             }
-            if across == Vec3::zeros() || off.abs() <= 1e-14 * slope * self.mean_force_w.norm() {
+            if slope == 0.0 || off.abs() <= 1e-15 * scale {
                 break;
             }
-            extra -= off / slope;
+            factor -= off / slope;
         }
-        let steps: Vec<Vec3> =
-            self.forces(across * extra, count).map(|force| force * self.compliance(&force)).collect();
+        let steps: Vec<Vec3> = self.forces(factor, count).map(|(force, _)| force * self.compliance(&force)).collect();
         let bar_length = chord / steps.iter().sum::<Vec3>().dot(&along);
         let mut nodes_w = vec![start_w];
         for step in &steps[..count - 1] {
@@ -87,14 +89,21 @@ impl Cable {
         nodes_w.push(start_w + self.chord_w);
         let last = nodes_w[count - 1] + steps[count - 1] * bar_length;
         let ends_there = (last - nodes_w[count]).norm() <= 1e-9 * chord;
-        (bar_length > 0.0 && bar_length.is_finite() && ends_there).then_some(Chain { bar_length, nodes_w })
+        (bar_length > 0.0 && bar_length.is_finite() && ends_there).then_some(Chain {
+            bar_length,
+            weight_factor: factor,
+            nodes_w,
+        })
     }
 
-    /// Force in each bar, towards the anchor [N]: half of a bar's weight hangs at each of its ends.
-    fn forces(&self, extra_w: Vec3, count: usize) -> impl Iterator<Item = Vec3> {
+    /// Force in each bar, towards the anchor [N], and its derivative by the weight factor: half of a bar's weight hangs at
+    /// each of its ends.
+    fn forces(&self, factor: f64, count: usize) -> impl Iterator<Item = (Vec3, Vec3)> {
         let per_bar = self.weight_w / count as f64;
-        let mean = self.mean_force_w + extra_w;
-        (0..count).map(move |i| mean - per_bar * (i as f64 + 0.5 - 0.5 * count as f64))
+        (0..count).map(move |i| {
+            let by_factor = -per_bar * (i as f64 + 0.5);
+            (self.force_w + by_factor * factor, by_factor)
+        })
     }
 
     /// Length per unstrained length and force of a bar [1/N].
@@ -139,6 +148,8 @@ mod tests {
                 let chain = Chain::of(&robot, &rest, i, count).unwrap();
                 state.unstrained_length - count as f64 * chain.bar_length
             };
+            let weight = |count: usize| Chain::of(&robot, &rest, i, count).unwrap().weight_factor - 1.0;
+            assert!(weight(20).abs() < 1e-3 && (weight(20) / weight(40) - 4.0).abs() < 0.01);
             let ratio = less(20) / less(40);
             assert!(less(20) > 0.0 && (ratio - 4.0).abs() < 0.01, "{ratio}");
         }
@@ -155,7 +166,11 @@ mod tests {
                 let strain = bar.norm() / chain.bar_length - 1.0;
                 bar.normalize() * (material.axial_stiffness * strain)
             };
-            let weight = robot.gravity_w * (material.mass_per_length * rest.cables[i].unstrained_length / 7.0);
+            let weight = robot.gravity_w
+                * chain.weight_factor
+                * (material.mass_per_length * rest.cables[i].unstrained_length / 7.0);
+            let on_platform = force(0) + weight * 0.5;
+            assert!((on_platform - rest.cables[i].force_on_platform_w).norm() < 1e-6, "{i}");
             for k in 1..7 {
                 assert!((force(k) - force(k - 1) + weight).norm() < 1e-6, "{i} {k}");
             }

@@ -1,5 +1,6 @@
 //! An input file of MoorDyn, version 2, in air.
 //!
+//! A line of MoorDyn is a chain of bars, see [`super::chain`]; each has its own type, for its own mass per length.
 //! MoorDyn has principal moments of inertia only, so its body has the platform's principal axes where these are not
 //! those of the platform frame. Its origin is the platform's.
 
@@ -18,6 +19,7 @@ struct Input {
     source: String,
     segments: usize,
     shortened: f64,
+    heavier: f64,
     body_axes: &'static str,
     damping: bool,
     types: Vec<LineType>,
@@ -63,18 +65,24 @@ struct LineRow {
 pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
     let AtRest { robot, equilibrium } = at_rest;
     refuse(robot)?;
-    let (names, materials) = types(robot);
+    let mut types = Vec::new();
     let body = match robot.platform.freedoms {
         Freedoms::Rigid => Some(Frame::of(at_rest)),
         Freedoms::PointMass => None,
     };
     let mut points = Vec::new();
     let mut lines = Vec::new();
-    let (mut step, mut shortened, mut lowest) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    let (mut step, mut shortened, mut heavier, mut lowest) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
     let cables = robot.cables.len();
     for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
         let chain = Chain::of(robot, equilibrium, i, segments)?;
         let unstrained_length = chain.bar_length * segments as f64;
+        let mass_per_length =
+            chain.weight_factor * cable.material.mass_per_length * (state.unstrained_length / unstrained_length);
+        heavier = heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
+        let name = type_name(&cable.material.name, i);
+        let axial_stiffness = cable.material.axial_stiffness;
+        types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
         let wave = (cable.material.axial_stiffness / cable.material.mass_per_length).sqrt();
         step = step.min(STEP * chain.bar_length / wave);
         shortened = shortened.max(state.unstrained_length - unstrained_length);
@@ -86,7 +94,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
             let at = frame.axes_p.transpose() * cable.attachment_p;
             points.push(PointRow { id: end, attachment: "Body1", at, mass: 0.0 });
         }
-        lines.push(LineRow { id: i + 1, kind: names[i].clone(), ends: [end, i + 1], unstrained_length });
+        lines.push(LineRow { id: i + 1, kind: name, ends: [end, i + 1], unstrained_length });
     }
     if body.is_none() {
         let Robot { platform, .. } = robot;
@@ -104,12 +112,13 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         source: one_line(&robot.source).replace("---", "--"),
         segments,
         shortened,
+        heavier,
         body_axes: match &body {
             Some(frame) if frame.axes_p != Mat3::identity() => "principal axes of inertia",
             _ => "axes of the platform frame",
         },
         damping: !robot.cables.iter().all(|cable| undamped(&cable.material)),
-        types: materials,
+        types,
         body: body.map(|frame| frame.row),
         points,
         lines,
@@ -130,40 +139,16 @@ fn refuse(robot: &Robot) -> Result<()> {
         bail!("gravity is ({}, {}, {}) m/s²: MoorDyn has it along -z only; turn the robot's world axes", g.x, g.y, g.z);
     }
     if let Some(cable) = robot.cables.iter().find(|cable| cable.material.mass_per_length == 0.0) {
-        bail!(
-            "cable \"{}\" has no mass, and MoorDyn divides by it: give its material a `mass_kg_per_m`",
-            cable.name
-        );
+        bail!("cable \"{}\" has no mass, and MoorDyn divides by it: give its material a `mass_kg_per_m`", cable.name);
     }
     Ok(())
 }
 
-/// The line type of each cable, and the types: one a material, its name without what ends a word.
-fn types(robot: &Robot) -> (Vec<String>, Vec<LineType>) {
-    let mut known: Vec<(&Material, String)> = Vec::new();
-    let mut names = Vec::new();
-    for cable in &robot.cables {
-        let material = &cable.material;
-        let name = match known.iter().find(|(other, _)| other.name == material.name) {
-            Some((_, name)) => name.clone(),
-            None => {
-                let letter = |c: char| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' };
-                let mut name: String = material.name.chars().map(letter).collect();
-                while name.is_empty() || known.iter().any(|(_, other)| *other == name) {
-                    name.push('_');
-                }
-                known.push((material, name.clone()));
-                name
-            }
-        };
-        names.push(name);
-    }
-    let line_type = |(material, name): (&Material, String)| LineType {
-        name,
-        mass_per_length: material.mass_per_length,
-        axial_stiffness: material.axial_stiffness,
-    };
-    (names, known.into_iter().map(line_type).collect())
+/// Name of the line type of cable `i`: that of its rope without what ends a word, and a number, since every cable has its
+/// own mass per length.
+fn type_name(material: &str, i: usize) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() || "-.".contains(c) { c } else { '_' };
+    format!("{}_{}", material.chars().map(letter).collect::<String>(), i + 1)
 }
 
 /// The body's frame.

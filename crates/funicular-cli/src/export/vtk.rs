@@ -152,13 +152,7 @@ impl Shape {
     }
 }
 
-fn array(
-    out: &mut Writer<Vec<u8>>,
-    kind: &str,
-    name: &str,
-    components: Option<usize>,
-    text: &str,
-) -> io::Result<()> {
+fn array(out: &mut Writer<Vec<u8>>, kind: &str, name: &str, components: Option<usize>, text: &str) -> io::Result<()> {
     let components = components.map(|n| n.to_string());
     let mut attributes = vec![("type", kind), ("Name", name), ("format", "ascii")];
     attributes.extend(components.as_deref().map(|n| ("NumberOfComponents", n)));
@@ -179,7 +173,10 @@ fn vectors(values: &[Vec3]) -> String {
 }
 
 fn listed<'a>(values: impl Iterator<Item = &'a usize>) -> String {
-    values.map(|value| format!("{value} ")).collect()
+    values.fold(String::new(), |mut text, value| {
+        let _ = write!(text, "{value} ");
+        text
+    })
 }
 
 /// Triangles of the convex hull of some points: those that have all points on one side. In a plane that has more than

@@ -7,6 +7,7 @@ mod catenary;
 mod damped;
 mod exact;
 mod independent;
+mod library;
 mod modes;
 mod oracle;
 mod random;
