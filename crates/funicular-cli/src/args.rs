@@ -1,10 +1,12 @@
 //! What the user can ask for.
 
+mod export;
 mod import;
 pub(crate) mod values;
 
 use crate::set::Assignment;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use export::{ExportArgs, ExportFormat};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
@@ -94,6 +96,16 @@ pub(crate) enum Command {
         funicular import mooring.txt -o robot.toml"
     )]
     Import(ImportArgs),
+    /// The robot at its state for OpenSees, MoorDyn or ParaView
+    ///
+    /// opensees: a Python script for OpenSeesPy, statics and modes beside funicular's. moordyn: an input file of version 2. vtk:
+    /// a .vtp file of cables and platform, with their modes on request. docs/export.md says what each holds, and by how
+    /// much the programs differ.
+    #[command(after_help = "Examples:\n  \
+        funicular export robots/yuan2014-4mm.toml --to opensees -o yuan.py && python3 yuan.py\n  \
+        funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt\n  \
+        funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp")]
+    Export(ExportArgs),
     /// Compare the program with numbers that others published or computed; exit code 1 if one is not within tolerance
     #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
         funicular validate --format json")]

@@ -3,6 +3,7 @@
 pub(crate) mod cable;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod export;
 pub(crate) mod frf;
 pub(crate) mod import;
 pub(crate) mod modes;

@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod errors;
+mod export;
 mod grid;
 mod import;
 mod json;
@@ -51,6 +52,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
         Command::Import(args) => commands::import::run(args),
+        Command::Export(args) => commands::export::run(args),
         Command::Validate(args) => validate(args),
     }
 }

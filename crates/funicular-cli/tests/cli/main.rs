@@ -1,6 +1,7 @@
 //! The program as a user meets it: command line in; output, messages and exit code out.
 
 mod bad_input;
+mod export;
 mod files;
 mod freedoms;
 mod import;

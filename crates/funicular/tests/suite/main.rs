@@ -9,6 +9,7 @@ mod damped;
 mod exact;
 mod freedoms;
 mod independent;
+mod library;
 mod loads;
 mod modes;
 mod oracle;

@@ -466,7 +466,7 @@ fn load(file: &Path) -> Robot {
 #[test]
 fn every_robot_of_the_library_loads_and_has_a_source_and_a_state() {
     let files = library();
-    assert!(files.len() >= 4, "{files:?}");
+    assert!(files.len() >= 10, "{files:?}");
     for file in files {
         assert_eq!(file.extension().and_then(|e| e.to_str()), Some("toml"), "{file:?}");
         let robot = load(&file);

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""A cable robot at rest: its statics and its first natural frequencies by OpenSees, beside those of funicular.
+
+Written by `funicular export --to opensees`; needs openseespy from PyPI. SI units, world axes.
+
+Cables are chains of {{ segments }} equal corotational truss bars, weight in the joints, mass half consistent and half lumped.
+Such a chain cuts corners: its bars are a little shorter than the cable, and its weight a little other, so that it pulls
+at the platform as the cable does. The platform is points that have its mass, centre of mass and inertia, on a frame of
+stiff bars. Frequencies differ by a part that falls with the square of the number of bars: `funicular export --segments`.
+"""
+
+import math
+
+import openseespy.opensees as ops
+
+NAME = {{ name }}
+# Source of the robot: {{ source }}
+GRAVITY = {{ gravity }}  # m/s2
+# Points of the platform [m] and their masses [kg]: the centre of mass, then pairs along the principal axes.
+PLATFORM = {{ platform }}
+SIZE = {{ size }}  # of the platform [m]
+TOUCHING = {{ touching|fmt("{:e}") }}  # points nearer than this are one [m]
+FRAME_STIFFNESS = {{ frame_stiffness|fmt("{:e}") }}  # of each bar of the platform [N/m]
+# Each cable from the platform to its anchor: mass [kg], weight of the chain over the cable's, EA [N], lengths [m], joints
+# [m] where the chain is in equilibrium.
+CABLES = [
+{% for cable in cables -%}
+{{ "    " }}{{ cable }},
+{% endfor -%}
+]
+# funicular's numbers.
+POSITION = {{ position }}  # of the platform's origin [m]
+TENSIONS_N = {{ tensions }}  # at the platform and at the anchor
+FREQUENCIES_HZ = {{ frequencies }}  # of exact cables
+
+
+def node(point):
+    tag = len(ops.getNodeTags()) + 1
+    ops.node(tag, *point)
+    return tag
+
+
+def bar(start, end, length, stiffness, mass):
+    """A bar of an unstrained length [m] and EA [N] between two nodes, with a mass [kg] that is spread over it."""
+    tag = len(ops.getEleTags()) + 1
+    distance = math.dist(ops.nodeCoord(start), ops.nodeCoord(end))
+    # The element counts strain from this distance. With these two its tension is EA (distance - length) / length.
+    ops.uniaxialMaterial("Elastic", 2 * tag, stiffness * distance / length)
+    ops.uniaxialMaterial("InitStrainMaterial", 2 * tag + 1, 2 * tag, 1.0 - length / distance)
+    ops.element("corotTruss", tag, start, end, 1.0, 2 * tag + 1, "-rho", mass / distance, "-cMass", 1)
+    return tag
+
+
+def add(where, tag, mass):
+    where[tag] = where.get(tag, 0.0) + mass
+
+
+ops.wipe()
+ops.model("basic", "-ndm", 3, "-ndf", 3)
+weights, masses = {}, {}  # of nodes [kg]
+
+# The platform: every point is joined with every other.
+frame = []
+for point, mass in PLATFORM:
+    frame.append(node(point))
+    add(weights, frame[-1], mass)
+    add(masses, frame[-1], mass)
+points = list(frame)
+held = []
+for cable in CABLES:
+    near = [tag for tag in points if math.dist(ops.nodeCoord(tag), cable["attachment"]) <= TOUCHING]
+    held.append(near[0] if near else node(cable["attachment"]))
+    if not near:
+        points.append(held[-1])
+for i, start in enumerate(points):
+    for end in points[i + 1 :]:
+        distance = math.dist(ops.nodeCoord(start), ops.nodeCoord(end))
+        bar(start, end, distance, FRAME_STIFFNESS * distance, 0.0)
+
+# The cables.
+cable_ends = []
+for cable, first in zip(CABLES, held):
+    tags = [first] + [node(point) for point in cable["nodes"]]
+    ops.fix(tags[-1], 1, 1, 1)
+    mass = cable["mass"] / (len(tags) - 1)
+    heavy = mass * cable["weight_factor"]
+    bars = []
+    for start, end in zip(tags, tags[1:]):
+        # Waves are too fast with consistent mass and too slow with lumped mass, by the same: so half of each.
+        bars.append(bar(start, end, cable["bar_length"], cable["axial_stiffness"], 0.5 * mass))
+        for tag in (start, end):
+            add(weights, tag, 0.5 * heavy)
+            add(masses, tag, 0.25 * mass)
+    cable_ends.append([(bars[0], tags[0], tags[1], 0.5 * heavy), (bars[-1], tags[-2], tags[-1], -0.5 * heavy)])
+for tag, mass in masses.items():
+    ops.mass(tag, mass, mass, mass)
+
+# Statics: the equilibrium of the bars, by Newton's method from funicular's.
+ops.timeSeries("Constant", 1)
+ops.pattern("Plain", 1, 1)
+for tag, mass in weights.items():
+    ops.load(tag, *(mass * g for g in GRAVITY))
+ops.constraints("Plain")
+ops.numberer("RCM")
+ops.system("BandGen")
+ops.test("NormDispIncr", 1e-10 * SIZE, 50)
+ops.algorithm("Newton")
+ops.integrator("LoadControl", 1.0)
+ops.analysis("Static")
+if ops.analyze(1) != 0:
+    raise SystemExit("OpenSees found no equilibrium")
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def moved(tag):
+    return [x + u for x, u in zip(ops.nodeCoord(tag), ops.nodeDisp(tag))]
+
+
+def direction(start, end):
+    distance = math.dist(start, end)
+    return [(b - a) / distance for a, b in zip(start, end)]
+
+
+def motion():
+    """From funicular's pose to OpenSees': displacement of the platform's origin [m], rotation vector [rad], both small."""
+    turn = [0.0, 0.0, 0.0]
+    for minus, plus in zip(frame[1::2], frame[2::2]):
+        # Each of the three axes says two components, so each component is said twice.
+        part = cross(direction(ops.nodeCoord(minus), ops.nodeCoord(plus)), direction(moved(minus), moved(plus)))
+        turn = [a + 0.5 * b for a, b in zip(turn, part)]
+    arm = [a - b for a, b in zip(POSITION, ops.nodeCoord(frame[0]))]
+    return [a + b for a, b in zip(ops.nodeDisp(frame[0]), cross(turn, arm))], turn
+
+
+def tension(tag, start, end, mass):
+    """At a cable's end: that of the bar beside it, and the half weight in between [N]."""
+    force = ops.eleResponse(tag, "axialForce")[0]
+    along = direction(moved(start), moved(end))
+    return math.hypot(*(force * e + mass * g for e, g in zip(along, GRAVITY)))
+
+
+displacement, rotation = motion()
+tensions = [[tension(*end) for end in ends] for ends in cable_ends]
+count = len(FREQUENCIES_HZ)
+squares = ops.eigen("-genBandArpack", count) if count else []
+frequencies = [math.copysign(math.sqrt(abs(square)), square) / (2.0 * math.pi) for square in squares]
+result = {
+    "position_m": [a + b for a, b in zip(POSITION, displacement)],
+    "displacement_m": displacement,
+    "rotation_rad": rotation,
+    "tensions_n": tensions,
+    "frequencies_hz": frequencies,
+}
+
+print(NAME)
+print("\nplatform's origin [m]     funicular        OpenSees      difference")
+for axis, ours, theirs, difference in zip("xyz", POSITION, result["position_m"], displacement):
+    print(f"{axis:>4}               {ours:16.9f} {theirs:15.9f} {difference:15.3e}")
+print(f"rotation between them [rad]                          {math.hypot(*rotation):15.3e}")
+print("\ntension [N]          funicular        OpenSees      difference")
+for cable, ours, theirs in zip(CABLES, TENSIONS_N, tensions):
+    for place, a, b in zip(("platform", "anchor"), ours, theirs):
+        print(f"{cable['name']:>6} {place:8} {a:14.6f} {b:15.6f} {b - a:15.3e}")
+print("\nnatural frequency [Hz]   funicular        OpenSees      relative")
+for i, (ours, theirs) in enumerate(zip(FREQUENCIES_HZ, frequencies), 1):
+    print(f"{i:6}          {ours:18.7f} {theirs:15.7f} {theirs / ours - 1.0:13.2e}")

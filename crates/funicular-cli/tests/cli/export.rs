@@ -1,0 +1,107 @@
+//! `export`: files for other programs. What those programs make of them is the matter of scripts/cross-check.
+
+use super::{robot, run, run_with, stderr, stdout, succeed, yuan};
+
+/// The pose that a robot file has by lengths.
+fn position(text: &str) -> Vec<f64> {
+    let output = run_with(&["statics", "-", "--format", "json"], text);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found: serde_json::Value = serde_json::from_str(stdout(&output)).unwrap();
+    found["pose"]["position_m"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn what_is_exported_to_moordyn_and_imported_again_rests_at_the_same_place() {
+    for name in ["yuan2014-4mm.toml", "cogiro.toml", "sap2000-8-cable-point-mass.toml", "nist-robocrane.toml"] {
+        let directory = tempfile::tempdir().unwrap();
+        let input = directory.path().join("robot.txt");
+        let path = input.to_str().unwrap();
+        // With 400 segments the lines are as long as the cables to a tenth of a micrometre.
+        succeed(&["export", &robot(name), "--to", "moordyn", "--segments", "400", "-o", path]);
+        let imported = succeed(&["import", path]);
+        let ours = position(&std::fs::read_to_string(robot(name)).unwrap());
+        let theirs = position(&imported);
+        for (a, b) in ours.iter().zip(&theirs) {
+            assert!((a - b).abs() < 1e-6, "{name}: {ours:?} {theirs:?}");
+        }
+    }
+}
+
+#[test]
+fn a_script_for_opensees_has_the_robot_its_numbers_and_the_frequencies_asked_for() {
+    let script = succeed(&["export", "ROBOT", "--to", "opensees", "--segments", "3"]);
+    assert!(script.starts_with("#!/usr/bin/env python3\n") && script.ends_with(")\n"));
+    let line = |start: &str| script.lines().find(|line| line.starts_with(start)).unwrap().to_owned();
+    assert_eq!(line("NAME"), "NAME = \"INSA Rennes 6-cable suspended robot, 4 mm cables\"");
+    assert_eq!(line("FREQUENCIES_HZ").matches(',').count(), 9);
+    assert_eq!(script.matches("\"bar_length\":").count(), 6);
+    let script = succeed(&["export", "ROBOT", "--to", "opensees", "--modes-below-hz", "2"]);
+    let line = script.lines().find(|line| line.starts_with("FREQUENCIES_HZ")).unwrap();
+    assert_eq!(line.matches(',').count(), 7, "eight modes lie below 2 Hz: {line}");
+}
+
+#[test]
+fn a_vtk_file_has_as_many_numbers_as_it_says() {
+    let file = succeed(&["export", "ROBOT", "--to", "vtk", "--segments", "7", "--modes-below-hz", "1.3"]);
+    let document = roxmltree::Document::parse(&file).unwrap();
+    let piece = document.descendants().find(|node| node.has_tag_name("Piece")).unwrap();
+    assert_eq!((piece.attribute("NumberOfPoints"), piece.attribute("NumberOfLines")), (Some("54"), Some("6")));
+    let mut names = Vec::new();
+    for array in document.descendants().filter(|node| node.has_tag_name("DataArray")) {
+        let count = array.text().unwrap().split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count();
+        if array.attribute("type") == Some("Float64") {
+            let components: usize = array.attribute("NumberOfComponents").map_or(1, |n| n.parse().unwrap());
+            assert_eq!(count, 54 * components, "{:?}", array.attribute("Name"));
+            names.push(array.attribute("Name").unwrap());
+        }
+    }
+    let modes = ["mode_001_1.0207_Hz", "mode_002_1.1876_Hz", "mode_003_1.2231_Hz", "mode_004_1.2662_Hz"];
+    assert_eq!(names, [&["position_m", "tension_n", "arc_length_m"], &modes[..]].concat());
+}
+
+#[test]
+fn a_pose_of_a_redundant_robot_is_exported_with_the_tensions_of_the_rule() {
+    let script = |rule: &str| {
+        succeed(&[
+            "export",
+            &robot("cogiro.toml"),
+            "--to",
+            "opensees",
+            "--pose",
+            "1,1,1.5",
+            "--tension-rule",
+            rule,
+            "--segments",
+            "2",
+        ])
+    };
+    let tensions = |script: String| script.lines().find(|line| line.starts_with("TENSIONS_N")).unwrap().to_owned();
+    assert_ne!(tensions(script("lowest")), tensions(script("middle")));
+}
+
+#[test]
+fn what_cannot_be_exported_is_refused_with_the_reason() {
+    let sideways = yuan().replace("[platform]", "gravity_m_s2 = [0.1, 0.0, -9.81]\n[platform]");
+    let massless = yuan().replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.0");
+    for (robot, arguments, says) in [
+        (yuan(), "--to moordyn --static-model spring", "leave out --static-model"),
+        (yuan(), "--to moordyn --modes-below-hz 3", "MoorDyn has no modes"),
+        (yuan(), "--to moordyn --segments 0", "--segments"),
+        (yuan(), "--to abaqus", "possible values: opensees, moordyn, vtk"),
+        (yuan(), "--to vtk --modes-below-hz 1e4", "lower --below-hz"),
+        (sideways, "--to moordyn", "MoorDyn has it along -z only"),
+        (massless, "--to moordyn", "cable \"1\" has no mass"),
+    ] {
+        let arguments: Vec<&str> = ["export", "-"].into_iter().chain(arguments.split(' ')).collect();
+        let output = run_with(&arguments, &robot);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says) && stdout(&output).is_empty(), "{arguments:?}: {}", stderr(&output));
+    }
+    let loose = run_with(
+        &["export", "-", "--to", "opensees", "--lengths-m", "8,6.565,6.756,6.663,6.801,6.604"],
+        &yuan().replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.0"),
+    );
+    assert_eq!(loose.status.code(), Some(2), "{}", stderr(&loose));
+    assert!(stderr(&loose).contains("slack"), "{}", stderr(&loose));
+    assert_eq!(run(&["export", "ROBOT"]).status.code(), Some(2), "a program has to be named");
+}

@@ -1,0 +1,267 @@
+"""What scripts/cross-check runs: robots of the library by funicular and by the programs of others."""
+
+import contextlib
+import io
+import json
+import math
+import os
+import re
+import runpy
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+import moordyn
+import moorpy
+import numpy as np
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+# Largest differences that pass.
+POSITION_M = 1e-6  # of any attachment
+TENSION_PART = 1e-4  # of the robot's greatest tension
+# Frequencies: bars at the default of 20 a cable, and how much at least doubling them helps where they are off by more
+# than what the platform's frame and the eigenvalue solver leave. Second order is a factor of four.
+FREQUENCY_PART = 2e-3
+FLOOR_PART = 2e-6
+DOUBLING = 3.0
+
+BARS = 20
+# Robots, and the seconds that MoorDyn integrates: some periods of the lowest mode.
+SHORT = {"yuan2014-4mm": 10.0, "cogiro": 4.0}
+ALL = {
+    "yuan2014-4mm": 20.0, "cogiro": 10.0, "yuan2014-8mm": 60.0, "sap2000-8-cable-point-mass": 4.0, "ipanema2": 2.0,
+    "stadium-camera": 20.0, "fast": 100.0,
+}  # fmt: skip
+
+
+class Table:
+    """Rows of differences and their limits."""
+
+    def __init__(self):
+        self.failed = 0
+        print(f"{'robot':28} {'program':20} {'quantity':44} {'difference':>11} {'limit':>9}")
+
+    def row(self, robot, program, quantity, difference, limit):
+        passed = difference <= limit
+        self.failed += not passed
+        print(f"{robot:28} {program:20} {quantity:44} {difference:11.2e} {limit:9.1e}{'' if passed else '  FAILED'}", flush=True)
+
+
+class Robot:
+    """A robot of the library and funicular's answer."""
+
+    def __init__(self, program, name):
+        self.program, self.name = program, name
+        self.path = f"robots/{name}.toml"
+        self.file = tomllib.loads(Path(self.path).read_text())
+        self.statics = json.loads(self.run("statics", "--format", "json"))
+        platform = self.file["platform"]
+        self.is_point = platform.get("freedoms") == "point-mass"
+        self.mass = platform["mass_kg"]
+        self.center = np.array(platform.get("center_of_mass_m", [0.0, 0.0, 0.0]))
+        self.position = np.array(self.statics["pose"]["position_m"])
+        w, x, y, z = self.statics["pose"]["quaternion_wxyz"]
+        self.rotation = np.array([
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ])  # fmt: skip
+        cables = self.file["cables"]
+        self.anchors = np.array([cable["anchor_m"] for cable in cables])
+        self.attachments = np.array([cable.get("attachment_m", [0.0, 0.0, 0.0]) for cable in cables])
+        self.ropes = [self.file["materials"][cable["material"]] for cable in cables]
+        rows = self.statics["cables"]
+        self.lengths = [row["unstrained_length_m"] for row in rows]
+        self.tensions = np.array([[row["tension_platform_n"], row["tension_anchor_n"]] for row in rows])
+
+    def run(self, verb, *arguments):
+        done = subprocess.run([self.program, verb, self.path, *arguments], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"{self.path}: {verb} {' '.join(arguments)}: {done.stderr}")
+        return done.stdout
+
+    def export(self, program, path, *arguments):
+        self.run("export", "--to", program, "-o", str(path), *arguments)
+
+    def moved(self, position, rotation):
+        """How far the attachment that is farthest off is from funicular's [m]."""
+        ours = self.position + self.attachments @ self.rotation.T
+        return np.linalg.norm(position + self.attachments @ rotation.T - ours, axis=1).max()
+
+    def off(self, tensions):
+        return np.abs(np.array(tensions) - self.tensions).max() / self.tensions.max()
+
+
+def axial_stiffness(rope):
+    if "axial_stiffness_n" in rope:
+        return rope["axial_stiffness_n"]
+    return rope["youngs_modulus_pa"] * (rope.get("area_m2") or math.pi * rope["diameter_m"] ** 2 / 4)
+
+
+@contextlib.contextmanager
+def quiet():
+    """Nothing of a program that talks: its C code writes past sys.stdout."""
+    sys.stdout.flush()
+    kept = [os.dup(1), os.dup(2)]
+    with tempfile.TemporaryFile() as sink:
+        os.dup2(sink.fileno(), 1)
+        os.dup2(sink.fileno(), 2)
+        try:
+            yield
+        except BaseException:
+            sink.seek(0)
+            os.write(kept[1], sink.read()[-3000:])
+            raise
+        finally:
+            sys.stdout.flush()
+            os.dup2(kept[0], 1)
+            os.dup2(kept[1], 2)
+            os.close(kept[0])
+            os.close(kept[1])
+
+
+def check_moorpy(robot, table):
+    """Statics from the robot file, from a start beside funicular's pose."""
+    with quiet():
+        # In air, the seabed far below. MoorPy's own tolerance, 0.05 m, stops far from equilibrium.
+        system = moorpy.System(depth=1e4, rho=0, g=9.81)
+        start = robot.position + [0.01, -0.01, 0.01]
+        roll, pitch, yaw = (math.radians(angle) for angle in robot.statics["pose"]["roll_pitch_yaw_deg"])
+        if robot.is_point:
+            system.addPoint(0, start, m=robot.mass, v=0)
+        else:
+            system.addBody(0, np.array([*start, roll, pitch, yaw]), m=robot.mass, v=0, rCG=robot.center)
+        for i, (rope, length) in enumerate(zip(robot.ropes, robot.lengths)):
+            name = f"rope{i}"
+            system.lineTypes[name] = {
+                "name": name, "d_vol": 0.001, "m": rope["mass_kg_per_m"], "w": rope["mass_kg_per_m"] * 9.81,
+                "EA": axial_stiffness(rope), "input_d": 0.001, "input_type": "rope",
+            }  # fmt: skip
+            if robot.is_point:
+                end = 1
+            else:
+                system.addPoint(1, start + robot.rotation @ robot.attachments[i])
+                end = len(system.pointList)
+                system.bodyList[0].attachPoint(end, robot.attachments[i])
+            system.addPoint(1, robot.anchors[i])
+            system.addLine(length, name, pointA=end, pointB=len(system.pointList))
+        system.initialize()
+        system.solveEquilibrium(tol=1e-8, maxIter=1000)
+        ends = [[line.TA, line.TB] for line in system.lineList]
+        if robot.is_point:
+            moved = np.linalg.norm(system.pointList[0].r - robot.position)
+        else:
+            points = np.array([system.pointList[2 * i].r for i in range(len(robot.lengths))])
+            moved = np.linalg.norm(points - robot.position - robot.attachments @ robot.rotation.T, axis=1).max()
+    table.row(robot.name, "MoorPy", "position of the attachments [m]", moved, POSITION_M)
+    table.row(robot.name, "MoorPy", "tensions over the greatest", robot.off(ends), TENSION_PART)
+
+
+def opensees(robot, folder, bars):
+    path = folder / f"{robot.name}-{bars}.py"
+    robot.export("opensees", path, "--segments", str(bars))
+    with quiet(), contextlib.redirect_stdout(io.StringIO()):
+        done = runpy.run_path(str(path))
+    result = done["result"]
+    turn = np.array(result["rotation_rad"])
+    cross = np.array([[0, -turn[2], turn[1]], [turn[2], 0, -turn[0]], [-turn[1], turn[0], 0]])
+    moved = robot.moved(np.array(result["position_m"]), (np.eye(3) + cross) @ robot.rotation)
+    ours = np.array(done["FREQUENCIES_HZ"])
+    return moved, robot.off(result["tensions_n"]), np.array(result["frequencies_hz"]) / ours - 1.0
+
+
+def check_opensees(robot, folder, table):
+    """Statics and the first frequencies, and that the latter err as bars do."""
+    coarse, fine = (opensees(robot, folder, bars) for bars in (BARS, 2 * BARS))
+    for (moved, tension, frequency), bars in ((coarse, BARS), (fine, 2 * BARS)):
+        name = f"OpenSees, {bars} bars"
+        table.row(robot.name, name, "position of the attachments [m]", moved, POSITION_M)
+        table.row(robot.name, name, "tensions over the greatest", tension, TENSION_PART)
+        limit = FREQUENCY_PART * (BARS / bars) ** 2
+        table.row(robot.name, name, f"first {len(frequency)} frequencies, relative", np.abs(frequency).max(), limit)
+    left = np.abs(fine[2]) - FLOOR_PART
+    table.row(robot.name, "OpenSees", "error kept when bars double, less the floor", (left / np.maximum(np.abs(coarse[2]), FLOOR_PART)).max(), 1 / DOUBLING)
+
+
+def check_moordyn(robot, folder, table, seconds):
+    """Where the platform comes to rest: the mean of what is left of its motion, weighted so that waves drop out.
+
+    MoorDyn begins with catenaries, which its chains are not: they ring. Undamped axial waves carry tension of their own
+    and move the mean by up to 4e-5 m (yuan2014-8mm), so the segments get half of their critical damping.
+    """
+    path = folder / f"{robot.name}.txt"
+    robot.export("moordyn", path, "--segments", str(BARS))
+    text, types = re.subn(r"^(\S+_\d+ +\S+ +\S+ +\S+ +)0 ", r"\1-0.5 ", path.read_text(), flags=re.MULTILINE)
+    assert types == len(robot.lengths), "every line type is damped"
+    path.write_text(text)
+    with quiet():
+        system = moordyn.Create(str(path))
+        moordyn.Init(system, [], [])
+        count = int(seconds / 0.02)
+        record = []
+        for k in range(count):
+            moordyn.Step(system, [], [], k * 0.02, 0.02)
+            if robot.is_point:
+                record.append(moordyn.GetPointPos(moordyn.GetPoint(system, len(robot.lengths) + 1)))
+            else:
+                points = [moordyn.GetPoint(system, len(robot.lengths) + 1 + i) for i in range(len(robot.lengths))]
+                record.append([moordyn.GetPointPos(point) for point in points])
+        moordyn.Close(system)
+    late = np.array(record[count // 2 :])
+    window = np.hanning(len(late))
+    mean = np.tensordot(window, late, 1) / window.sum()
+    ours = robot.position if robot.is_point else robot.position + robot.attachments @ robot.rotation.T
+    moved = np.linalg.norm(np.atleast_2d(mean - ours), axis=1).max()
+    table.row(robot.name, f"MoorDyn, {seconds:g} s", "mean position of the attachments [m]", moved, POSITION_M)
+
+
+def check_vtk(robot, folder, table):
+    """What VTK reads is what funicular says."""
+    path = folder / f"{robot.name}.vtp"
+    modes = json.loads(robot.run("modes", "--below-hz", "4", "--format", "json"))["modes"]
+    robot.export("vtk", path, "--modes-below-hz", "4", "--segments", str(BARS))
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    shape = reader.GetOutput()
+    points = vtk_to_numpy(shape.GetPoints().GetData())
+    data = shape.GetPointData()
+    tension = vtk_to_numpy(data.GetArray("tension_n"))
+    at = np.arange(len(robot.lengths)) * (BARS + 1)
+    ends = np.stack([tension[at], tension[at + BARS]], axis=1)
+    off = np.linalg.norm(points[at + BARS] - robot.anchors, axis=1).max()
+    table.row(robot.name, "VTK", "anchors [m]", off, 1e-12)
+    table.row(robot.name, "VTK", "tensions over the greatest", robot.off(ends), 1e-12)
+    table.row(robot.name, "VTK", "cables and modes missing", abs(shape.GetNumberOfLines() - len(at)) + abs(data.GetNumberOfArrays() - 2 - len(modes)), 0)
+    # The beginning of a cable moves with the platform.
+    worst = 0.0
+    arms = robot.attachments @ robot.rotation.T
+    for i, mode in enumerate(modes):
+        field = vtk_to_numpy(data.GetArray(2 + i))
+        shift, turn = np.array(mode["shape"][:3]), np.array(mode["shape"][3:])
+        rigid = shift + np.cross(turn, arms)
+        worst = max(worst, np.abs(field[at] - rigid).max(), np.abs(field[at[-1] + BARS + 1 :] - rigid).max(), np.abs(field[at + BARS]).max())
+    table.row(robot.name, "VTK", "ends of cables in modes against the platform", worst, 1e-6)
+
+
+def main():
+    program, *options = sys.argv[1:]
+    if options not in ([], ["--short"]):
+        raise SystemExit(f"unknown options {options}: --short is the only one")
+    table = Table()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for robot_name, seconds in (SHORT if options else ALL).items():
+            robot = Robot(program, robot_name)
+            check_moorpy(robot, table)
+            check_opensees(robot, folder, table)
+            check_moordyn(robot, folder, table, seconds)
+            check_vtk(robot, folder, table)
+    print(f"{table.failed} outside their limits" if table.failed else "all within their limits")
+    sys.exit(1 if table.failed else 0)
+
+
+main()
