@@ -63,7 +63,7 @@ struct LineRow {
 /// # Errors
 /// A slack cable, or what MoorDyn has not: massless lines, gravity other than along −z.
 pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
-    let AtRest { robot, equilibrium } = at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
     let mut types = Vec::new();
     let body = match robot.platform.freedoms {

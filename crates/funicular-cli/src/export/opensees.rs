@@ -56,7 +56,7 @@ struct CableData<'a> {
 /// # Errors
 /// A slack cable; no equilibrium of exact cables, more modes than a table has rows.
 pub(crate) fn script(at_rest: &AtRest, segments: usize, below_hz: Option<f64>) -> Result<String> {
-    let AtRest { robot, equilibrium } = at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let frequencies = match below_hz {
         None => first_frequencies(at_rest, FREQUENCIES)?,
         Some(limit) => modes_below(at_rest, limit)?.1.modes.iter().map(|mode| mode.frequency_hz).collect(),
@@ -102,7 +102,7 @@ fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
 /// A pair at ±r along an axis has the second moment of mass about the plane across it; the centre has what is left of the
 /// mass, which is not negative if r² is at least the sum of the second moments over the mass.
 fn platform(at_rest: &AtRest) -> (Vec<(Vec3, f64)>, f64) {
-    let AtRest { robot, equilibrium } = at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let Robot { platform, .. } = robot;
     let pose = &equilibrium.pose;
     let center_w = pose.point_w(&platform.center_of_mass_p);
@@ -143,7 +143,7 @@ mod tests {
         let robot = Robot::from_toml(text).unwrap();
         let State::Lengths(lengths) = &robot.state else { panic!("it has lengths") };
         let equilibrium = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
-        AtRest { robot, equilibrium }
+        AtRest { robot, equilibrium, instead_of: None }
     }
 
     #[test]
