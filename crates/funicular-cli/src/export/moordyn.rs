@@ -67,7 +67,8 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
     refuse(robot)?;
     let mut types = Vec::new();
     let body = match robot.platform.freedoms {
-        Freedoms::Rigid => Some(Frame::of(at_rest)),
+        // A planar one is refused before.
+        Freedoms::Rigid | Freedoms::Planar(_) => Some(Frame::of(at_rest)),
         Freedoms::PointMass => None,
     };
     let mut points = Vec::new();

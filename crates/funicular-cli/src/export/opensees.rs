@@ -108,7 +108,8 @@ fn platform(at_rest: &AtRest) -> (Vec<(Vec3, f64)>, f64) {
     let center_w = pose.point_w(&platform.center_of_mass_p);
     match platform.freedoms {
         Freedoms::PointMass => (vec![(center_w, platform.mass)], 1.0),
-        Freedoms::Rigid => {
+        // A planar one is refused before.
+        Freedoms::Rigid | Freedoms::Planar(_) => {
             let principal = platform.inertia_p.symmetric_eigen();
             let moments = principal.eigenvalues;
             let half_trace = 0.5 * moments.sum();
