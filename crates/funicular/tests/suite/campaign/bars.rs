@@ -99,6 +99,7 @@ impl Bars {
         let freedoms = match robot.platform.freedoms {
             Freedoms::Rigid => 6,
             Freedoms::PointMass => 3,
+            Freedoms::Planar(_) => panic!("the random robots have none"),
         };
         let longest = rest.cables.iter().map(|c| c.lever_w.norm()).fold(0.0, f64::max);
         let length = if longest > 0.0 { longest } else { 1.0 };
