@@ -44,7 +44,8 @@ fn two_plates(rope_mass: f64, b: f64) -> Robot {
         for cable in &cables {
             let cable =
                 cable.replace("name = \"", &format!("name = \"{side}")).replace(", 0.0, ", &format!(", {y:?}, "));
-            text += &format!("[[cables]]\n{cable}");
+            text.push_str("[[cables]]\n");
+            text.push_str(&cable.to_string());
         }
     }
     Robot::from_toml(&text).unwrap()

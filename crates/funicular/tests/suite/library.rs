@@ -20,10 +20,10 @@ fn library() -> Vec<(String, Robot, Equilibrium)> {
             let rest = match &robot.state {
                 State::Lengths(lengths) => statics::forward(&robot, lengths, model, None),
                 State::Pose(pose) => statics::distribute(&robot, pose, model, &TensionRule::default()),
-                State::Unknown => panic!("{file:?} has no state"),
+                State::Unknown => panic!("{} has no state", file.display()),
             };
             let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-            (name, robot, rest.unwrap_or_else(|error| panic!("{file:?}: {error}")))
+            (name, robot, rest.unwrap_or_else(|error| panic!("{}: {error}", file.display())))
         })
         .collect()
 }

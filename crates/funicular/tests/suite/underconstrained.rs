@@ -16,13 +16,14 @@ fn crane(cables: usize, rope_mass: f64) -> Robot {
          [materials.rope]\naxial_stiffness_n = 4e5\nmass_kg_per_m = {rope_mass}\n"
     );
     for (i, (x, y)) in [(1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0)].into_iter().enumerate().take(cables) {
-        text += &format!(
+        let cable = format!(
             "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, 5.0]\nattachment_m = [{}, {}, 0.1]\n",
             4.0 * x,
             3.0 * y,
             0.5 * x,
             0.3 * y
         );
+        text.push_str(&cable);
     }
     Robot::from_toml(&text).unwrap()
 }
