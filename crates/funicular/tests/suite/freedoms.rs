@@ -45,7 +45,7 @@ fn two_plates(rope_mass: f64, b: f64) -> Robot {
             let cable =
                 cable.replace("name = \"", &format!("name = \"{side}")).replace(", 0.0, ", &format!(", {y:?}, "));
             text.push_str("[[cables]]\n");
-            text.push_str(&cable.to_string());
+            text.push_str(&cable);
         }
     }
     Robot::from_toml(&text).unwrap()
