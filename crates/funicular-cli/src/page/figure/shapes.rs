@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 /// Largest displacement of a mode in steps of its scale: a tenth of a pixel where it moves by a hundred.
 const STEPS: f64 = 1000.0;
 /// Most bytes of displacements, before packing: with them a page stays below 5 MB.
-const MOST_BYTES: usize = 1_500_000;
+const MOST_BYTES: usize = 1_000_000;
 /// Least intervals between stations.
 const LEAST_INTERVALS: usize = 16;
 /// Least intervals to half a wave of the taut cable: the cubics through the stations are off by 0.6 % of its height.
