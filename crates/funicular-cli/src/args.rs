@@ -153,7 +153,7 @@ pub(crate) struct StateArgs {
     pub(crate) load: LoadArgs,
 }
 
-/// What acts on the platform besides its weight, fixed in the world; instead of what the robot file says.
+/// What acts on platform and cables besides their weight, fixed in the world; instead of what the robot file says.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Load")]
 pub(crate) struct LoadArgs {
@@ -168,6 +168,14 @@ pub(crate) struct LoadArgs {
     /// Point where the force acts, platform frame [m] [default: as the robot file says, or the origin]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) load_point_m: Option<Vec3>,
+
+    /// Steady wind, world axes [m/s], on ropes with a `drag_coefficient` and platforms with a `drag_area_m2`
+    #[arg(long, visible_alias = "wind", value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) wind_m_s: Option<Vec3>,
+
+    /// Load per metre of every cable besides its weight, world axes [N/m]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) cable_load_n_per_m: Option<Vec3>,
 }
 
 /// How the robot is linearised.

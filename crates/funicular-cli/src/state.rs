@@ -5,7 +5,7 @@ use crate::table::short;
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
-use funicular::robot::{Freedoms, Load, Pose, Robot, State, TensionLimits};
+use funicular::robot::{Freedoms, Load, Pose, Robot, State, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use funicular::validity;
 use serde::Serialize;
@@ -110,13 +110,26 @@ pub(crate) fn with_options(mut robot: Robot, args: &StateArgs) -> Result<Robot> 
     if let Some(mass) = args.mass_kg {
         robot.platform.mass = mass;
     }
-    let LoadArgs { force_n, moment_n_m, load_point_m } = args.load;
+    let LoadArgs { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = args.load;
     let of_file = robot.load;
     robot.load = Load {
         force_w: force_n.unwrap_or(of_file.force_w),
         moment_w: moment_n_m.unwrap_or(of_file.moment_w),
         point_p: load_point_m.unwrap_or(of_file.point_p),
     };
+    if let Some(velocity_w) = wind_m_s {
+        let speed = velocity_w.norm();
+        if speed > Wind::FASTEST {
+            bail!(
+                "--wind-m-s is a wind of {speed} m/s, it must be at most {} m/s: faster air is compressed",
+                Wind::FASTEST
+            );
+        }
+        robot.wind.velocity_w = velocity_w;
+    }
+    if let Some(load) = cable_load_n_per_m {
+        robot = robot.with_cable_load(load);
+    }
     if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
         bail!("--load-point-m is where a force acts, and there is none: give --force-n");
     }

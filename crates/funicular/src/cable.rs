@@ -68,14 +68,19 @@ impl fmt::Display for CableModel {
 pub struct LocalAxes {
     /// Along the chord, platform to anchor.
     pub e: Vec3,
-    /// Normal to the chord in the plane of chord and gravity, upwards; any normal for a vertical cable.
+    /// Normal to the chord in the plane of chord and load, upwards; any normal for a vertical cable.
     pub n: Vec3,
     /// e × n, out of plane.
     pub b: Vec3,
 }
 
 impl LocalAxes {
-    /// Axes of the chord from `from_w` to `to_w`; `up_w` is the unit vector against gravity.
+    /// Axes of the cable `i` of a robot; up is against its load per length.
+    pub fn of_cable(robot: &Robot, i: usize, state: &CableState) -> Self {
+        Self::of_chord(&state.attachment_w, &state.anchor_w, &robot.line_load(i, &state.chord_w()).up_w)
+    }
+
+    /// Axes of the chord from `from_w` to `to_w`; `up_w` is the unit vector against the load.
     pub fn of_chord(from_w: &Vec3, to_w: &Vec3, up_w: &Vec3) -> Self {
         let e = (to_w - from_w).normalize();
         let normal = up_w - e * e.dot(up_w);
@@ -121,7 +126,7 @@ pub struct Sag {
     pub axial_stiffness: f64,
     /// Mass per length m [kg/m].
     pub mass_per_length: f64,
-    /// ε = m g l cos α/τ, weight across the chord over tension.
+    /// ε = q l cos α/τ, load across the chord over tension; q is the weight m g per length where nothing else acts.
     pub epsilon: f64,
     /// L_e = l (1 + 8 (d/l)²) [m].
     pub effective_length: f64,
@@ -137,21 +142,28 @@ impl Sag {
     /// their tension would leave.
     pub fn of(robot: &Robot, i: usize, state: &CableState) -> Self {
         let material = &robot.cables[i].material;
-        let chord_w = state.anchor_w - state.attachment_w;
+        let chord_w = state.chord_w();
         let chord = chord_w.norm();
-        let rise = chord_w.dot(&robot.up_w());
-        let cos_alpha = (chord_w - robot.up_w() * rise).norm() / chord;
+        let load = robot.line_load(i, &chord_w);
+        let cos_alpha = (chord_w - load.up_w * chord_w.dot(&load.up_w)).norm() / chord;
         let tension = match &state.hanging {
             Some(hanging) => hanging.catenary.parallel_tension(),
             None => state.tension_platform,
         };
-        let gravity = robot.gravity_w.norm();
-        Self::new(chord, cos_alpha, tension, material.axial_stiffness, material.mass_per_length, gravity)
+        Self::new(chord, cos_alpha, tension, material.axial_stiffness, material.mass_per_length, load.size)
     }
 
-    /// From chord [m], cosine of its inclination, parallel tension [N], EA [N], mass per length [kg/m], gravity [m/s²].
-    pub fn new(chord: f64, cos_alpha: f64, tension: f64, axial_stiffness: f64, mass_per_length: f64, g: f64) -> Self {
-        let epsilon = mass_per_length * g * chord * cos_alpha / tension;
+    /// From chord [m], cosine of its inclination to what is level for the load, parallel tension [N], EA [N], mass per
+    /// length [kg/m], load per length [N/m], which is the weight m g where nothing else acts.
+    pub fn new(
+        chord: f64,
+        cos_alpha: f64,
+        tension: f64,
+        axial_stiffness: f64,
+        mass_per_length: f64,
+        load_per_length: f64,
+    ) -> Self {
+        let epsilon = load_per_length * chord * cos_alpha / tension;
         let ratio = epsilon / 8.0;
         let effective_length = chord * (1.0 + 8.0 * ratio * ratio);
         let lambda2 = epsilon * epsilon * axial_stiffness * chord / (tension * effective_length);
@@ -278,7 +290,7 @@ impl EndStiffness {
         in_plane_only: bool,
         up_to_hz: f64,
     ) -> Result<Self, NoStiffness> {
-        let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
+        let axes = LocalAxes::of_cable(robot, i, state);
         let sag = Sag::of(robot, i, state);
         let material = &robot.cables[i].material;
         if sag.tension <= 0.0 && matches!(model, CableModel::StaticSag | CableModel::ClosedForm | CableModel::Exact) {

@@ -93,7 +93,7 @@ impl CableStations {
             }
             None => {
                 let parts = fractions.iter().map(|part| 1.0 - part).collect();
-                (Kind::Straight(parts), LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w()))
+                (Kind::Straight(parts), LocalAxes::of_cable(robot, i, state))
             }
         };
         let points_w = fractions

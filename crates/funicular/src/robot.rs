@@ -5,8 +5,10 @@
 
 mod freedoms;
 pub mod spec;
+mod wind;
 
 pub use freedoms::{Freedoms, OutOfPlane, Plane};
+pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};
 
@@ -21,8 +23,10 @@ pub struct Robot {
     pub gravity_w: Vec3,
     /// The moving platform.
     pub platform: Platform,
-    /// What acts on the platform besides its weight.
+    /// What acts on the platform besides its weight and the wind.
     pub load: Load,
+    /// Steady wind on cables and platform.
+    pub wind: Wind,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
     /// What the file says about the state: unstrained lengths or a pose.
@@ -37,6 +41,8 @@ pub struct Platform {
     /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass. Of a
     /// planar platform only the moment about the normal counts.
     pub inertia_p: Mat3,
+    /// Drag coefficient times area [m²]: what of it the wind pushes at, in its centre of mass.
+    pub drag_area: f64,
     /// Centre of mass in the platform frame [m].
     pub center_of_mass_p: Vec3,
     /// Which motions it has.
@@ -92,6 +98,10 @@ pub struct Material {
     pub tension_limits: TensionLimits,
     /// Tension at which it breaks [N].
     pub breaking_load: Option<f64>,
+    /// Drag coefficient times diameter [m]; `None` where the file says nothing of the drag.
+    pub drag_width: Option<f64>,
+    /// Dead load per unstrained length besides its weight, world axes [N/m].
+    pub load_per_length_w: Vec3,
 }
 
 /// Tensions between which a cable shall be kept [N]; `None` where the file says nothing.
@@ -124,6 +134,8 @@ pub struct Cable {
     pub attachment_p: Vec3,
     /// Limits of its tension, before those of its rope.
     pub tension_limits: TensionLimits,
+    /// Dead load per unstrained length besides its weight and the wind, its own or that of its rope, world axes [N/m].
+    pub load_per_length_w: Vec3,
 }
 
 impl Cable {
@@ -205,6 +217,24 @@ impl Robot {
     pub fn with_load(&self, load: Load) -> Self {
         let mut robot = self.clone();
         robot.load = load;
+        robot
+    }
+
+    /// This robot in another wind.
+    #[must_use]
+    pub fn with_wind(&self, wind: Wind) -> Self {
+        let mut robot = self.clone();
+        robot.wind = wind;
+        robot
+    }
+
+    /// This robot with a dead load per unstrained length on every cable, world axes [N/m], in place of those of its file.
+    #[must_use]
+    pub fn with_cable_load(&self, load_per_length_w: Vec3) -> Self {
+        let mut robot = self.clone();
+        for cable in &mut robot.cables {
+            cable.load_per_length_w = load_per_length_w;
+        }
         robot
     }
 

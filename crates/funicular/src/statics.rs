@@ -1,5 +1,6 @@
 //! Static equilibrium: lengths to pose ([`forward`]), pose to lengths ([`inverse`]).
 
+mod all;
 mod forward;
 mod inverse;
 mod limits;
@@ -7,6 +8,7 @@ mod nearest;
 mod start;
 mod tension;
 
+pub use all::{Candidate, Candidates, all, other_stable};
 pub use forward::forward;
 pub use inverse::inverse;
 pub use limits::{Limit, TensionMargin, TensionRange};
@@ -16,7 +18,7 @@ pub use tension::{Miss, TensionRule, distribute};
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inertia, skew};
-use crate::robot::{Load, OutOfPlane, Pose, Robot};
+use crate::robot::{LineLoad, Load, OutOfPlane, Pose, Robot};
 use thiserror::Error;
 
 /// How a cable carries its static load.
@@ -53,9 +55,14 @@ pub struct CableState {
 }
 
 impl CableState {
-    /// Chord length, attachment to anchor [m].
+    /// Chord, attachment to anchor, world axes [m].
+    pub fn chord_w(&self) -> Vec3 {
+        self.anchor_w - self.attachment_w
+    }
+
+    /// Length of the chord [m].
     pub fn chord(&self) -> f64 {
-        (self.anchor_w - self.attachment_w).norm()
+        self.chord_w().norm()
     }
 
     /// Static stiffness of the platform end, 3×3, world axes [N/m]; none for an ideal cable.
@@ -219,6 +226,9 @@ pub enum StaticsError {
         "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
     )]
     NothingToStiffen,
+    /// Ideal cables are rigid: their poses are those of a mechanism, not of an energy.
+    #[error("a search for all equilibria needs cables that stretch: choose the static model `spring` or `catenary`")]
+    OneIdeal,
     /// The search for the nearest pose did not end.
     #[error(
         "no nearest pose found in {iterations} iterations: the last, at position ({x:.4}, {y:.4}, {z:.4}) m, could come \
@@ -262,20 +272,39 @@ pub enum StaticsError {
 /// Scaled residual below which an equilibrium counts as found; rounding leaves 1e-15 to 1e-12.
 pub const RESIDUAL_LIMIT: f64 = 1e-10;
 
-/// The rope of cable `i` at an unstrained length, as a static model sees it.
-fn rope(robot: &Robot, i: usize, unstrained_length: f64, model: StaticModel) -> Rope {
-    let material = &robot.cables[i].material;
-    let weight_per_length = match model {
-        StaticModel::Catenary => material.mass_per_length * robot.gravity_w.norm(),
-        StaticModel::Ideal | StaticModel::Spring => 0.0,
-    };
-    Rope { unstrained_length, weight_per_length, axial_stiffness: material.axial_stiffness }
+/// A cable without its length: where its anchor is, what it is made of and what acts on it.
+#[derive(Debug, Clone, Copy)]
+struct LoadedCable {
+    attachment_p: Vec3,
+    anchor_w: Vec3,
+    axial_stiffness: f64,
+    /// The load, which of a straight model counts nothing.
+    load: LineLoad,
 }
 
-/// The cable `i` at a pose.
-fn hang(robot: &Robot, i: usize, pose: &Pose, up_w: Vec3, rope: Rope) -> HangingCable {
-    let cable = &robot.cables[i];
-    HangingCable::between(pose.point_w(&cable.attachment_p), cable.anchor_w, up_w, rope)
+impl LoadedCable {
+    /// Cable `i` as a static model sees it, with the load that it has at a pose.
+    fn at(robot: &Robot, i: usize, pose: &Pose, model: StaticModel) -> Self {
+        let cable = &robot.cables[i];
+        let mut load = robot.line_load(i, &(cable.anchor_w - pose.point_w(&cable.attachment_p)));
+        if model != StaticModel::Catenary {
+            load.size = 0.0;
+        }
+        let axial_stiffness = cable.material.axial_stiffness;
+        Self { attachment_p: cable.attachment_p, anchor_w: cable.anchor_w, axial_stiffness, load }
+    }
+
+    /// All cables.
+    fn all(robot: &Robot, pose: &Pose, model: StaticModel) -> Vec<Self> {
+        (0..robot.cables.len()).map(|i| Self::at(robot, i, pose, model)).collect()
+    }
+
+    /// Hung from the platform at a pose with an unstrained length [m].
+    fn hang(&self, pose: &Pose, unstrained_length: f64) -> HangingCable {
+        let (weight_per_length, axial_stiffness) = (self.load.size, self.axial_stiffness);
+        let rope = Rope { unstrained_length, weight_per_length, axial_stiffness };
+        HangingCable::between(pose.point_w(&self.attachment_p), self.anchor_w, self.load.up_w, rope)
+    }
 }
 
 /// Wrench (force, moment about the platform origin) of a force at a lever arm.
@@ -284,10 +313,10 @@ pub(crate) fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
     Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-/// Wrench of gravity and of the load on the platform about its origin, at a pose.
+/// Wrench of gravity, wind and load on the platform about its origin, at a pose.
 fn load_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
     let Load { force_w, moment_w, point_p } = &robot.load;
-    wrench_of(&(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p))
+    wrench_of(&robot.force_at_mass_centre_w(), &(pose.rot_wp * robot.platform.center_of_mass_p))
         + wrench_of(force_w, &(pose.rot_wp * point_p))
         + Vec6::new(0.0, 0.0, 0.0, moment_w.x, moment_w.y, moment_w.z)
 }
@@ -295,7 +324,7 @@ fn load_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
 /// The size of what acts on the platform [N]: weight, force, and moment over ℓ.
 fn load_size(robot: &Robot) -> f64 {
     let Load { force_w, moment_w, .. } = &robot.load;
-    robot.platform.mass * robot.gravity_w.norm() + force_w.norm() + moment_w.norm() / robot.platform_length()
+    robot.force_at_mass_centre_w().norm() + force_w.norm() + moment_w.norm() / robot.platform_length()
 }
 
 /// A wrench with its moments divided by ℓ: one unit throughout.
@@ -327,7 +356,7 @@ pub(crate) fn add_lever_term(total: &mut Mat6, force: &Vec3, lever: &Vec3) {
 /// block, which makes the whole symmetric (theory, section 14).
 pub(crate) fn add_load_terms(total: &mut Mat6, robot: &Robot, pose: &Pose) {
     let Load { force_w, moment_w, point_p } = &robot.load;
-    add_lever_term(total, &(robot.gravity_w * robot.platform.mass), &(pose.rot_wp * robot.platform.center_of_mass_p));
+    add_lever_term(total, &robot.force_at_mass_centre_w(), &(pose.rot_wp * robot.platform.center_of_mass_p));
     add_lever_term(total, force_w, &(pose.rot_wp * point_p));
     let mut view = total.fixed_view_mut::<3, 3>(3, 3);
     view += skew(moment_w) * 0.5;
@@ -376,9 +405,8 @@ fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec
 /// A number of lengths that is not that of the cables, or a length that is not positive.
 pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Result<Vec6, StaticsError> {
     check_lengths(robot, lengths)?;
-    let up_w = robot.up_w();
     let forces = lengths.iter().enumerate().map(|(i, &length)| {
-        let cable = hang(robot, i, pose, up_w, rope(robot, i, length, model));
+        let cable = LoadedCable::at(robot, i, pose, model).hang(pose, length);
         (cable.force_on_start_w(), cable.start_w - pose.position_w)
     });
     Ok(balance(robot, pose, forces).0)

@@ -43,6 +43,11 @@ pub enum Warning {
         /// The limit [N].
         value: f64,
     },
+    /// Wind, and ropes of which the file does not say how it pulls at them.
+    NoDrag {
+        /// Names of the ropes.
+        ropes: Vec<String>,
+    },
     /// An equilibrium that the platform leaves by itself.
     Unstable {
         /// Directions that are not opposed.
@@ -101,7 +106,7 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
         return Some(static_sag::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);
     }
     let m = sag.mass_per_length;
-    let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
+    let axes = LocalAxes::of_cable(robot, i, state);
     // The first root of the sagging string lies below its third, 3π/l.
     let highest = TAU * 3.0 * sag.string_frequency_hz();
     let closed = ClosedForm::new(sag, axes, robot.cables[i].material.damping, true);
@@ -142,6 +147,15 @@ impl fmt::Display for Warning {
                     f,
                     "cable \"{cable}\" has {most} {tension:.1} N, {side} than its `{name}`, {value} N: choose another \
                      pose, load or lengths, or another limit"
+                )
+            }
+            Self::NoDrag { ropes } => {
+                let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
+                write!(
+                    f,
+                    "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope has \
+                     1.0 to 1.2), or 0 for none",
+                    ropes.join(", ")
                 )
             }
             Self::Unstable { directions, least_stiffness } => write!(
@@ -201,7 +215,18 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
         } else if state.is_slack() {
             warnings.push(Warning::Slack { cable: cable.name.clone() });
         }
-        warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, state.chord()).margin(state)));
+        warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
+    }
+    if robot.wind.velocity_w.norm() > 0.0 {
+        let mut ropes: Vec<String> = Vec::new();
+        for material in robot.cables.iter().map(|cable| &cable.material).filter(|rope| rope.drag_width.is_none()) {
+            if !ropes.contains(&material.name) {
+                ropes.push(material.name.clone());
+            }
+        }
+        if !ropes.is_empty() {
+            warnings.push(Warning::NoDrag { ropes });
+        }
     }
     if let Stability::Unstable { least_stiffness, directions } = equilibrium.stability {
         warnings.push(Warning::Unstable { directions, least_stiffness });

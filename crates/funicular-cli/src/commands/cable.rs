@@ -91,7 +91,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
     let stiffness = EndStiffness::new(robot, i, state, model, args.in_plane_only, args.range.to_hz)
         .map_err(|reason| DynamicsError::of_cable(&args.name, model, reason))?;
     let sag = Sag::of(robot, i, state);
-    let axes = LocalAxes::of_chord(&state.attachment_w, &state.anchor_w, &robot.up_w());
+    let axes = LocalAxes::of_cable(robot, i, state);
     let values = curve(&stiffness, &axes, &frequency_hz)?;
     let part = |of: fn(&LocalStiffness<Complex>) -> Complex| Curve {
         real: values.iter().map(|k| of(k).re + 0.0).collect(),

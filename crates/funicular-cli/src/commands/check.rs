@@ -3,7 +3,7 @@
 use crate::output::Results;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Cable, Damping, Freedoms, Load, Robot, State, TensionLimits};
+use funicular::robot::{Cable, Damping, Freedoms, Load, Robot, State, TensionLimits, Wind};
 use serde::Serialize;
 use std::cmp::Ordering;
 use std::fmt::Write;
@@ -20,6 +20,8 @@ pub(crate) struct Checked {
     /// Absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     load: Option<LoadRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wind: Option<WindRow>,
     materials: Vec<MaterialRow>,
     cables: Vec<CableRow>,
     /// `lengths`, `pose` or `none`.
@@ -41,6 +43,8 @@ struct PlatformRow {
     mass_kg: f64,
     inertia_kg_m2: [[f64; 3]; 3],
     center_of_mass_m: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drag_area_m2: Option<f64>,
 }
 
 /// A load on the platform.
@@ -68,6 +72,26 @@ impl LoadRow {
     }
 }
 
+/// The wind.
+#[derive(Serialize)]
+pub(crate) struct WindRow {
+    velocity_m_s: [f64; 3],
+    air_density_kg_m3: f64,
+}
+
+impl WindRow {
+    /// `None` in still air.
+    pub(crate) fn of(wind: &Wind) -> Option<Self> {
+        (wind.velocity_w.norm() > 0.0)
+            .then(|| Self { velocity_m_s: wind.velocity_w.into(), air_density_kg_m3: wind.air_density })
+    }
+
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        format!("({}) m/s, air of {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
+    }
+}
+
 #[derive(Serialize, PartialEq)]
 struct MaterialRow {
     name: String,
@@ -81,6 +105,9 @@ struct MaterialRow {
     limits: LimitRow,
     #[serde(skip_serializing_if = "Option::is_none")]
     breaking_load_n: Option<f64>,
+    /// Drag coefficient times diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drag_width_m: Option<f64>,
 }
 
 /// Limits of tension, as far as there are any.
@@ -117,6 +144,9 @@ struct CableRow {
     /// Its own or those of its rope.
     #[serde(flatten)]
     limits: LimitRow,
+    /// Besides weight and wind; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load_n_per_m: Option<[f64; 3]>,
 }
 
 #[derive(Serialize)]
@@ -141,6 +171,7 @@ pub(crate) fn run(robot: Robot) -> Checked {
             viscous_damping_n_s_m2,
             limits: LimitRow::of(rope.tension_limits),
             breaking_load_n: rope.breaking_load,
+            drag_width_m: rope.drag_width,
         };
         if !materials.contains(&row) {
             materials.push(row);
@@ -161,6 +192,7 @@ pub(crate) fn run(robot: Robot) -> Checked {
             attachment_m: cable.attachment_p.into(),
             unstrained_length_m: lengths.map(|lengths| lengths[i]),
             limits: LimitRow::of(cable.limits()),
+            load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
         })
         .collect();
     let (state, pose) = match &robot.state {
@@ -193,8 +225,10 @@ pub(crate) fn run(robot: Robot) -> Checked {
             mass_kg: robot.platform.mass,
             inertia_kg_m2: std::array::from_fn(|i| std::array::from_fn(|j| inertia[(i, j)])),
             center_of_mass_m: robot.platform.center_of_mass_p.into(),
+            drag_area_m2: (robot.platform.drag_area > 0.0).then_some(robot.platform.drag_area),
         },
         load: LoadRow::of(&robot.load),
+        wind: WindRow::of(&robot.wind),
         materials,
         cables,
         state,
@@ -293,6 +327,12 @@ impl Results for Checked {
         if let Some(load) = &self.load {
             say(format!("  load        {}", load.text()));
         }
+        if let Some(wind) = &self.wind {
+            say(format!("  wind        {}", wind.text()));
+        }
+        if let Some(area) = platform.drag_area_m2 {
+            say(format!("  drag area   {} m² (drag coefficient times area), in the centre of mass", short(area, 4)));
+        }
         let state = match &self.pose {
             Some(pose) => format!(
                 "pose ({}) m, roll, pitch, yaw ({})°",
@@ -319,11 +359,15 @@ impl Results for Checked {
             "unstrained_length_m",
             "minimum_tension_n",
             "maximum_tension_n",
+            "load_x_n_per_m",
+            "load_y_n_per_m",
+            "load_z_n_per_m",
         ])?;
         for c in &self.cables {
             let LimitRow { minimum_tension_n, maximum_tension_n } = c.limits;
             let limits = (minimum_tension_n, maximum_tension_n);
-            out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m, limits))?;
+            let load = c.load_n_per_m.unwrap_or_default();
+            out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m, limits, load))?;
         }
         Ok(())
     }
@@ -342,8 +386,12 @@ impl Checked {
             "least T [N]",
             "greatest T [N]",
             "breaks at [N]",
+            "drag width [m]",
         ];
-        let mut ropes = Table::new(&header[..if limited { 8 } else { 5 }]);
+        let dragged = self.materials.iter().any(|rope| rope.drag_width_m.is_some());
+        let mut columns = header[..if limited { 8 } else { 5 }].to_vec();
+        columns.extend(dragged.then_some(header[8]));
+        let mut ropes = Table::new(&columns);
         for rope in &self.materials {
             let mut row = vec![
                 rope.name.clone(),
@@ -356,6 +404,9 @@ impl Checked {
                 row.extend(rope.limits.cells());
                 row.push(or_none(rope.breaking_load_n));
             }
+            if dragged {
+                row.push(or_none(rope.drag_width_m));
+            }
             ropes.row(row);
         }
         ropes.to_string()
@@ -365,7 +416,10 @@ impl Checked {
         let limited = self.cables.iter().any(|cable| cable.limits.cells().iter().any(|cell| cell != table::NONE));
         let header =
             ["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]", "least T [N]", "greatest T [N]"];
-        let mut cables = Table::new(&header[..if limited { 7 } else { 5 }]).text_columns(&[1]);
+        let loaded = self.cables.iter().any(|cable| cable.load_n_per_m.is_some());
+        let mut columns = header[..if limited { 7 } else { 5 }].to_vec();
+        columns.extend(loaded.then_some("load [N/m]"));
+        let mut cables = Table::new(&columns).text_columns(&[1]);
         for cable in &self.cables {
             let point = |values: &[f64; 3]| {
                 values.iter().fold(String::new(), |mut text, value| {
@@ -382,6 +436,9 @@ impl Checked {
             ];
             if limited {
                 row.extend(cable.limits.cells());
+            }
+            if loaded {
+                row.push(cable.load_n_per_m.as_ref().map_or_else(|| table::NONE.to_owned(), point));
             }
             cables.row(row);
         }

@@ -1,7 +1,7 @@
 //! `statics`: the equilibrium.
 
 use crate::args::StaticsArgs;
-use crate::commands::check::LoadRow;
+use crate::commands::check::{LoadRow, WindRow};
 use crate::output::Results;
 use crate::state::{self, AtRest, SagNumbers, static_model_name};
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
@@ -21,6 +21,9 @@ pub(crate) struct Statics {
     /// On the platform; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     load: Option<LoadRow>,
+    /// Absent in still air.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wind: Option<WindRow>,
     pose: PoseRow,
     /// Distance from the pose asked; absent where the cables are as many as the freedoms, or lengths were given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -118,7 +121,7 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
             chord_m: cable.chord(),
             sag: SagNumbers::of(&Sag::of(robot, i, cable)),
             force_on_platform_n: cable.force_on_platform_w.into(),
-            limits: limited.then(|| LimitNumbers::of(&TensionRange::of(robot, i, cable.chord()).margin(cable))),
+            limits: limited.then(|| LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable))),
         })
         .collect();
     let (stable, least_stiffness_n_per_m) = match equilibrium.stability {
@@ -133,6 +136,7 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
         static_model: static_model_name(equilibrium.model),
         mass_kg: robot.platform.mass,
         load: LoadRow::of(&robot.load),
+        wind: WindRow::of(&robot.wind),
         pose: PoseRow {
             position_m: pose.position_w.into(),
             quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
@@ -196,11 +200,12 @@ impl Results for Statics {
         };
         let rule = self.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
         let load = self.load.as_ref().map_or_else(String::new, |load| format!(", {}", load.text()));
+        let wind = self.wind.as_ref().map_or_else(String::new, |wind| format!(", wind {}", wind.text()));
         let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
             format!("  nearest pose that the cables can hold, {} m from the one asked\n", short(distance, 4))
         });
         format!(
-            "{}: equilibrium with {} cables, {} kg{load}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
+            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
              {cables}\n{stability}. Residual {:.1e} after {}.\n",
             self.robot,
             self.static_model,

@@ -7,7 +7,7 @@ use super::figure::response::{Curve, Marks, sampled};
 use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
-use crate::commands::check::LoadRow;
+use crate::commands::check::{LoadRow, WindRow};
 use crate::commands::modes::{check_count, uncertified};
 use crate::state::AtRest;
 use anyhow::Context as _;
@@ -172,6 +172,9 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
     }
     if let Some(load) = LoadRow::of(&robot.load) {
         key.push(("load", load.text()));
+    }
+    if let Some(wind) = WindRow::of(&robot.wind) {
+        key.push(("wind", wind.text()));
     }
     key.push(("tensions at the platform", format!("{} to {} N", significant(least, 4), significant(most, 4))));
     if let Some(first) = found.modes.first() {

@@ -31,7 +31,14 @@ pub(super) fn section(published: &Published) -> Section {
 /// The sag of the paper's Fig. 2 cable with a mass per length [kg/m].
 pub(super) fn fig2_sag(of: &Fig2, mass_per_length: f64) -> Sag {
     let cos = of.inclination_deg.to_radians().cos();
-    Sag::new(of.chord_m, cos, of.tension_n, of.youngs_modulus_pa * of.area_m2, mass_per_length, of.gravity_m_s2)
+    Sag::new(
+        of.chord_m,
+        cos,
+        of.tension_n,
+        of.youngs_modulus_pa * of.area_m2,
+        mass_per_length,
+        mass_per_length * of.gravity_m_s2,
+    )
 }
 
 fn fig2(of: &Fig2, upper_end_moves: bool, damping: Damping) -> ClosedForm {
@@ -75,7 +82,7 @@ fn bessel(published: &Published, row: &BesselRow) -> Vec<Row> {
     let weight = of.mass_kg_per_m * of.gravity_m_s2 * of.length_m;
     // Inextensible: τ from the catenary's limit, l·(H/x) = w l/ln(T_B/T_A).
     let tension = weight / f64::ln(1.0 + weight / row.lower_tension_n);
-    let sag = Sag::new(of.length_m, 0.0, tension, 1e9, of.mass_kg_per_m, of.gravity_m_s2);
+    let sag = Sag::new(of.length_m, 0.0, tension, 1e9, of.mass_kg_per_m, of.mass_kg_per_m * of.gravity_m_s2);
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &(Vec3::z() * of.length_m), &Vec3::z());
     let cable = ClosedForm::new(sag, axes, Damping::Ratio(0.0), false);
     let case = Case { name: format!("vertical, {} N below", row.lower_tension_n), source: &of.source };

@@ -278,7 +278,7 @@ mod tests {
     use super::*;
 
     fn fig2(xi: f64) -> ClosedForm {
-        let sag = Sag::new(6.848, 36f64.to_radians().cos(), 77.6, 20e9 * 1.2566e-5, 0.067, 9.81);
+        let sag = Sag::new(6.848, 36f64.to_radians().cos(), 77.6, 20e9 * 1.2566e-5, 0.067, 0.067 * 9.81);
         let axes = LocalAxes::of_chord(
             &crate::math::Vec3::zeros(),
             &crate::math::Vec3::new(36f64.to_radians().cos(), 0.0, 36f64.to_radians().sin()),

@@ -17,6 +17,7 @@
 //! | `plane_offset_m` | distance of that plane from the world's origin along the normal (z, y or x, or `plane_normal`) | 0 |
 //! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; if planar also one number, the moment about the normal, the only one that counts | required, refused of a point mass |
 //! | `center_of_mass_m` | in the platform frame | `[0, 0, 0]` |
+//! | `drag_area_m2` | drag coefficient times area; the wind pushes at the centre of mass | 0 |
 //! | **`[materials.NAME]`** | | one or more |
 //! | `youngs_modulus_pa` with `diameter_m` or `area_m2` | axial stiffness as `E A` | one of the two ways |
 //! | `axial_stiffness_n` | axial stiffness EA itself | one of the two ways |
@@ -24,17 +25,23 @@
 //! | `damping_ratio` or `viscous_damping_n_s_m2` | ξ in \[0, 0.5), or c ≥ 0 | `damping_ratio = 0` |
 //! | `minimum_tension_n`, `maximum_tension_n` | limits of the tension in these cables, both ends and between | none |
 //! | `breaking_load_n` | tension at which the rope breaks; the maximum where none is given | none |
+//! | `drag_coefficient` | for wind across the rope; needs `diameter_m`, or `drag_diameter_m` where ice or a sheath makes the rope thicker | no drag |
+//! | `load_n_per_m` | dead load per unstrained length besides the weight, world axes | `[0, 0, 0]` |
 //! | **`[[cables]]`** | | one or more |
 //! | `name` | unique | required |
 //! | `material` | a NAME of `[materials.NAME]` | required |
 //! | `anchor_m` | exit point in the world frame | required |
 //! | `attachment_m` | point in the platform frame | required, zero of a point mass |
 //! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
+//! | `load_n_per_m` | as of a material | that of its material |
 //! | `unstrained_length_m` | positive; all cables have one, or none | none |
 //! | **`[loads]`** | on the platform, besides its weight; fixed in the world | none |
 //! | `force_n` | force, world axes | `[0, 0, 0]` |
 //! | `point_m` | where it acts, platform frame | `[0, 0, 0]` |
 //! | `moment_n_m` | moment, world axes; refused of a point mass, as `point_m` | `[0, 0, 0]` |
+//! | **`[wind]`** | steady and uniform, on ropes with a `drag_coefficient` and on the platform | still air |
+//! | `velocity_m_s` | velocity of the air, world axes | required |
+//! | `air_density_kg_m3` | positive | 1.225 |
 //! | **`[state]`** | a pose; not together with lengths | none |
 //! | `position_m` | platform origin in the world frame | required |
 //! | `roll_pitch_yaw_deg` | R = Rz(yaw) Ry(pitch) Rx(roll) | `[0, 0, 0]` |
@@ -49,11 +56,11 @@ mod materials;
 mod platform;
 mod read;
 
-use super::{Cable, Freedoms, Load, Pose, Robot, State};
+use super::{Cable, Freedoms, Load, Pose, Robot, State, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
-use read::{Key, Reader, Section, TOP, is_zero};
+use read::{Key, Reader, Section, Sign, TOP, is_zero};
 use toml::de::DeTable;
 
 /// Gravity where the file gives none [m/s²]: the rounded standard value that the publications compared with use.
@@ -68,6 +75,7 @@ const ROOT: &[Key] = &[
     Key { name: "materials", example: "[materials.rope]" },
     Key { name: "cables", example: "[[cables]]" },
     Key { name: "loads", example: "[loads]" },
+    Key { name: "wind", example: "[wind]" },
     Key { name: "state", example: "[state]" },
 ];
 
@@ -76,6 +84,12 @@ const LOADS: &[Key] = &[
     Key { name: "force_n", example: "force_n = [0.0, 0.0, -50.0]" },
     Key { name: "moment_n_m", example: "moment_n_m = [0.0, 0.0, 2.0]" },
     Key { name: "point_m", example: "point_m = [0.0, 0.0, -0.1]" },
+];
+
+/// Keys of `[wind]`.
+const WIND: &[Key] = &[
+    Key { name: "velocity_m_s", example: "velocity_m_s = [8.0, 0.0, 0.0]" },
+    Key { name: "air_density_kg_m3", example: "air_density_kg_m3 = 1.225" },
 ];
 
 /// Keys of `[state]`.
@@ -91,6 +105,7 @@ const TABLES: &[(&str, &[Key])] = &[
     ("[materials.NAME]", materials::KEYS),
     ("[[cables]]", cables::KEYS),
     ("[loads]", LOADS),
+    ("[wind]", WIND),
     ("[state]", STATE),
 ];
 
@@ -174,6 +189,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let freedoms = platform::freedoms(reader, &root);
     let platform = platform::read(reader, &root, freedoms);
     let load = read_load(reader, &root, freedoms);
+    let wind = read_wind(reader, &root);
     let materials = materials::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), freedoms);
     let state = read_state(reader, &root, cables.as_deref(), freedoms);
@@ -184,6 +200,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         gravity_w: Vec3::from(gravity?),
         platform: platform?,
         load: load?,
+        wind: wind?,
         cables,
         state: state?,
     })
@@ -212,6 +229,31 @@ fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) ->
     };
     let (force, moment, point) = (vector("force_n", "N"), vector("moment_n_m", "N m"), vector("point_m", "m"));
     Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
+}
+
+/// `[wind]`: velocity and density.
+fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
+    let Some(value) = root.get("wind") else { return Some(Wind::default()) };
+    let table = reader.table("wind", "[wind]", value)?;
+    let section = reader.open("[wind]", value.span(), table, WIND);
+    let velocity = reader.required(&section, "velocity_m_s").and_then(|v| reader.vector("velocity_m_s", "m/s", v));
+    if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
+        let speed = Vec3::from(velocity).norm();
+        if speed > Wind::FASTEST {
+            reader
+                .issue(
+                    value.span(),
+                    format!("`velocity_m_s` is a wind of {speed} m/s, it must be at most {} m/s", Wind::FASTEST),
+                )
+                .help("faster air is compressed, and drag no longer grows with its square");
+            return None;
+        }
+    }
+    let air_density = match section.get("air_density_kg_m3") {
+        Some(value) => reader.number("`air_density_kg_m3`", Sign::Positive, value),
+        None => Some(Wind::AIR_DENSITY),
+    };
+    Some(Wind { velocity_w: Vec3::from(velocity?), air_density: air_density? })
 }
 
 /// `[state]` or the cables' lengths, and what can be checked of them against the geometry.

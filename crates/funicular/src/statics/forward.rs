@@ -1,10 +1,9 @@
 //! Unstrained lengths to pose.
 
 use super::{
-    CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance, check_lengths,
-    collect, hang, load_wrench, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, wrench_of,
+    CableState, Equilibrium, LoadedCable, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance,
+    check_lengths, collect, load_wrench, residual_of, scaled, scaled_residual, scaled_wrench, start, wrench_of,
 };
-use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec3, Vec6, inertia};
 use crate::robot::{Freedoms, Pose, Robot};
@@ -55,42 +54,52 @@ pub fn forward(
 }
 
 /// Everything the search needs to know about one pose.
-struct Trial {
-    pose: Pose,
-    cables: Vec<HangingCable>,
+pub(super) struct Trial {
+    pub(super) pose: Pose,
+    pub(super) cables: Vec<HangingCable>,
     /// Wrench on the platform in its coordinates, scaled.
-    wrench: Vec6,
-    residual: f64,
+    pub(super) wrench: Vec6,
+    pub(super) residual: f64,
     /// What `residual` has to fall below: [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables
     /// under very small loads.
-    limit: f64,
-    energy: f64,
+    pub(super) limit: f64,
+    pub(super) energy: f64,
 }
 
 /// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of some chords' length, a few operations.
 const CHORD_ROUNDING: f64 = 8.0;
 
-struct Search<'a> {
+/// The robot with its lengths: energy, wrench and stiffness at any pose.
+pub(super) struct Search<'a> {
     robot: &'a Robot,
-    ropes: Vec<Rope>,
-    up_w: Vec3,
+    lengths: &'a [f64],
+    /// The cables; the drag of the wind is that of one pose, so that all loads have a potential.
+    loaded: Vec<LoadedCable>,
     ell: f64,
-    freedoms: Freedoms,
+    pub(super) freedoms: Freedoms,
+    /// The platform may turn; else its orientation is held.
+    pub(super) turns: bool,
 }
 
-impl Search<'_> {
-    fn at(&self, pose: Pose) -> Trial {
+impl<'a> Search<'a> {
+    /// With the drag that the cables have at `pose`.
+    pub(super) fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, pose: &Pose) -> Self {
+        let loaded = LoadedCable::all(robot, pose, model);
+        Self { robot, lengths, loaded, ell: robot.platform_length(), freedoms: robot.platform.freedoms, turns: true }
+    }
+
+    pub(super) fn at(&self, pose: Pose) -> Trial {
         let cables: Vec<HangingCable> =
-            self.ropes.iter().enumerate().map(|(i, &rope)| hang(self.robot, i, &pose, self.up_w, rope)).collect();
+            self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length)).collect();
         let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
-        let weight_w = self.robot.gravity_w * self.robot.platform.mass;
         let com_w = pose.point_w(&self.robot.platform.center_of_mass_p);
         let loaded_w = pose.point_w(&self.robot.load.point_p);
-        let of_loads = weight_w.dot(&com_w) + self.robot.load.force_w.dot(&loaded_w);
+        let of_loads = self.robot.force_at_mass_centre_w().dot(&com_w) + self.robot.load.force_w.dot(&loaded_w);
         let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - of_loads;
+        let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
         let residual = scaled_residual(self.robot, &wrench, force_scale);
-        let stiffest: f64 = self.ropes.iter().map(|rope| rope.axial_stiffness).sum();
+        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness).sum();
         let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
         let limit = RESIDUAL_LIMIT.max(rounding);
         let wrench = self.freedoms.reduced(&scaled_wrench(&wrench, self.ell));
@@ -98,12 +107,14 @@ impl Search<'_> {
     }
 
     /// Symmetric part of the tangent stiffness in the platform's coordinates, scaled; a unit diagonal beyond them.
-    fn stiffness(&self, trial: &Trial) -> Mat6 {
+    pub(super) fn stiffness(&self, trial: &Trial) -> Mat6 {
         let parts =
             trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
         let mut total = self.freedoms.reduced_matrix(&scaled(&((total + total.transpose()) * 0.5), self.ell));
-        for row in self.freedoms.count()..6 {
+        for row in (0..6).filter(|&k| k >= self.freedoms.count() || !self.turns && self.freedoms.is_rotation(k)) {
+            total.row_mut(row).fill(0.0);
+            total.column_mut(row).fill(0.0);
             total[(row, row)] = 1.0;
         }
         total
@@ -115,82 +126,38 @@ impl Search<'_> {
         self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.ell
     }
 
-    fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
+    pub(super) fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
         let step = self.freedoms.expanded(step);
         pose.moved(&Vec3::new(step[0], step[1], step[2]), &(Vec3::new(step[3], step[4], step[5]) / self.ell))
     }
 }
 
-fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> Result<Equilibrium, StaticsError> {
-    let search = Search {
-        robot,
-        ropes: lengths.iter().enumerate().map(|(i, &length)| rope(robot, i, length, model)).collect(),
-        up_w: robot.up_w(),
-        ell: robot.platform_length(),
-        freedoms: robot.platform.freedoms,
-    };
-    // A step may turn the platform by half a radian and move it by a fifth of the mean cable.
-    let reach = 0.2 * lengths.iter().sum::<f64>() / lengths.len() as f64;
-    let mut here = search.at(start);
-    let mut shift = 0.0;
-    let (mut refused, mut exhausted) = (false, false);
-    let mut escapes = 0;
-    let mut iterations = 0;
-    while iterations < MOST_ITERATIONS {
-        iterations += 1;
-        let stiffness = search.stiffness(&here);
-        let near = here.residual < here.limit;
-        if near {
-            // The last digits are those of Newton's method alone.
-            shift = 0.0;
-        }
-        if here.residual < 1e-13 || (near && exhausted) {
-            // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
-            if escapes < 3
-                && inertia::negative_eigenvalues(&stiffness, search.freedoms.count()) > 0
-                && let Some(lower) = descend_from_saddle(&search, &here, &stiffness)
-            {
-                escapes += 1;
-                (here, shift, exhausted) = (lower, 0.0, false);
-                continue;
-            }
-            break;
-        }
-        let diagonal = stiffness.diagonal().amax();
-        let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
-        let motion = search.freedoms.expanded(&step);
-        let length =
-            (motion.fixed_rows::<3>(0).norm() / reach).max(motion.fixed_rows::<3>(3).norm() / (0.5 * search.ell));
-        let step = if length > 1.0 { step / length } else { step };
-        let next = search.at(search.moved(&here.pose, &step));
-        // Near rest the energy drowns in rounding; there the residual decides.
-        let expected = step.dot(&here.wrench);
-        let lower = next.energy - search.work(&step) < here.energy - 1e-4 * expected;
-        let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
-        if next.residual.is_finite() && (lower || quieter) {
-            // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
-            // necessary still is.
-            shift *= if length > 1.0 {
-                1.0
-            } else if refused {
-                0.5
-            } else {
-                0.1
-            };
-            (refused, exhausted) = (false, false);
-            if shift < 1e-12 * diagonal {
-                shift = 0.0;
-            }
-            here = next;
-        } else if near {
-            // Rounding: nothing better is to be had.
-            exhausted = true;
-        } else {
-            shift = (if refused { 10.0 } else { 3.0 } * shift).max(1e-6 * diagonal);
-            refused = true;
-            if shift > 1e9 * diagonal {
+/// Limit of rounds in which the drag of the wind follows the cables; 3 to 8 are seen, up to 20 in a hurricane.
+const MOST_ROUNDS: usize = 100;
+
+/// The stable equilibrium that elastic cables come to from a start.
+pub(super) fn elastic(
+    robot: &Robot,
+    lengths: &[f64],
+    model: StaticModel,
+    start: Pose,
+) -> Result<Equilibrium, StaticsError> {
+    let mut search = Search::new(robot, lengths, model, &start);
+    let (mut here, mut iterations) = search.rest(start);
+    if robot.wind_turns_with_cables() {
+        // At rest under the drag of one pose, the platform meets that of another; the two draw near, each round by the
+        // part that the drag's turn is of the stiffness.
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_ROUNDS {
+            search = Search::new(robot, lengths, model, &here.pose);
+            here = search.at(here.pose);
+            if here.residual < 1e-13 || (here.residual < here.limit && here.residual > 0.5 * last) {
                 break;
             }
+            last = here.residual;
+            let more;
+            (here, more) = search.rest(here.pose);
+            iterations += more;
         }
     }
     if here.residual > here.limit || here.residual.is_nan() {
@@ -199,6 +166,81 @@ fn elastic(robot: &Robot, lengths: &[f64], model: StaticModel, start: Pose) -> R
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
     Ok(collect(robot, here.pose, model, here.cables, lengths, iterations))
+}
+
+impl Search<'_> {
+    /// A step cut to what may be taken at once, and how many times that it was: half a radian, a fifth of the mean cable.
+    pub(super) fn limited(&self, step: &Vec6) -> (Vec6, f64) {
+        let reach = 0.2 * self.lengths.iter().sum::<f64>() / self.lengths.len() as f64;
+        let motion = self.freedoms.expanded(step);
+        let length =
+            (motion.fixed_rows::<3>(0).norm() / reach).max(motion.fixed_rows::<3>(3).norm() / (0.5 * self.ell));
+        (if length > 1.0 { step / length } else { *step }, length)
+    }
+
+    /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
+    pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
+        let mut here = self.at(start);
+        let mut shift = 0.0;
+        let (mut refused, mut exhausted) = (false, false);
+        let mut escapes = 0;
+        let mut iterations = 0;
+        while iterations < MOST_ITERATIONS {
+            iterations += 1;
+            let stiffness = self.stiffness(&here);
+            let near = here.residual < here.limit;
+            if near {
+                // The last digits are those of Newton's method alone.
+                shift = 0.0;
+            }
+            if here.residual < 1e-13 || (near && exhausted) {
+                // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
+                if escapes < 3
+                    && inertia::negative_eigenvalues(&stiffness, self.freedoms.count()) > 0
+                    && let Some(lower) = descend_from_saddle(self, &here, &stiffness)
+                {
+                    escapes += 1;
+                    (here, shift, exhausted) = (lower, 0.0, false);
+                    continue;
+                }
+                break;
+            }
+            let diagonal = stiffness.diagonal().amax();
+            let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
+            let (step, length) = self.limited(&step);
+            let next = self.at(self.moved(&here.pose, &step));
+            // Near rest the energy drowns in rounding; there the residual decides.
+            let expected = step.dot(&here.wrench);
+            let lower = next.energy - self.work(&step) < here.energy - 1e-4 * expected;
+            let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
+            if next.residual.is_finite() && (lower || quieter) {
+                // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
+                // necessary still is.
+                shift *= if length > 1.0 {
+                    1.0
+                } else if refused {
+                    0.5
+                } else {
+                    0.1
+                };
+                (refused, exhausted) = (false, false);
+                if shift < 1e-12 * diagonal {
+                    shift = 0.0;
+                }
+                here = next;
+            } else if near {
+                // Rounding: nothing better is to be had.
+                exhausted = true;
+            } else {
+                shift = (if refused { 10.0 } else { 3.0 } * shift).max(1e-6 * diagonal);
+                refused = true;
+                if shift > 1e9 * diagonal {
+                    break;
+                }
+            }
+        }
+        (here, iterations)
+    }
 }
 
 /// Solves `(K + shift) step = wrench` with the least shift that makes the matrix positive definite.

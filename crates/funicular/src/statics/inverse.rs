@@ -2,8 +2,8 @@
 
 use super::forward::{collect_ideal, straight_tensions};
 use super::{
-    Equilibrium, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute, hang,
-    load_wrench, rope, scaled_residual, scaled_wrench, wrench_of,
+    Equilibrium, LoadedCable, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute,
+    load_wrench, scaled_residual, scaled_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
@@ -40,12 +40,11 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     }
     robot.platform.freedoms.check(pose)?;
     let mut load = load_wrench(robot, pose);
-    if model == StaticModel::Catenary {
-        for cable in &robot.cables {
-            let lever = pose.rot_wp * cable.attachment_p;
-            let chord = (cable.anchor_w - pose.position_w - lever).norm();
-            load += wrench_of(&(robot.gravity_w * (0.5 * cable.material.mass_per_length * chord)), &lever);
-        }
+    let loaded = LoadedCable::all(robot, pose, model);
+    for cable in &loaded {
+        let lever = pose.rot_wp * cable.attachment_p;
+        let chord = (cable.anchor_w - pose.position_w - lever).norm();
+        load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &lever);
     }
     let tensions = straight_tensions(robot, pose, &load)?;
     match model {
@@ -61,10 +60,10 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
                     chord / (1.0 + tensions[i] / cable.material.axial_stiffness)
                 })
                 .collect();
-            let hanging = hang_all(robot, pose, &lengths, model);
+            let hanging = hang_all(&loaded, pose, &lengths);
             Ok(collect(robot, *pose, model, hanging, &lengths, 0))
         }
-        StaticModel::Catenary => sagging(robot, pose, &tensions),
+        StaticModel::Catenary => sagging(robot, pose, &loaded, &tensions),
     }
 }
 
@@ -77,24 +76,22 @@ fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
 }
 
-fn hang_all(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Vec<HangingCable> {
-    let up_w = robot.up_w();
-    lengths.iter().enumerate().map(|(i, &length)| hang(robot, i, pose, up_w, rope(robot, i, length, model))).collect()
+fn hang_all(loaded: &[LoadedCable], pose: &Pose, lengths: &[f64]) -> Vec<HangingCable> {
+    loaded.iter().zip(lengths).map(|(cable, &length)| cable.hang(pose, length)).collect()
 }
 
-fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, StaticsError> {
+fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64]) -> Result<Equilibrium, StaticsError> {
     let ell = robot.platform_length();
     let count = robot.cables.len();
     let chords: Vec<f64> = robot.cables.iter().map(|c| (c.anchor_w - pose.point_w(&c.attachment_p)).norm()).collect();
-    let weights: Vec<f64> =
-        (0..count).map(|i| chords[i] * robot.cables[i].material.mass_per_length * robot.gravity_w.norm()).collect();
+    let weights: Vec<f64> = loaded.iter().zip(&chords).map(|(cable, chord)| chord * cable.load.size).collect();
     let mut lengths = chords.clone();
     for i in 0..count {
         // A cable that straight statics finds pushing starts as a deeply sagging one.
         let tension = straight[i].max(0.25 * weights[i]).max(1e-9 * robot.cables[i].material.axial_stiffness);
-        lengths[i] = length_for_tension(robot, pose, i, lengths[i], tension);
+        lengths[i] = length_for_tension(&loaded[i], pose, lengths[i], tension);
     }
-    let mut hanging = hang_all(robot, pose, &lengths, StaticModel::Catenary);
+    let mut hanging = hang_all(loaded, pose, &lengths);
     let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
     let mut iterations = 0;
     let mut damping = 1.0;
@@ -112,10 +109,10 @@ fn sagging(robot: &Robot, pose: &Pose, straight: &[f64]) -> Result<Equilibrium, 
                 let cable = &hanging[i];
                 let tension = cable.catenary.parallel_tension();
                 let wanted = tension + damping * change[i] * cable.catenary.parallel_tension_by_length();
-                length_for_tension(robot, pose, i, lengths[i], wanted.max(0.2 * tension))
+                length_for_tension(&loaded[i], pose, lengths[i], wanted.max(0.2 * tension))
             })
             .collect();
-        let next = hang_all(robot, pose, &trial, StaticModel::Catenary);
+        let next = hang_all(loaded, pose, &trial);
         let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
         if next_residual < residual {
             (hanging, wrench, residual, lengths) = (next, next_wrench, next_residual, trial);
@@ -153,21 +150,20 @@ fn unbalanced(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f6
     (wrench, scaled_residual(robot, &wrench, scale))
 }
 
-/// The unstrained length [m] at which cable `i` has the parallel tension `wanted` > 0 [N], which falls as it grows.
-fn length_for_tension(robot: &Robot, pose: &Pose, i: usize, from: f64, wanted: f64) -> f64 {
-    let up_w = robot.up_w();
+/// The unstrained length [m] at which a cable has the parallel tension `wanted` > 0 [N], which falls as it grows.
+fn length_for_tension(cable: &LoadedCable, pose: &Pose, from: f64, wanted: f64) -> f64 {
     let (mut low, mut high) = (0.0, f64::INFINITY);
     let mut length = from;
     for _ in 0..80 {
-        let cable = hang(robot, i, pose, up_w, rope(robot, i, length, StaticModel::Catenary)).catenary;
-        let tension = cable.parallel_tension();
+        let hung = cable.hang(pose, length).catenary;
+        let tension = hung.parallel_tension();
         if tension > wanted {
             low = length;
         } else {
             high = length;
         }
         // Taut, τ grows like c − L; sagging, like 1/√(L − c): its logarithm is between both.
-        let step = (tension / wanted).ln() * tension / cable.parallel_tension_by_length();
+        let step = (tension / wanted).ln() * tension / hung.parallel_tension_by_length();
         // Newton squares the error, and only a step on the way is wanted: what counts is the balance afterwards.
         if step.abs() <= 1e-9 * length {
             return length - step;

@@ -1,6 +1,7 @@
 //! Limits of a cable's tension: what they are where the file says nothing, and how far a state is from them.
 
 use super::CableState;
+use crate::math::Vec3;
 use crate::robot::Robot;
 
 /// Part of its weight by which a cable has to be taut where the file has no minimum: a level cable then sags by a
@@ -21,25 +22,25 @@ pub struct TensionRange {
 }
 
 impl TensionRange {
-    /// The limits of cable `i` when its chord is this long [m].
+    /// The limits of cable `i` with this chord, platform to anchor, world axes [m].
     ///
-    /// Without a `minimum_tension_n` it is the larger of 2.5 times the weight of the chord and a thousandth of the
+    /// Without a `minimum_tension_n` it is the larger of 2.5 times the weight (and other load) of the chord and a thousandth of the
     /// platform's weight; without a `maximum_tension_n` it is the rope's breaking load.
     ///
     /// # Example
     /// ```
-    /// # use funicular::{robot::Robot, statics::TensionRange};
+    /// # use funicular::{math::Vec3, robot::Robot, statics::TensionRange};
     /// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
-    /// let range = TensionRange::of(&robot, 0, 6.85);
+    /// let range = TensionRange::of(&robot, 0, &Vec3::new(4.11, 0.0, 5.48)); // 6.85 m long
     /// assert!((range.minimum - 2.5 * 0.067 * 9.81 * 6.85).abs() < 1e-12); // N
     /// assert_eq!(range.maximum, f64::INFINITY);
     /// # Ok::<(), funicular::robot::spec::SpecError>(())
     /// ```
-    pub fn of(robot: &Robot, i: usize, chord: f64) -> Self {
+    pub fn of(robot: &Robot, i: usize, chord_w: &Vec3) -> Self {
         let cable = &robot.cables[i];
         let limits = cable.limits();
         let g = robot.gravity_w.norm();
-        let taut = TAUT * cable.material.mass_per_length * g * chord;
+        let taut = TAUT * robot.line_load(i, chord_w).size * chord_w.norm();
         let minimum = limits.minimum.unwrap_or_else(|| taut.max(PART_OF_PLATFORM * robot.platform.mass * g));
         Self { minimum, maximum: limits.maximum.unwrap_or(f64::INFINITY) }
     }

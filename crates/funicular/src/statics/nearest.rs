@@ -7,8 +7,8 @@
 
 use super::limits::TensionRange;
 use super::{
-    Equilibrium, StaticModel, StaticsError, forward, hang, load_wrench, rope, scaled, scaled_wrench, tangent_stiffness,
-    wrench_of,
+    Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
+    tangent_stiffness, wrench_of,
 };
 use crate::catenary::Catenary;
 use crate::math::{DMat, Mat6, Vec3, Vec6};
@@ -143,7 +143,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
     let n = robot.cables.len();
     let mut load = load_wrench(robot, pose);
     let mut columns = DMat::zeros(6, n);
-    let mut chords = Vec::with_capacity(n);
+    let mut lines = Vec::with_capacity(n);
     for (i, cable) in robot.cables.iter().enumerate() {
         let lever = pose.rot_wp * cable.attachment_p;
         let chord_w = cable.anchor_w - pose.position_w - lever;
@@ -151,25 +151,22 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         if chord == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
-        let weight = rope(robot, i, chord, model).weight_per_length * chord;
-        load -= wrench_of(&(robot.up_w() * (0.5 * weight)), &lever);
+        let line = LoadedCable::at(robot, i, pose, model);
+        load += wrench_of(&(line.load.vector_w() * (0.5 * chord)), &lever);
         columns.set_column(i, &freedoms.reduced(&wrench_of(&(chord_w / chord), &(lever / ell))));
-        chords.push(chord);
+        lines.push((line, chord_w));
     }
     let right = -freedoms.reduced(&scaled_wrench(&load, ell));
     let balanced = columns.svd(true, true).solve(&right, 1e-9).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
     let lengths = (0..n).map(|i| {
-        let rope = rope(robot, i, chords[i], model);
+        let (line, chord_w) = &lines[i];
+        let chord = chord_w.norm();
         // Not so slack that its length would be all sag.
-        let least = TensionRange::of(robot, i, chords[i]).minimum.max(0.25 * rope.weight_per_length * chords[i]);
+        let least = TensionRange::of(robot, i, chord_w).minimum.max(0.25 * line.load.size * chord);
+        let cable = line.hang(pose, chord).catenary;
         let tension = balanced[i].max(least);
-        if rope.weight_per_length > 0.0 {
-            let cable = hang(robot, i, pose, robot.up_w(), rope);
-            let rise = cable.chord_w().dot(&robot.up_w());
-            Catenary::with_parallel_tension(cable.catenary.span(), rise, rope, tension).rope().unstrained_length
-        } else {
-            chords[i] / (1.0 + tension / rope.axial_stiffness)
-        }
+        let rise = chord_w.dot(&line.load.up_w);
+        Catenary::with_parallel_tension(cable.span(), rise, cable.rope(), tension).rope().unstrained_length
     });
     Ok(lengths.collect())
 }

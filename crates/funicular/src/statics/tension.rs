@@ -92,7 +92,7 @@ impl fmt::Display for Miss {
 /// let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(vec![400.0]))?;
 /// assert!(held.residual <= statics::RESIDUAL_LIMIT);
 /// for (i, cable) in held.cables.iter().enumerate() {
-///     assert!(TensionRange::of(&robot, i, cable.chord()).margin(cable).distance() >= -1e-6 * cable.tension_platform);
+///     assert!(TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).distance() >= -1e-6 * cable.tension_platform);
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -13,7 +13,14 @@ fn fig2_sag(mass_per_length: f64) -> (Vec3, Sag) {
     let of = |key| number(table("fig2_cable"), key);
     let (sin, cos) = of("inclination_deg").to_radians().sin_cos();
     let axial_stiffness = of("youngs_modulus_pa") * of("area_m2");
-    let sag = Sag::new(of("chord_m"), cos, of("tension_n"), axial_stiffness, mass_per_length, of("gravity_m_s2"));
+    let sag = Sag::new(
+        of("chord_m"),
+        cos,
+        of("tension_n"),
+        axial_stiffness,
+        mass_per_length,
+        mass_per_length * of("gravity_m_s2"),
+    );
     (Vec3::new(cos, 0.0, sin) * of("chord_m"), sag)
 }
 
@@ -123,7 +130,7 @@ fn a_vertical_cable_is_exact_at_rest_and_near_its_bessel_frequencies_where_it_is
         let weight = mass * gravity * length;
         // Inextensible: τ from the catenary's limit, l·(H/x) = w l/ln(T_B/T_A).
         let tension = weight / f64::ln(1.0 + weight / lower_tension);
-        let sag = Sag::new(length, 0.0, tension, 1e9, mass, gravity);
+        let sag = Sag::new(length, 0.0, tension, 1e9, mass, mass * gravity);
         let axes = LocalAxes::of_chord(&Vec3::zeros(), &(Vec3::z() * length), &Vec3::z());
         let cable = ClosedForm::new(sag, axes, Damping::Ratio(0.0), false);
         assert!((cable.undamped(0.0).out_of_plane / still - 1.0).abs() < 1e-12, "at rest it is exact");

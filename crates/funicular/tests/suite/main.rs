@@ -18,6 +18,8 @@ mod reduction;
 mod reference;
 mod response;
 mod robot_files;
+mod several;
 mod statics;
 mod tension;
 mod underconstrained;
+mod wind;

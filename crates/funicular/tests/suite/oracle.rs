@@ -142,7 +142,14 @@ fn the_closed_form_agrees_with_the_bars_where_sag_is_shallow() {
     for given in [CABLES[0], CABLES[1]] {
         let cable = cable(given);
         let chord = f64::hypot(given.0, given.1);
-        let sag = Sag::new(chord, given.0 / chord, cable.parallel_tension(), 251_327.0, MASS_PER_LENGTH, 9.81);
+        let sag = Sag::new(
+            chord,
+            given.0 / chord,
+            cable.parallel_tension(),
+            251_327.0,
+            MASS_PER_LENGTH,
+            MASS_PER_LENGTH * 9.81,
+        );
         assert!(sag.ratio() < 0.02, "{}", sag.ratio());
         let axes = LocalAxes::of_chord(&Vec3::zeros(), &Vec3::new(given.0, 0.0, given.1), &Vec3::z());
         let form = ClosedForm::new(sag, axes, Damping::Ratio(0.0), false);
@@ -165,7 +172,7 @@ fn the_warning_about_deep_sag_says_how_far_the_closed_form_is_off() {
         let with = |unstrained_length: f64| {
             let rope = Rope { unstrained_length, weight_per_length: MASS_PER_LENGTH * 9.81, axial_stiffness: ea };
             let cable = Catenary::between(chord * cos, chord * sin, rope).unwrap();
-            let sag = Sag::new(chord, cos, cable.parallel_tension(), ea, MASS_PER_LENGTH, 9.81);
+            let sag = Sag::new(chord, cos, cable.parallel_tension(), ea, MASS_PER_LENGTH, MASS_PER_LENGTH * 9.81);
             (cable, sag)
         };
         let (mut low, mut high) = (0.99 * chord, 1.2 * chord);

@@ -256,7 +256,7 @@ fn middle_is_as_far_from_the_limits_as_the_best_of_all_corners() {
             .cables
             .iter()
             .enumerate()
-            .map(|(i, cable)| TensionRange::of(&robot, i, cable.chord()).margin(cable).relative().unwrap());
+            .map(|(i, cable)| TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).relative().unwrap());
         let reached = reached.fold(f64::INFINITY, f64::min);
         // Limits that give way from both sides: corners exist until the best is passed.
         let exists = |part: f64| {
@@ -319,7 +319,7 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
 
 /// What a rule makes as small as it can.
 fn cost(robot: &Robot, held: &Equilibrium, rule: &TensionRule) -> f64 {
-    let ranges = held.cables.iter().enumerate().map(|(i, cable)| TensionRange::of(robot, i, cable.chord()));
+    let ranges = held.cables.iter().enumerate().map(|(i, cable)| TensionRange::of(robot, i, &cable.chord_w()));
     let squares = |wanted: &[f64]| tau(held).iter().zip(wanted).map(|(t, w)| (t - w).powi(2)).sum::<f64>().sqrt();
     match rule {
         TensionRule::Lowest => squares(&ranges.map(|range| range.minimum).collect::<Vec<_>>()),

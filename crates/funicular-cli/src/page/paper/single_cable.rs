@@ -34,7 +34,7 @@ enum End {
 
 fn cable(mass_per_length: f64, end: End) -> ClosedForm {
     let (sin, cos) = INCLINATION_DEG.to_radians().sin_cos();
-    let sag = Sag::new(CHORD, cos, TENSION, AXIAL_STIFFNESS, mass_per_length, GRAVITY);
+    let sag = Sag::new(CHORD, cos, TENSION, AXIAL_STIFFNESS, mass_per_length, mass_per_length * GRAVITY);
     let towards_other = Vec3::new(cos, 0.0, sin) * if end == End::Lower { 1.0 } else { -1.0 };
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &towards_other, &Vec3::z());
     ClosedForm::new(sag, axes, Damping::Ratio(DAMPING), false)

@@ -21,6 +21,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "attachment_m", example: "attachment_m = [0.1, 0.1, 0.0]" },
     Key { name: "minimum_tension_n", example: "minimum_tension_n = 50" },
     Key { name: "maximum_tension_n", example: "maximum_tension_n = 5000" },
+    Key { name: "load_n_per_m", example: "load_n_per_m = [0.0, 0.5, 0.0]" },
     Key { name: "unstrained_length_m", example: "unstrained_length_m = 6.5" },
 ];
 
@@ -111,10 +112,13 @@ fn read_one(
         // Against what it shares with its rope: each alone may be right and both together not.
         limits::check(reader, section, own.or(material.tension_limits), material.breaking_load);
     }
+    let own_load = section.get("load_n_per_m").map(|value| reader.vector("load_n_per_m", "N/m", value));
     let length_value = section.get("unstrained_length_m");
     let length = length_value.and_then(|value| reader.number("`unstrained_length_m`", Sign::Positive, value));
-    let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits).map(
-        |(((name, material), (anchor, attachment)), tension_limits)| Cable {
+    let load = own_load.map_or_else(|| material.as_ref().map(|m| m.load_per_length_w), |own| own.map(Vec3::from));
+    let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits.zip(load)).map(
+        |(((name, material), (anchor, attachment)), (tension_limits, load_per_length_w))| Cable {
+            load_per_length_w,
             name,
             material,
             anchor_w: Vec3::from(anchor),

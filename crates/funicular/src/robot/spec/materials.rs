@@ -2,6 +2,7 @@
 
 use super::limits;
 use super::read::{Key, LARGEST, Reader, SMALLEST, Section, Sign};
+use crate::math::Vec3;
 use crate::robot::{Damping, Material};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -21,6 +22,9 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "minimum_tension_n", example: "minimum_tension_n = 50" },
     Key { name: "maximum_tension_n", example: "maximum_tension_n = 5000" },
     Key { name: "breaking_load_n", example: "breaking_load_n = 12e3" },
+    Key { name: "drag_coefficient", example: "drag_coefficient = 1.2" },
+    Key { name: "drag_diameter_m", example: "drag_diameter_m = 0.005" },
+    Key { name: "load_n_per_m", example: "load_n_per_m = [0.0, 0.0, -0.5]" },
 ];
 
 const TWO_WAYS: &str = "give `youngs_modulus_pa` with one of `diameter_m` and `area_m2`, or `axial_stiffness_n` alone";
@@ -52,7 +56,8 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
 }
 
 fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Material> {
-    let axial_stiffness = axial_stiffness(reader, section);
+    let stiffness = StiffnessKeys::read(reader, section);
+    let axial_stiffness = stiffness.axial_stiffness(reader, section);
     let mass_per_length = reader
         .required(section, "mass_kg_per_m")
         .and_then(|value| reader.number("`mass_kg_per_m`", Sign::NotNegative, value));
@@ -62,6 +67,11 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     if let Some(limits) = tension_limits {
         limits::check(reader, section, limits, breaking_load.flatten());
     }
+    let drag_width = drag_width(reader, section, stiffness.diameter());
+    let load_per_length = match section.get("load_n_per_m") {
+        Some(value) => reader.vector("load_n_per_m", "N/m", value),
+        None => Some([0.0; 3]),
+    };
     Some(Material {
         name: name.to_owned(),
         axial_stiffness: axial_stiffness?,
@@ -69,60 +79,107 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         damping: damping?,
         tension_limits: tension_limits?,
         breaking_load: breaking_load?,
+        drag_width: drag_width?,
+        load_per_length_w: Vec3::from(load_per_length?),
     })
 }
 
-/// EA [N], from one of the two ways to give it.
-fn axial_stiffness(reader: &mut Reader, section: &Section) -> Option<f64> {
-    let keys = ["axial_stiffness_n", "youngs_modulus_pa", "diameter_m", "area_m2"];
-    let values = keys.map(|key| section.get(key));
-    // Numbers first: a wrong number is worth a message of its own.
-    let mut wrong = section.mistyped(&keys);
-    let mut numbers = [None; 4];
-    for i in 0..4 {
-        if let Some(value) = values[i] {
-            numbers[i] = reader.number(&format!("`{}`", keys[i]), Sign::Positive, value);
-            wrong |= numbers[i].is_none();
-        }
-    }
-    if let Some(stiffness) = values[0] {
-        let mut others = keys.into_iter().zip(values).skip(1);
-        if let Some((other, value)) = others.find_map(|(key, value)| Some((key, value?))) {
+/// Drag coefficient times diameter [m], where there is a coefficient.
+#[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
+fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>) -> Option<Option<f64>> {
+    let own = section.get("drag_diameter_m");
+    // What is wrong with the rope's own diameter has been said where its stiffness was read.
+    let of_rope = section.get("diameter_m").map(|_| rope_diameter);
+    let diameter = own.map(|value| reader.number("`drag_diameter_m`", Sign::Positive, value)).or(of_rope);
+    let Some(value) = section.get("drag_coefficient") else {
+        if let Some(own) = own {
             reader
-                .issue(value.span(), format!("`{other}` does not go with `axial_stiffness_n`"))
-                .context(stiffness.span(), "already given here")
+                .issue(own.span(), format!("{} has `drag_diameter_m`, but no `drag_coefficient`", section.label()))
+                .help("give both, for a smooth round rope `drag_coefficient = 1.2`");
+            return None;
+        }
+        return Some(None);
+    };
+    let coefficient = reader.number("`drag_coefficient`", Sign::NotNegative, value);
+    let Some(diameter) = diameter else {
+        reader
+            .issue(value.span(), format!("{} has `drag_coefficient`, but no diameter", section.label()))
+            .help("give the `drag_diameter_m` that the wind meets");
+        return None;
+    };
+    Some(Some(coefficient? * diameter?))
+}
+
+/// The numbers that say how stiff a rope is, those that are given and right.
+struct StiffnessKeys {
+    numbers: [Option<f64>; 4],
+    /// Some number is given and wrong; the issue is reported.
+    wrong: bool,
+}
+
+impl StiffnessKeys {
+    const NAMES: [&str; 4] = ["axial_stiffness_n", "youngs_modulus_pa", "diameter_m", "area_m2"];
+
+    /// Numbers first: a wrong number is worth a message of its own.
+    fn read(reader: &mut Reader, section: &Section) -> Self {
+        let mut wrong = section.mistyped(&Self::NAMES);
+        let numbers = Self::NAMES.map(|key| {
+            let value = section.get(key)?;
+            let number = reader.number(&format!("`{key}`"), Sign::Positive, value);
+            wrong |= number.is_none();
+            number
+        });
+        Self { numbers, wrong }
+    }
+
+    fn diameter(&self) -> Option<f64> {
+        self.numbers[2]
+    }
+
+    /// EA [N], from one of the two ways to give it.
+    fn axial_stiffness(&self, reader: &mut Reader, section: &Section) -> Option<f64> {
+        let Self { numbers, wrong } = *self;
+        let keys = Self::NAMES;
+        let values = keys.map(|key| section.get(key));
+        if let Some(stiffness) = values[0] {
+            let mut others = keys.into_iter().zip(values).skip(1);
+            if let Some((other, value)) = others.find_map(|(key, value)| Some((key, value?))) {
+                reader
+                    .issue(value.span(), format!("`{other}` does not go with `axial_stiffness_n`"))
+                    .context(stiffness.span(), "already given here")
+                    .help(TWO_WAYS);
+                return None;
+            }
+            return numbers[0];
+        }
+        if let (Some(diameter), Some(area)) = (values[2], values[3]) {
+            let mut both = [("diameter_m", diameter.span()), ("area_m2", area.span())];
+            both.sort_by_key(|(_, span)| span.start);
+            let [(first, first_span), (second, second_span)] = both;
+            reader
+                .issue(second_span, format!("`{second}` does not go with `{first}`"))
+                .context(first_span, "already given here")
                 .help(TWO_WAYS);
             return None;
         }
-        return numbers[0];
-    }
-    if let (Some(diameter), Some(area)) = (values[2], values[3]) {
-        let mut both = [("diameter_m", diameter.span()), ("area_m2", area.span())];
-        both.sort_by_key(|(_, span)| span.start);
-        let [(first, first_span), (second, second_span)] = both;
-        reader
-            .issue(second_span, format!("`{second}` does not go with `{first}`"))
-            .context(first_span, "already given here")
-            .help(TWO_WAYS);
-        return None;
-    }
-    if wrong {
-        return None;
-    }
-    let label = section.label();
-    let missing = match (numbers[1], numbers[2], numbers[3]) {
-        (None, None, None) => format!("{label} has no axial stiffness"),
-        (None, _, _) => format!("{label} has no `youngs_modulus_pa`"),
-        (Some(_), None, None) => {
-            format!("{label} has `youngs_modulus_pa`, but neither `diameter_m` nor `area_m2`")
+        if wrong {
+            return None;
         }
-        (Some(modulus), diameter, area) => {
-            let area = area.or(diameter.map(|d| PI * d * d / 4.0))?;
-            return product_in_limits(reader, section, modulus * area);
-        }
-    };
-    reader.issue(section.span.clone(), missing).help(TWO_WAYS);
-    None
+        let label = section.label();
+        let missing = match (numbers[1], numbers[2], numbers[3]) {
+            (None, None, None) => format!("{label} has no axial stiffness"),
+            (None, _, _) => format!("{label} has no `youngs_modulus_pa`"),
+            (Some(_), None, None) => {
+                format!("{label} has `youngs_modulus_pa`, but neither `diameter_m` nor `area_m2`")
+            }
+            (Some(modulus), diameter, area) => {
+                let area = area.or(diameter.map(|d| PI * d * d / 4.0))?;
+                return product_in_limits(reader, section, modulus * area);
+            }
+        };
+        reader.issue(section.span.clone(), missing).help(TWO_WAYS);
+        None
+    }
 }
 
 /// Both factors may be in the limits and the product not.

@@ -17,6 +17,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "plane_offset_m", example: "plane_offset_m = 0.0" },
     Key { name: "inertia_kg_m2", example: "inertia_kg_m2 = [0.1, 0.1, 0.2]" },
     Key { name: "center_of_mass_m", example: "center_of_mass_m = [0.0, 0.0, 0.0]" },
+    Key { name: "drag_area_m2", example: "drag_area_m2 = 0.5" },
     Key { name: "translational_damping_n_s_m", example: "translational_damping_n_s_m = [10.0, 10.0, 10.0]" },
     Key { name: "rotational_damping_n_m_s", example: "rotational_damping_n_m_s = [0.1, 0.1, 0.1]" },
 ];
@@ -130,6 +131,10 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
         }
         None => Some([0.0; 3]),
     };
+    let drag_area = match section.get("drag_area_m2") {
+        Some(value) => reader.number("`drag_area_m2`", Sign::NotNegative, value),
+        None => Some(0.0),
+    };
     let translational = damping(reader, &section, "translational_damping_n_s_m", "N s/m");
     let rotational = damping(reader, &section, "rotational_damping_n_m_s", "N m s");
     if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| freedoms == Some(Freedoms::PointMass)) {
@@ -142,6 +147,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
         rotational_damping_p: rotational?,
         mass: mass?,
         inertia_p: inertia?,
+        drag_area: drag_area?,
         center_of_mass_p: Vec3::from(center_of_mass?),
         freedoms: freedoms?,
     })

@@ -5,7 +5,7 @@ use crate::catenary::{Catenary, Rope};
 use crate::math::{Mat6, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::TensionRange;
-use crate::statics::{StaticModel, add_congruent, add_lever_term, hang, rope, scaled, wrench_of};
+use crate::statics::{LoadedCable, StaticModel, add_congruent, add_lever_term, scaled, wrench_of};
 
 /// A cable at the pose.
 ///
@@ -38,18 +38,17 @@ pub(super) struct Tension {
 impl Line {
     /// Cable `i`; its ends must not coincide.
     pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, ell: f64) -> Self {
-        let up_w = robot.up_w();
-        let attachment_w = pose.point_w(&robot.cables[i].attachment_p);
-        let chord_w = robot.cables[i].anchor_w - attachment_w;
-        let rope = rope(robot, i, chord_w.norm(), model);
-        let hanging = hang(robot, i, pose, up_w, rope);
-        let slackest = Catenary::SLACKEST * rope.weight_per_length * chord_w.norm();
+        let cable = LoadedCable::at(robot, i, pose, model);
+        let attachment_w = pose.point_w(&cable.attachment_p);
+        let chord_w = cable.anchor_w - attachment_w;
+        let hanging = cable.hang(pose, chord_w.norm());
+        let slackest = Catenary::SLACKEST * cable.load.size * chord_w.norm();
         Self {
             lever_w: attachment_w - pose.position_w,
             ell,
             span: hanging.catenary.span(),
-            rise: chord_w.dot(&up_w),
-            range: TensionRange::of(robot, i, chord_w.norm()),
+            rise: chord_w.dot(&cable.load.up_w),
+            range: TensionRange::of(robot, i, &chord_w),
             slackest,
             tau: f64::NAN,
             length_rate: 0.0,

@@ -1,0 +1,99 @@
+//! Steady wind, and what acts on every metre of a cable: its weight, the wind, and what else the file puts on it.
+
+use super::Robot;
+use crate::math::Vec3;
+
+/// Steady, uniform wind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wind {
+    /// Velocity of the air, world axes [m/s].
+    pub velocity_w: Vec3,
+    /// Density of the air [kg/m³].
+    pub air_density: f64,
+}
+
+impl Wind {
+    /// Density where the file gives none [kg/m³]: the ISO standard atmosphere (ISO 2533) at sea level.
+    pub const AIR_DENSITY: f64 = 1.225;
+
+    /// Highest speed taken [m/s]: a third of that of sound, up to which it hardly matters that air can be compressed.
+    pub const FASTEST: f64 = 110.0;
+
+    /// Force on a body per area and drag coefficient [N/m²], along the wind; `½ ρ |u| u`.
+    pub fn pressure_w(&self) -> Vec3 {
+        self.velocity_w * (0.5 * self.air_density * self.velocity_w.norm())
+    }
+
+    /// Force on a straight cylinder per length, diameter and drag coefficient [N/m²]: that of the part of the wind which
+    /// is normal to its axis (a unit vector), the only one that counts (the cross-flow principle, theory (49)).
+    pub fn cross_pressure_w(&self, axis_w: &Vec3) -> Vec3 {
+        let across = self.velocity_w - axis_w * axis_w.dot(&self.velocity_w);
+        across * (0.5 * self.air_density * across.norm())
+    }
+}
+
+impl Default for Wind {
+    /// Still air.
+    fn default() -> Self {
+        Self { velocity_w: Vec3::zeros(), air_density: Self::AIR_DENSITY }
+    }
+}
+
+/// What acts on every metre of an unstrained cable, uniform along it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineLoad {
+    /// Unit vector against it: what is up for this cable.
+    pub up_w: Vec3,
+    /// Its size [N/m].
+    pub size: f64,
+}
+
+impl LineLoad {
+    /// As a vector, world axes [N/m].
+    pub fn vector_w(&self) -> Vec3 {
+        self.up_w * -self.size
+    }
+}
+
+impl Robot {
+    /// The load on cable `i` per unstrained length when its chord, platform to anchor, is `chord_w` [m]: weight, the
+    /// file's own load, and the drag of the wind, which depends on the chord's direction.
+    ///
+    /// # Example
+    /// ```
+    /// # use funicular::{math::Vec3, robot::{Robot, Wind}};
+    /// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+    /// let load = robot.line_load(0, &Vec3::new(5.0, 0.0, 4.0));
+    /// assert!((load.size - 0.067 * 9.81).abs() < 1e-15); // N/m
+    /// assert_eq!(load.up_w, Vec3::z());
+    /// # Ok::<(), funicular::robot::spec::SpecError>(())
+    /// ```
+    pub fn line_load(&self, i: usize, chord_w: &Vec3) -> LineLoad {
+        let cable = &self.cables[i];
+        let drag_width =
+            if self.wind.velocity_w == Vec3::zeros() { 0.0 } else { cable.material.drag_width.unwrap_or(0.0) };
+        let mass = cable.material.mass_per_length;
+        if drag_width == 0.0 && cable.load_per_length_w == Vec3::zeros() {
+            return LineLoad { up_w: self.up_w(), size: mass * self.gravity_w.norm() };
+        }
+        let mut total = self.gravity_w * mass + cable.load_per_length_w;
+        if drag_width > 0.0 {
+            // Ends that coincide have no axis; who places a cable refuses them.
+            let axis = chord_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+            total += self.wind.cross_pressure_w(&axis) * drag_width;
+        }
+        let size = total.norm();
+        if size > 0.0 { LineLoad { up_w: -total / size, size } } else { LineLoad { up_w: self.up_w(), size } }
+    }
+
+    /// The load on some cable depends on the direction of its chord.
+    pub(crate) fn wind_turns_with_cables(&self) -> bool {
+        self.wind.velocity_w != Vec3::zeros()
+            && self.cables.iter().any(|cable| cable.material.drag_width.is_some_and(|width| width > 0.0))
+    }
+
+    /// The dead force in the platform's centre of mass, weight and wind, world axes [N].
+    pub fn force_at_mass_centre_w(&self) -> Vec3 {
+        self.gravity_w * self.platform.mass + self.wind.pressure_w() * self.platform.drag_area
+    }
+}

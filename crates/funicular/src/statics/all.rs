@@ -1,0 +1,328 @@
+//! Every equilibrium of given lengths that a search finds: cables that sag or stretch leave several (Merlet).
+//!
+//! The energy of an elastic cable is a convex function of where its ends are, so in every orientation of the platform
+//! there is one position of least energy, and only orientations have to be searched; a point mass has one equilibrium.
+//! On the space of orientations, which is compact, Morse's theory counts for us: the sum of (−1)^index over all
+//! equilibria, the index being the number of directions in which the energy falls, is the Euler characteristic of that
+//! space, whatever the robot (theory, section 15). A list with another sum lacks an equilibrium; one with this sum may
+//! still lack a pair.
+
+use super::forward::{Search, Trial, elastic};
+use super::{Equilibrium, StaticModel, StaticsError, check_lengths, collect, distance, forward};
+use crate::math::{Vec3, inertia};
+use crate::robot::{Freedoms, Pose, Robot};
+use std::f64::consts::TAU;
+
+/// One of several equilibria of the same lengths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// The equilibrium, stable or not.
+    pub equilibrium: Equilibrium,
+    /// Number of directions in which the energy falls.
+    pub falling: usize,
+    /// Number of directions in which it does not change: the platform is free to move there.
+    pub indifferent: usize,
+    /// Energy above that of the lowest of the list [J]; none where the wind turns with the cables or a moment acts, which
+    /// have no potential.
+    pub energy: Option<f64>,
+    /// Distance from the pose asked [m], see [`distance`](super::distance).
+    pub distance: f64,
+}
+
+impl Candidate {
+    /// The platform stays there.
+    pub fn is_stable(&self) -> bool {
+        self.falling == 0 && self.indifferent == 0
+    }
+}
+
+/// The equilibria of given lengths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidates {
+    /// Those found: the lowest first, or without energy the nearest to the pose asked.
+    pub found: Vec<Candidate>,
+    /// Orientations that the search started from.
+    pub starts: usize,
+    /// Sum of (−1)^falling over the list.
+    pub index_sum: i64,
+    /// What it is if none is missing; none where some equilibrium is indifferent or the loads have no potential.
+    pub expected_index_sum: Option<i64>,
+}
+
+impl Candidates {
+    /// Whether the sum shows that some are missing; false where it says nothing.
+    pub fn lacks_some(&self) -> bool {
+        self.expected_index_sum.is_some_and(|expected| expected != self.index_sum)
+    }
+}
+
+/// Starts after the last find at which a list counts as whole, and limit of all starts. With 400 idle starts the lists of
+/// all robots of the library stay as they are with 4,000.
+const IDLE: usize = 400;
+const MOST_STARTS: usize = 6000;
+
+/// Starts of the search for another stable equilibrium.
+const FEW_STARTS: usize = 40;
+
+/// Most equilibria listed; more of them are the points of a plateau.
+const MOST_FOUND: usize = 200;
+
+/// Distance over the size of the platform below which two equilibria are one.
+const SAME: f64 = 1e-5;
+
+/// Eigenvalue over the largest below which a direction is indifferent.
+const INDIFFERENT: f64 = 1e-9;
+
+/// All equilibria for given unstrained lengths [m], one a cable in file order, that a search from many poses finds:
+/// stable ones by descent of the energy, unstable ones by Newton's method, from orientations all over. Deterministic. `asked`: the pose that
+/// distances are measured from; without it where [`forward`](super::forward) finds the platform.
+///
+/// # Errors
+/// [`StaticsError`]: lengths that do not fit the robot, ideal cables, or no equilibrium at all.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::{Robot, State}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/stadium-camera.toml"))?;
+/// # let State::Pose(pose) = &robot.state else { panic!("a pose") };
+/// let held = statics::inverse(&robot, pose, StaticModel::Catenary)?;
+/// let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
+/// let all = statics::all(&robot, &lengths, StaticModel::Catenary, Some(pose))?;
+/// assert!(all.found[0].is_stable() && all.found[0].distance < 1e-6);
+/// assert_eq!(Some(all.index_sum), all.expected_index_sum);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// J.-P. Merlet, The kinematics of cable-driven parallel robots with sagging cables, ICRA 2015: several solutions of the
+/// forward problem. J. Milnor, Morse Theory, Princeton 1963, section 5.
+pub fn all(
+    robot: &Robot,
+    lengths: &[f64],
+    model: StaticModel,
+    asked: Option<&Pose>,
+) -> Result<Candidates, StaticsError> {
+    if model == StaticModel::Ideal {
+        return Err(StaticsError::OneIdeal);
+    }
+    let first = forward(robot, lengths, model, asked)?;
+    let mut hunt = Hunt::new(robot, lengths, model, asked.copied().unwrap_or(first.pose));
+    hunt.take(&first);
+    let mut last_find = 0;
+    let mut starts = 0;
+    let most_starts = if robot.platform.freedoms.can_turn() { MOST_STARTS } else { 0 };
+    while starts < most_starts && hunt.found.len() < MOST_FOUND {
+        let wanting = hunt.expected().is_some_and(|expected| expected != hunt.index_sum());
+        if starts >= last_find + if wanting { 4 * IDLE } else { IDLE } {
+            break;
+        }
+        starts += 1;
+        let Some(start) = hunt.start(starts) else { continue };
+        let new = [hunt.downhill(start), hunt.stationary(start)].into_iter().flatten();
+        for equilibrium in new.collect::<Vec<_>>() {
+            if hunt.take(&equilibrium) {
+                last_find = starts;
+            }
+        }
+    }
+    Ok(hunt.sorted(starts))
+}
+
+/// Another stable equilibrium for the lengths of one, if a short search meets any; of several the lowest.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::Robot, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// let other = statics::other_stable(&robot, &rest);
+/// assert!(other.is_none_or(|other| other.is_stable() && other.distance > 1e-3));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn other_stable(robot: &Robot, equilibrium: &Equilibrium) -> Option<Candidate> {
+    let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+    if equilibrium.model == StaticModel::Ideal
+        || !robot.platform.freedoms.can_turn()
+        || check_lengths(robot, &lengths).is_err()
+    {
+        return None;
+    }
+    let mut hunt = Hunt::new(robot, &lengths, equilibrium.model, equilibrium.pose);
+    hunt.take(equilibrium);
+    let one = hunt.found.remove(0);
+    for k in 1..=FEW_STARTS {
+        if let Some(other) = hunt.start(k).and_then(|start| hunt.downhill(start))
+            && !(one.0.indifferent > 0 && hunt.same_plateau(&one, &other))
+            && distance(robot, &other.pose, &equilibrium.pose) > SAME * hunt.size
+        {
+            hunt.take(&other);
+        }
+    }
+    hunt.found.retain(|(candidate, _)| candidate.is_stable());
+    hunt.found.push(one);
+    let pose = equilibrium.pose;
+    hunt.sorted(FEW_STARTS).found.into_iter().find(|found| found.equilibrium.pose != pose)
+}
+
+/// A search and what it has found, each with its energy [J].
+struct Hunt<'a> {
+    robot: &'a Robot,
+    lengths: &'a [f64],
+    model: StaticModel,
+    asked: Pose,
+    /// What distances are compared with: the platform and the longest cable [m].
+    size: f64,
+    found: Vec<(Candidate, f64)>,
+}
+
+impl<'a> Hunt<'a> {
+    fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, asked: Pose) -> Self {
+        Self { robot, lengths, model, asked, size: robot.platform_length(), found: Vec::new() }
+    }
+
+    /// The loads have a potential.
+    fn has_energy(&self) -> bool {
+        !self.robot.wind_turns_with_cables() && self.robot.load.moment_w == Vec3::zeros()
+    }
+
+    /// Number `k` of the poses to start from: turned evenly over all orientations, and there where the energy is least.
+    fn start(&self, k: usize) -> Option<Pose> {
+        let [a, b, c] = [2, 3, 5].map(|base| van_der_corput(k, base));
+        let turn = match self.robot.platform.freedoms {
+            Freedoms::PointMass => Vec3::zeros(),
+            Freedoms::Planar(plane) => plane.normal_w() * (TAU * a),
+            Freedoms::Rigid => {
+                // Evenly over all rotations (Shoemake): a unit quaternion from three numbers, as axis times angle.
+                let (s, t) = ((1.0 - a).sqrt(), a.sqrt());
+                let (w, x) = (s * (TAU * b).sin(), s * (TAU * b).cos());
+                let axis = Vec3::new(x, t * (TAU * c).sin(), t * (TAU * c).cos());
+                let sine = axis.norm();
+                if sine > 0.0 { axis * (2.0 * sine.atan2(w) / sine) } else { axis }
+            }
+        };
+        let turned = self.asked.moved(&Vec3::zeros(), &turn);
+        let mut search = Search::new(self.robot, self.lengths, self.model, &turned);
+        search.turns = false;
+        let (trial, _) = search.rest(turned);
+        (trial.residual <= trial.limit).then_some(trial.pose)
+    }
+
+    fn downhill(&self, start: Pose) -> Option<Equilibrium> {
+        elastic(self.robot, self.lengths, self.model, start).ok()
+    }
+
+    /// Whatever rest point Newton's method comes to.
+    fn stationary(&self, start: Pose) -> Option<Equilibrium> {
+        if !self.has_energy() {
+            return None;
+        }
+        let search = Search::new(self.robot, self.lengths, self.model, &start);
+        let mut here = search.at(start);
+        let mut steps = 0;
+        while here.residual > 1e-13 {
+            let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.freedoms.count());
+            let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            if least == 0.0 {
+                return None;
+            }
+            let step = values
+                .iter()
+                .zip(&vectors)
+                .map(|(value, vector)| {
+                    let curvature = if value.abs() < least { least.copysign(*value) } else { *value };
+                    vector * (vector.dot(&here.wrench) / curvature)
+                })
+                .sum();
+            let next = search.at(search.moved(&here.pose, &search.limited(&step).0));
+            let near = here.residual < here.limit;
+            if near && next.residual >= here.residual {
+                break;
+            }
+            here = next;
+            steps += 1;
+            if steps > 80 || !here.residual.is_finite() {
+                return None;
+            }
+        }
+        let Trial { pose, cables, .. } = here;
+        Some(collect(self.robot, pose, self.model, cables, self.lengths, steps))
+    }
+
+    /// Adds an equilibrium unless it is in the list; whether it did.
+    fn take(&mut self, equilibrium: &Equilibrium) -> bool {
+        let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
+        let trial = search.at(equilibrium.pose);
+        let (values, _) = inertia::eigen(&search.stiffness(&trial), search.freedoms.count());
+        let zero = INDIFFERENT * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let falling = values.iter().filter(|value| **value < -zero).count();
+        let indifferent = values.iter().filter(|value| value.abs() <= zero).count();
+        let distance_of = |other: &Pose| distance(self.robot, &equilibrium.pose, other);
+        let candidate = Candidate {
+            falling,
+            indifferent,
+            energy: None,
+            distance: distance_of(&self.asked),
+            equilibrium: equilibrium.clone(),
+        };
+        let new = (candidate, trial.energy);
+        let known = self.found.iter().any(|old| {
+            distance_of(&old.0.equilibrium.pose) <= SAME * self.size
+                || (old.0.indifferent > 0 && indifferent > 0 && self.level(old.1, new.1))
+        });
+        if !known {
+            self.found.push(new);
+        }
+        !known
+    }
+
+    /// Two energies are one but for rounding [J].
+    fn level(&self, a: f64, b: f64) -> bool {
+        let scale = super::load_size(self.robot) * self.size;
+        (a - b).abs() <= 1e-9 * (a.abs() + b.abs() + scale)
+    }
+
+    /// An equilibrium has the energy of an indifferent one: the platform gets there without work.
+    fn same_plateau(&self, one: &(Candidate, f64), other: &Equilibrium) -> bool {
+        let search = Search::new(self.robot, self.lengths, self.model, &other.pose);
+        self.level(one.1, search.at(other.pose).energy)
+    }
+
+    fn index_sum(&self) -> i64 {
+        self.found.iter().map(|(candidate, _)| if candidate.falling % 2 == 0 { 1 } else { -1 }).sum()
+    }
+
+    /// The Euler characteristic of the space of orientations: of those in space or in a plane 0, of a single one 1.
+    fn expected(&self) -> Option<i64> {
+        if !self.has_energy() || self.found.iter().any(|(candidate, _)| candidate.indifferent > 0) {
+            return None;
+        }
+        Some(i64::from(!self.robot.platform.freedoms.can_turn()))
+    }
+
+    fn sorted(mut self, starts: usize) -> Candidates {
+        let (index_sum, expected_index_sum) = (self.index_sum(), self.expected());
+        if self.has_energy() {
+            self.found.sort_by(|a, b| a.1.total_cmp(&b.1));
+            let lowest = self.found.first().map_or(0.0, |(_, energy)| *energy);
+            for (candidate, energy) in &mut self.found {
+                candidate.energy = Some(*energy - lowest);
+            }
+        } else {
+            self.found.sort_by(|a, b| a.0.distance.total_cmp(&b.0.distance));
+        }
+        let found = self.found.into_iter().map(|(candidate, _)| candidate).collect();
+        Candidates { found, starts, index_sum, expected_index_sum }
+    }
+}
+
+/// The digits of `k` mirrored at the point: evenly spread numbers between 0 and 1.
+fn van_der_corput(mut k: usize, base: usize) -> f64 {
+    let (mut value, mut place) = (0.0, 1.0 / base as f64);
+    while k > 0 {
+        value += place * (k % base) as f64;
+        k /= base;
+        place /= base as f64;
+    }
+    value
+}

@@ -1,0 +1,177 @@
+//! Loads along the cables: weight by another name, wind, and what both do to stiffness and vibration.
+
+use funicular::cable::{CableModel, Sag};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Mat6, Vec3, Vec6};
+use funicular::modes;
+use funicular::robot::{Pose, Robot, State, Wind};
+use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
+
+const YUAN: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
+
+/// The paper's robot with a rope that the wind pulls at and a platform of a third of a square metre.
+fn in_wind(velocity_w: Vec3) -> Robot {
+    let text = YUAN
+        .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2")
+        .replace("center_of_mass_m", "drag_area_m2 = 0.3\ncenter_of_mass_m");
+    let robot = Robot::from_toml(&text).unwrap();
+    assert!((robot.cables[0].material.drag_width.unwrap() - 1.2 * 0.004).abs() < 1e-18);
+    assert!((robot.platform.drag_area - 0.3).abs() < 1e-18);
+    let air_density = robot.wind.air_density;
+    robot.with_wind(Wind { velocity_w, air_density })
+}
+
+fn lengths(robot: &Robot) -> Vec<f64> {
+    let State::Lengths(lengths) = &robot.state else { panic!("given by lengths") };
+    lengths.clone()
+}
+
+fn frequencies(robot: &Robot, rest: &Equilibrium, cable_model: CableModel, below_hz: f64) -> Vec<f64> {
+    let linearisation = Linearisation { cable_model, ..Default::default() };
+    let found = modes::below(&Dynamics::about(robot, rest, linearisation, below_hz).unwrap(), below_hz);
+    assert!(found.certified);
+    found.modes.iter().map(|mode| mode.frequency_hz).collect()
+}
+
+/// Everything turned by the same rotation: gravity down becomes gravity sideways, and that a cable load sideways
+/// without gravity. The dynamics has to be the same to the last digits, since only q counts (theory, section 2).
+#[test]
+fn a_load_along_the_cables_is_weight_by_another_name() {
+    let robot = Robot::from_toml(YUAN).unwrap();
+    let g = robot.gravity_w;
+    let mut loaded = robot.with_cable_load(g * robot.cables[0].material.mass_per_length);
+    loaded.gravity_w = Vec3::zeros();
+    loaded.load.force_w = g * robot.platform.mass;
+    loaded.load.point_p = robot.platform.center_of_mass_p;
+    let lengths = lengths(&robot);
+    let [a, b] = [&robot, &loaded].map(|r| statics::forward(r, &lengths, StaticModel::Catenary, None).unwrap());
+    assert!(statics::distance(&robot, &a.pose, &b.pose) < 1e-10);
+    for (i, (x, y)) in a.cables.iter().zip(&b.cables).enumerate() {
+        assert!((x.tension_anchor - y.tension_anchor).abs() < 1e-8);
+        let (x, y) = (Sag::of(&robot, i, x), Sag::of(&loaded, i, y));
+        assert!((x.lambda2 / y.lambda2 - 1.0).abs() < 1e-8 && x.ratio() > 0.0);
+    }
+    for model in [CableModel::ClosedForm, CableModel::Exact] {
+        let [x, y] = [(&robot, &a), (&loaded, &b)].map(|(robot, rest)| frequencies(robot, rest, model, 8.0));
+        assert_eq!(x.len(), y.len());
+        assert!(x.iter().zip(&y).all(|(x, y)| (x / y - 1.0).abs() < 1e-8), "{model}");
+    }
+}
+
+/// An independent balance: chains of bars would do, but the finite catenary already is one, so the sum of all forces on
+/// robot and cables is taken: anchors carry weight, wind on the platform and drag, and nothing else.
+#[test]
+fn the_anchors_carry_weight_and_drag() {
+    let velocity = Vec3::new(9.0, 4.0, -1.0);
+    let robot = in_wind(velocity);
+    let rest = statics::forward(&robot, &lengths(&robot), StaticModel::Catenary, None).unwrap();
+    let pressure = |u: Vec3| u * (0.5 * 1.225 * u.norm());
+    let mut outside = robot.gravity_w * robot.platform.mass + pressure(velocity) * 0.3;
+    let mut held = Vec3::zeros();
+    for (cable, state) in robot.cables.iter().zip(&rest.cables) {
+        let e = state.chord_w().normalize();
+        let drag = pressure(velocity - e * e.dot(&velocity)) * (1.2 * 0.004);
+        let per_metre = robot.gravity_w * cable.material.mass_per_length + drag;
+        outside += per_metre * state.unstrained_length;
+        // The curve's own end force at the anchor, from its horizontal and vertical parts.
+        let hanging = state.hanging.as_ref().unwrap();
+        let (along, up) = hanging.axes_w();
+        held -= along * -hanging.catenary.horizontal_force() - up * hanging.catenary.vertical_force_at_end();
+        assert!((up + per_metre.normalize()).norm() < 1e-14, "up is against the whole load");
+    }
+    assert!((outside + held).norm() < 1e-8 * outside.norm(), "{outside} {held}");
+    // 9.9 m/s press 18 N onto the platform, which hangs from cables 5 m long with 10 kg: it goes with the wind.
+    let calm = in_wind(Vec3::zeros());
+    let still = statics::forward(&calm, &lengths(&calm), StaticModel::Catenary, None).unwrap();
+    let moved = rest.pose.position_w - still.pose.position_w;
+    assert!(moved.dot(&velocity) > 0.0 && moved.norm() > 1e-3, "{moved}");
+}
+
+#[test]
+fn inverse_statics_in_wind_is_the_way_back() {
+    let robot = in_wind(Vec3::new(0.0, 6.0, 0.0));
+    let pose = Pose::new([0.3, -0.1, 0.6], [1.0, -2.0, 3.0]);
+    let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+    let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
+    let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    assert!(statics::distance(&robot, &back.pose, &pose) < 1e-8);
+    assert!(back.residual <= statics::RESIDUAL_LIMIT);
+
+    let text = COGIRO.replacen("mass_kg_per_m", "drag_coefficient = 1.1\ndrag_diameter_m = 0.004\nmass_kg_per_m", 1);
+    let wind = Wind { velocity_w: Vec3::new(12.0, 0.0, 0.0), ..Wind::default() };
+    let robot = Robot::from_toml(&text).unwrap().with_wind(wind);
+    let pose = Pose::new([1.0, -2.0, 1.5], [0.0, 0.0, 5.0]);
+    let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
+    let still =
+        statics::distribute(&Robot::from_toml(COGIRO).unwrap(), &pose, StaticModel::Catenary, &TensionRule::Lowest);
+    assert!((held.cables[0].tension_platform - still.unwrap().cables[0].tension_platform).abs() > 0.1);
+    let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
+    let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
+    assert!(statics::distance(&robot, &back.pose, &pose) < 1e-8);
+}
+
+/// The tangent is that of loads which keep their direction; with the loads held at one pose it has to be minus the
+/// derivative of the wrench.
+#[test]
+fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
+    let robot = in_wind(Vec3::new(15.0, -5.0, 2.0));
+    let lengths = lengths(&robot);
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    let stiffness = statics::tangent_stiffness(&robot, &rest).unwrap();
+    assert!((stiffness - stiffness.transpose()).amax() < 1e-9 * stiffness.amax());
+    // The same loads as a file's dead loads, and still air but for the platform's force.
+    let mut dead = robot.with_wind(Wind::default());
+    for (i, state) in rest.cables.iter().enumerate() {
+        dead.cables[i].load_per_length_w = robot.line_load(i, &state.chord_w()).vector_w()
+            - robot.gravity_w * robot.cables[i].material.mass_per_length;
+    }
+    dead.load.force_w = robot.force_at_mass_centre_w() - robot.gravity_w * robot.platform.mass;
+    dead.load.point_p = robot.platform.center_of_mass_p;
+    let again = statics::forward(&dead, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
+    assert!(statics::distance(&robot, &again.pose, &rest.pose) < 1e-9);
+    // Sag makes the wrench bend within millimetres; a larger step leaves its square.
+    let step = 1e-6;
+    let by = |k: usize| {
+        let wrench = |sign: f64| {
+            let motion = Vec6::ith(k, sign * step);
+            let pose = rest.pose.moved(&motion.fixed_rows::<3>(0).into(), &motion.fixed_rows::<3>(3).into());
+            statics::wrench(&dead, &pose, &lengths, StaticModel::Catenary).unwrap()
+        };
+        (wrench(-1.0) - wrench(1.0)) / (2.0 * step)
+    };
+    let differences = Mat6::from_columns(&std::array::from_fn::<_, 6, _>(by));
+    // At an equilibrium the moment about the moved origin differs from the tangent's by the residual only.
+    assert!((differences - stiffness).amax() < 1e-6 * stiffness.amax(), "{}", differences - stiffness);
+}
+
+#[test]
+fn a_wind_along_a_cable_does_not_pull_at_it_and_drag_grows_with_the_square() {
+    let wind = Wind { velocity_w: Vec3::new(10.0, 0.0, 0.0), ..Wind::default() };
+    assert_eq!(wind.cross_pressure_w(&Vec3::x()), Vec3::zeros());
+    // ½ 1.225 100 N/m²; at 45° half of it, across the cable.
+    assert!((wind.cross_pressure_w(&Vec3::y()) - Vec3::x() * 61.25).norm() < 1e-12);
+    let slanted = wind.cross_pressure_w(&Vec3::new(1.0, 0.0, 1.0).normalize());
+    assert!((slanted.norm() - 30.625).abs() < 1e-12 && (slanted.x + slanted.z).abs() < 1e-12);
+    let robot = in_wind(Vec3::new(10.0, 0.0, 0.0));
+    let chord = Vec3::new(0.0, 4.0, 0.0);
+    let load = robot.line_load(0, &chord);
+    let expected = Vec3::new(61.25 * 1.2 * 0.004, 0.0, -9.81 * 0.067);
+    assert!((load.vector_w() - expected).norm() < 1e-14);
+}
+
+#[test]
+fn a_massless_rope_in_wind_bows_with_it() {
+    let text = YUAN.replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0\ndrag_coefficient = 1.2");
+    let robot =
+        Robot::from_toml(&text).unwrap().with_wind(Wind { velocity_w: Vec3::new(0.0, 10.0, 0.0), ..Wind::default() });
+    let rest = statics::forward(&robot, &lengths(&robot), StaticModel::Catenary, None).unwrap();
+    let state = &rest.cables[0];
+    let hanging = state.hanging.as_ref().unwrap();
+    let middle = hanging.point_w(0.5 * state.unstrained_length) - (state.attachment_w + state.anchor_w) * 0.5;
+    let e = state.chord_w().normalize();
+    let across = (Vec3::y() - e * e.y).normalize();
+    assert!(middle.dot(&across) > 0.0 && middle.cross(&across).norm() < 0.05 * middle.norm(), "{middle}");
+    // It has no vibrations of its own, but the platform has six on its bowed ropes.
+    assert_eq!(frequencies(&robot, &rest, CableModel::Exact, 200.0).len(), 6);
+}
