@@ -251,6 +251,10 @@ pub(crate) struct StaticsArgs {
     pub(crate) state: StateArgs,
     #[command(flatten)]
     pub(crate) tensions: TensionArgs,
+
+    /// Search for all equilibria of these unstrained lengths, also the unstable ones
+    #[arg(long)]
+    pub(crate) all: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

@@ -8,8 +8,8 @@ use crate::table::{self, Table, decimals, decimals_or_none, short, significant, 
 use anyhow::Result;
 use funicular::cable::Sag;
 use funicular::math::rotation;
-use funicular::robot::{Robot, TensionLimits};
-use funicular::statics::{Limit, Stability, TensionMargin, TensionRange};
+use funicular::robot::{Pose, Robot, TensionLimits};
+use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -39,8 +39,91 @@ pub(crate) struct Statics {
     stable: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     least_stiffness_n_per_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    other_stable: Option<OtherStable>,
+    /// All that a search found, the lowest first; with --all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    equilibria: Option<Vec<EquilibriumRow>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    search: Option<Search>,
     #[serde(skip)]
     warnings: Vec<String>,
+}
+
+/// Another equilibrium of the same lengths.
+#[derive(Serialize)]
+struct EquilibriumRow {
+    stable: bool,
+    /// Directions in which the energy falls.
+    falling_directions: usize,
+    /// Directions in which it does not change.
+    indifferent_directions: usize,
+    /// Above that of the lowest; absent where the loads have no potential.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_j: Option<f64>,
+    /// From the first equilibrium.
+    distance_m: f64,
+    pose: PoseRow,
+    tensions_platform_n: Vec<f64>,
+}
+
+impl EquilibriumRow {
+    fn of(candidate: &Candidate) -> Self {
+        Self {
+            stable: candidate.is_stable(),
+            falling_directions: candidate.falling,
+            indifferent_directions: candidate.indifferent,
+            energy_j: candidate.energy,
+            distance_m: candidate.distance,
+            pose: PoseRow::of(&candidate.equilibrium.pose),
+            tensions_platform_n: candidate.equilibrium.cables.iter().map(|cable| cable.tension_platform).collect(),
+        }
+    }
+
+    fn stability(&self) -> String {
+        match (self.falling_directions, self.indifferent_directions) {
+            (0, 0) => "stable".to_owned(),
+            (0, _) => "indifferent".to_owned(),
+            (falling, _) => format!("unstable ({falling})"),
+        }
+    }
+}
+
+/// What a search for all equilibria found.
+#[derive(Serialize)]
+struct Search {
+    starts: usize,
+    /// Sum of (−1)^falling_directions, and what it is of a list that lacks none.
+    index_sum: i64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    expected_index_sum: Option<i64>,
+}
+
+/// Another stable equilibrium, where a short search met one.
+#[derive(Serialize)]
+struct OtherStable {
+    /// Above that of this equilibrium; absent where the loads have no potential.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_above_j: Option<f64>,
+    distance_m: f64,
+    position_m: [f64; 3],
+}
+
+impl OtherStable {
+    fn of(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+        let (other, energy_above_j) = statics::other_stable(robot, equilibrium)?;
+        Some(Self { energy_above_j, distance_m: other.distance, position_m: other.equilibrium.pose.position_w.into() })
+    }
+
+    fn text(&self) -> String {
+        let energy = self.energy_above_j.map_or_else(String::new, |energy| {
+            format!(", {} J {}", short(energy.abs(), 4), if energy < 0.0 { "lower" } else { "higher" })
+        });
+        format!(
+            "These lengths have another stable equilibrium, {} m away{energy} (--all lists what there is).\n",
+            short(self.distance_m, 4)
+        )
+    }
 }
 
 #[derive(Serialize)]
@@ -48,6 +131,16 @@ struct PoseRow {
     position_m: [f64; 3],
     quaternion_wxyz: [f64; 4],
     roll_pitch_yaw_deg: [f64; 3],
+}
+
+impl PoseRow {
+    fn of(pose: &Pose) -> Self {
+        Self {
+            position_m: pose.position_w.into(),
+            quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
+            roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -129,19 +222,32 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
         Stability::Unstable { least_stiffness, .. } => (Some(false), Some(least_stiffness)),
         Stability::Rigid => (None, None),
     };
-    let pose = &equilibrium.pose;
+    let (mut equilibria, mut search, mut other_stable) = (None, None, None);
+    let mut warnings = at_rest.warnings(None);
+    if args.all {
+        let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let all = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
+        if let (true, Some(expected)) = (all.lacks_some(), all.expected_index_sum) {
+            warnings.push(format!(
+                "the list of equilibria is not whole: the sum of (−1)^(falling directions) is {}, of all it is {expected} \
+                 (after {} starts)",
+                all.index_sum, all.starts
+            ));
+        }
+        equilibria = Some(all.found.iter().map(EquilibriumRow::of).collect());
+        let (index_sum, expected_index_sum) = (all.index_sum, all.expected_index_sum);
+        search = Some(Search { starts: all.starts, index_sum, expected_index_sum });
+    } else {
+        other_stable = OtherStable::of(robot, equilibrium);
+    }
     Ok(Statics {
-        warnings: at_rest.warnings(None),
+        warnings,
         robot: robot.name.clone(),
         static_model: static_model_name(equilibrium.model),
         mass_kg: robot.platform.mass,
         load: LoadRow::of(&robot.load),
         wind: WindRow::of(&robot.wind),
-        pose: PoseRow {
-            position_m: pose.position_w.into(),
-            quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
-            roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
-        },
+        pose: PoseRow::of(&equilibrium.pose),
         nearest_pose_distance_m: at_rest.instead_of.map(|(_, distance)| distance),
         tension_rule: rule.map(|rule| rule.name()),
         cables,
@@ -149,6 +255,9 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
         iterations: equilibrium.iterations,
         stable,
         least_stiffness_n_per_m,
+        other_stable,
+        equilibria,
+        search,
     })
 }
 
@@ -204,9 +313,14 @@ impl Results for Statics {
         let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
             format!("  nearest pose that the cables can hold, {} m from the one asked\n", short(distance, 4))
         });
+        let others = match (&self.other_stable, self.equilibria_table()) {
+            (_, Some(table)) => format!("\n{table}"),
+            (Some(other), None) => other.text(),
+            (None, None) => String::new(),
+        };
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
-             {cables}\n{stability}. Residual {:.1e} after {}.\n",
+             {cables}\n{stability}. Residual {:.1e} after {}.\n{others}",
             self.robot,
             self.static_model,
             short(self.mass_kg, 6),
@@ -218,6 +332,9 @@ impl Results for Statics {
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        if let Some(equilibria) = &self.equilibria {
+            return equilibria_csv(equilibria, out);
+        }
         out.write_record([
             "name",
             "unstrained_length_m",
@@ -255,4 +372,62 @@ impl Results for Statics {
         }
         Ok(())
     }
+}
+
+impl Statics {
+    /// All equilibria found.
+    fn equilibria_table(&self) -> Option<String> {
+        let (equilibria, search) = (self.equilibria.as_ref()?, self.search.as_ref()?);
+        let header = ["", "equilibrium", "energy [J]", "distance [m]", "position [m]", "roll, pitch, yaw [°]"];
+        let mut rows = Table::new(&header).text_columns(&[1]);
+        for (i, row) in equilibria.iter().enumerate() {
+            rows.row(vec![
+                (i + 1).to_string(),
+                row.stability(),
+                row.energy_j.map_or_else(|| table::NONE.to_owned(), |energy| short(energy, 5)),
+                decimals(row.distance_m, 4),
+                vector(&row.pose.position_m, 4),
+                vector(&row.pose.roll_pitch_yaw_deg, 2),
+            ]);
+        }
+        let stable = equilibria.iter().filter(|row| row.stable).count();
+        let sum = match search.expected_index_sum {
+            Some(expected) if expected == search.index_sum => {
+                "; as many with an even as with an odd number of falling directions, as it must be"
+            }
+            _ => "",
+        };
+        // A point mass has one equilibrium, which needs no counting.
+        let sum = if search.starts == 0 { "" } else { sum };
+        let found = equilibria.len();
+        let noun = if found == 1 { "equilibrium" } else { "equilibria" };
+        let starts = table::counted(search.starts.max(1), "start");
+        Some(format!("{rows}\n{found} {noun}, {stable} stable, from {starts}{sum}.\n"))
+    }
+}
+
+fn equilibria_csv(equilibria: &[EquilibriumRow], out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+    let mut header: Vec<String> = [
+        "stable",
+        "falling_directions",
+        "indifferent_directions",
+        "energy_j",
+        "distance_m",
+        "x_m",
+        "y_m",
+        "z_m",
+        "roll_deg",
+        "pitch_deg",
+        "yaw_deg",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let cables = equilibria.first().map_or(0, |row| row.tensions_platform_n.len());
+    header.extend((1..=cables).map(|i| format!("tension_platform_{i}_n")));
+    out.write_record(&header)?;
+    for row in equilibria {
+        let state = (row.stable, row.falling_directions, row.indifferent_directions, row.energy_j, row.distance_m);
+        out.serialize((state, row.pose.position_m, row.pose.roll_pitch_yaw_deg, &row.tensions_platform_n))?;
+    }
+    Ok(())
 }

@@ -180,6 +180,8 @@ impl Search<'_> {
 
     /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
     pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
+        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness).sum();
+        let least_diagonal = 1e-9 * stiffest / self.lengths.iter().copied().fold(0.0, f64::max);
         let mut here = self.at(start);
         let mut shift = 0.0;
         let (mut refused, mut exhausted) = (false, false);
@@ -205,7 +207,8 @@ impl Search<'_> {
                 }
                 break;
             }
-            let diagonal = stiffness.diagonal().amax();
+            // Where all cables are slack there is no stiffness to compare with.
+            let diagonal = stiffness.diagonal().amax().max(least_diagonal);
             let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
             let (step, length) = self.limited(&step);
             let next = self.at(self.moved(&here.pose, &step));
