@@ -398,6 +398,34 @@ fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec
     total
 }
 
+/// How much tension a load may take at most: the least norm of the tensions [N] that balance the worst wrench of size one
+/// (a force of 1 N, a moment of ℓ N m, or both in part), 1 over the least singular value of the scaled unit wrenches. The
+/// nearer to a singular pose, the larger.
+///
+/// Slack cables balance nothing. `None` where the others are fewer than the freedoms, infinite at a singular pose.
+pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
+    let ell = robot.platform_length();
+    let freedoms = &robot.platform.freedoms;
+    let units: Vec<Vec6> = equilibrium
+        .cables
+        .iter()
+        .filter(|cable| !cable.is_slack())
+        .map(|cable| {
+            let force = cable.force_on_platform_w.try_normalize(0.0).unwrap_or_else(|| cable.chord_w().normalize());
+            freedoms.reduced(&wrench_of(&force, &(cable.lever_w / ell)))
+        })
+        .collect();
+    let n = freedoms.count();
+    if units.len() < n {
+        return None;
+    }
+    let gram: Mat6 = units.iter().map(|unit| unit * unit.transpose()).sum();
+    let (values, _) = inertia::eigen(&gram, n);
+    // Squares below the rounding of their sum are none.
+    let least = if values[0] > 1e-14 * values[n - 1] { values[0] } else { 0.0 };
+    Some(1.0 / least.sqrt())
+}
+
 /// Total wrench on the platform at any pose, cables, weight and load, about the platform origin [N, N·m]; the residual of
 /// equilibrium.
 ///

@@ -4,7 +4,7 @@ use crate::cable::closed_form::ClosedForm;
 use crate::cable::exact::Exact;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, static_sag};
 use crate::robot::Robot;
-use crate::statics::{CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
+use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -47,6 +47,11 @@ pub enum Warning {
     NoDrag {
         /// Names of the ropes.
         ropes: Vec<String>,
+    },
+    /// A pose near one at which the cables do not hold the platform.
+    NearlySingular {
+        /// Tension per worst unit wrench, [`statics::tension_gain`](crate::statics::tension_gain).
+        gain: f64,
     },
     /// An equilibrium that the platform leaves by itself.
     Unstable {
@@ -115,6 +120,10 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
     Some(first / exact.in_plane.poles.first()?.sqrt() - 1.0)
 }
 
+/// Tension per worst unit wrench from which a pose is called nearly singular: ten times the largest at the poses of the
+/// library's robots, which have 0.9 to 3.1.
+pub const SINGULAR_GAIN: f64 = 30.0;
+
 /// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
 /// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
 pub const AXIAL_PART: f64 = 1.0 / 3.0;
@@ -158,6 +167,11 @@ impl fmt::Display for Warning {
                     ropes.join(", ")
                 )
             }
+            Self::NearlySingular { gain } => write!(
+                f,
+                "the pose is nearly singular: in its weakest direction a force of 1 N takes {gain:.0} N of tension (warned \
+                 of from {SINGULAR_GAIN}); choose a pose from which the cables pull in more directions"
+            ),
             Self::Unstable { directions, least_stiffness } => write!(
                 f,
                 "the equilibrium is not stable: {directions} of its directions {} not opposed (least scaled stiffness \
@@ -227,6 +241,9 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
         if !ropes.is_empty() {
             warnings.push(Warning::NoDrag { ropes });
         }
+    }
+    if let Some(gain) = statics::tension_gain(robot, equilibrium).filter(|gain| *gain > SINGULAR_GAIN) {
+        warnings.push(Warning::NearlySingular { gain });
     }
     if let Stability::Unstable { least_stiffness, directions } = equilibrium.stability {
         warnings.push(Warning::Unstable { directions, least_stiffness });

@@ -27,6 +27,15 @@ pub(crate) fn run(args: &ExportArgs) -> Result<()> {
             bail!("loads on the platform are exported to VTK only: leave out [loads] and --force-n, --moment-n-m");
         }
     }
+    if args.to != ExportFormat::Vtk {
+        let robot = &at_rest.robot;
+        let along = robot.cables.iter().any(|cable| cable.load_per_length_w.norm() > 0.0);
+        if robot.wind.velocity_w.norm() > 0.0 || along {
+            bail!(
+                "wind and loads along cables are exported to VTK only: leave out [wind], `load_n_per_m` and their options"
+            );
+        }
+    }
     let segments = args.segments as usize;
     let text = match args.to {
         ExportFormat::Opensees => opensees::script(&at_rest, segments, args.modes_below_hz)?,

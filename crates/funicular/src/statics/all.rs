@@ -4,7 +4,7 @@
 //! there is one position of least energy, and only orientations have to be searched; a point mass has one equilibrium.
 //! On the space of orientations, which is compact, Morse's theory counts for us: the sum of (−1)^index over all
 //! equilibria, the index being the number of directions in which the energy falls, is the Euler characteristic of that
-//! space, whatever the robot (theory, section 15). A list with another sum lacks an equilibrium; one with this sum may
+//! space, whatever the robot (theory, section 16). A list with another sum lacks an equilibrium; one with this sum may
 //! still lack a pair.
 
 use super::forward::{Search, Trial, elastic};
@@ -95,8 +95,7 @@ const INDIFFERENT: f64 = 1e-9;
 /// ```
 ///
 /// # References
-/// J.-P. Merlet, The kinematics of cable-driven parallel robots with sagging cables, ICRA 2015: several solutions of the
-/// forward problem. J. Milnor, Morse Theory, Princeton 1963, section 5.
+/// docs/theory.md, equations (50) and (51).
 pub fn all(
     robot: &Robot,
     lengths: &[f64],
