@@ -45,6 +45,8 @@ fn robot_with_pose() -> String {
 }
 
 /// A point mass with a pose; `freedoms` is line 4, `[state]` line 13.
+const YUAN: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+
 const POINT: &str = r#"name = "point"
 [platform]
 mass_kg = 1.0
@@ -411,7 +413,7 @@ fn the_help_says_what_to_do() {
     assert_eq!(
         help("mass_kg = 10.0", "mas_kg = 10.0"),
         "did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, \
-         `inertia_kg_m2`, `center_of_mass_m`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`"
+         `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`"
     );
     assert!(
         help("[platform]\n", "[platform]\ndamping_ratio = 0\n")
@@ -435,7 +437,7 @@ fn the_rendered_error_looks_as_a_user_expects() {
 5 | mas_kg = 10.0
   | ^^^^^^
   |
-  = help: did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
+  = help: did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
 
 error: two cables are called "left"
   --> robots/mine.toml:27:8
@@ -555,4 +557,33 @@ fn wrong_limits_of_tension_are_refused_at_their_line() {
             ("of a rope only", "minimum_tension_n = 60", "breaking_load_n = 60", "unknown key `breaking_load_n`", 28),
         ],
     );
+}
+
+#[test]
+fn wind_and_drag_are_read_and_refused_at_their_line() {
+    let robot = Robot::from_toml(YUAN).unwrap();
+    assert_eq!((robot.wind.velocity_w.norm(), robot.platform.drag_area), (0.0, 0.0));
+    assert_eq!(robot.cables[0].material.drag_width, None);
+    let with = |wind: &str, rope: &str| {
+        format!("{}\n{wind}", YUAN.replacen("mass_kg_per_m", &format!("{rope}mass_kg_per_m"), 1))
+    };
+    let text = with(
+        "[wind]\nvelocity_m_s = [3, 0, 4]\n",
+        "drag_coefficient = 1.1\ndrag_diameter_m = 0.006\nload_n_per_m = [0, 0, -0.2]\n",
+    );
+    let robot = Robot::from_toml(&text).unwrap();
+    assert!((robot.wind.velocity_w.norm() - 5.0).abs() < 1e-15 && (robot.wind.air_density - 1.225).abs() < 1e-15);
+    assert!((robot.cables[3].material.drag_width.unwrap() - 1.1 * 0.006).abs() < 1e-18);
+    assert!((robot.cables[3].load_per_length_w.z + 0.2).abs() < 1e-18);
+    for (wind, rope, message) in [
+        ("[wind]\n", "", "[wind] has no `velocity_m_s`"),
+        ("[wind]\nvelocity_m_s = [0, 0, 340]\n", "", "it must be at most 110 m/s"),
+        ("[wind]\nvelocity_m_s = [1, 0, 0]\nair_density_kg_m3 = 0\n", "", "`air_density_kg_m3` is 0"),
+        ("", "drag_coefficient = -1\n", "`drag_coefficient` is -1"),
+        ("", "drag_diameter_m = 0.01\n", "has `drag_diameter_m`, but no `drag_coefficient`"),
+        ("", "load_n_per_m = [1, 2]\n", "`load_n_per_m`"),
+    ] {
+        let error = Robot::from_toml(&with(wind, rope)).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
 }

@@ -222,7 +222,8 @@ fn the_tension_gain_grows_towards_a_singular_pose_and_is_warned_of() {
         assert!(held.cables.iter().all(|cable| (cable.tension_platform - 10.0).abs() < 1e-9));
         let gain = statics::tension_gain(&robot, &held).unwrap();
         assert!((gain * (1.0 - cos).sqrt() - 1.0).abs() < 1e-9, "{gain}");
-        let warnings: Vec<String> = validity::of_statics(&robot, &held).iter().map(ToString::to_string).collect();
+        let warnings: Vec<String> =
+            funicular::validity::of_statics(&robot, &held).iter().map(ToString::to_string).collect();
         assert_eq!(
             warnings.iter().any(|warning| warning.starts_with("the pose is nearly singular")),
             warned,
