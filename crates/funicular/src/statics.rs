@@ -104,7 +104,7 @@ pub enum Stability {
     },
     /// Some displacement is not opposed.
     Unstable {
-        /// Least eigenvalue [N/m]; zero within rounding or negative.
+        /// Least eigenvalue [N/m]; negative, or exactly zero where it is rounding: then the equilibrium is indifferent.
         least_stiffness: f64,
         /// Number of directions that are not opposed.
         directions: usize,
@@ -512,6 +512,6 @@ fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let directions = values.iter().filter(|v| **v <= zero).count();
     match directions {
         0 => Stability::Stable { least_stiffness: values[0] },
-        _ => Stability::Unstable { least_stiffness: values[0], directions },
+        _ => Stability::Unstable { least_stiffness: if values[0] < -zero { values[0] } else { 0.0 }, directions },
     }
 }

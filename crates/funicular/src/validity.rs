@@ -172,6 +172,11 @@ impl fmt::Display for Warning {
                 "the pose is nearly singular: in its weakest direction a force of 1 N takes {gain:.0} N of tension (warned \
                  of from {SINGULAR_GAIN}); choose a pose from which the cables pull in more directions"
             ),
+            Self::Unstable { directions, least_stiffness: 0.0 } => write!(
+                f,
+                "the equilibrium is indifferent: in {directions} of its directions nothing holds the platform, which has \
+                 natural frequencies of zero there; add a cable, or another point to pull at"
+            ),
             Self::Unstable { directions, least_stiffness } => write!(
                 f,
                 "the equilibrium is not stable: {directions} of its directions {} not opposed (least scaled stiffness \

@@ -304,6 +304,7 @@ impl Results for Statics {
         }
         let stability = match (self.stable, self.least_stiffness_n_per_m) {
             (Some(true), Some(least)) => format!("Stable, least stiffness {} N/m", significant(least, 4)),
+            (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
             (Some(false), Some(least)) => format!("NOT STABLE, least stiffness {} N/m", significant(least, 4)),
             _ => "Rigid cables: no stiffness".to_owned(),
         };

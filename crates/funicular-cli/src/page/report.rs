@@ -196,6 +196,9 @@ fn state_text(equilibrium: &Equilibrium) -> String {
         Stability::Stable { least_stiffness } => {
             format!("stable (least eigenvalue of the scaled stiffness {} N/m)", significant(least_stiffness, 3))
         }
+        Stability::Unstable { directions, least_stiffness: 0.0 } => {
+            format!("indifferent in {directions} of its directions")
+        }
         Stability::Unstable { directions, .. } => format!("unstable in {directions} of its directions"),
         Stability::Rigid => "rigid".to_owned(),
     };
