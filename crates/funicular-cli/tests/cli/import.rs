@@ -239,23 +239,91 @@ fn what_is_lost_or_assumed_is_said_twice_on_stderr_and_in_the_file() {
     let [bodies, cables] = caspr();
     let output = import(&[&[bodies.as_str(), &cables, "--cable-set", "springs"], &ROPES[..2]].concat());
     let (said, written) = (stderr(&output), stdout(&output).replace("\n#   ", " "));
-    for lost in ["pulleys at the base, of radius 0.05 m", "q_min and q_max", "force_min and force_max", "\"ideal\""] {
+    for lost in ["pulleys at the base, of radius 0.05 m", "q_min and q_max", "\"ideal\""] {
         assert!(said.contains(lost) && written.contains(lost), "{lost}: {said}\n{written}");
     }
-    assert!(written.contains("# minimum_tension_n = 10.0\n# maximum_tension_n = 2000.0"), "{written}");
 
     let defaults = Changed::of(
         &["tripod.wcrfx"],
-        &[(r#"Ixy="0.0" "#, ""), (r#"x="0.01" y="-0.02" z="0.05""#, r#"x="0.000000" y="1.000000" z="0.200000""#)],
+        &[
+            (r#"Ixy="0.0" "#, ""),
+            (r#"damping="0.0""#, r#"max_length="30""#),
+            (r#"x="0.01" y="-0.02" z="0.05""#, r#"x="0.000000" y="1.000000" z="0.200000""#),
+        ],
     );
     let said = defaults.import(&[]);
-    for text in ["assumed: the centre of gravity (0, 1, 0.2) m", "diag(2, 3, 4) kg m²", "`breaking_load` 15000"] {
+    for text in ["assumed: the centre of gravity (0, 1, 0.2) m", "diag(2, 3, 4) kg m²", "`max_length` 30"] {
         assert!(stderr(&said).contains(text), "{text}: {}", stderr(&said));
     }
     assert!(!stderr(&said).contains("which no rope has"));
     let thick = Changed::of(&["tripod.wcrfx"], &[(r#"radius="0.002""#, r#"radius="0.008""#)]);
     let said = thick.import(&[]);
     assert!(stderr(&said).contains("a rope of 249 kg/m³") && stderr(&said).contains("--diameter-m 0.008"));
+}
+
+#[test]
+fn limits_of_tension_are_carried_over_where_they_mean_the_same() {
+    let [bodies, cables] = caspr();
+    for written in [
+        imported(&[&[bodies.as_str(), &cables], &ROPES[..]].concat()),
+        imported(&[&example("tripod.wcrfx"), "--pose", "0.1,-0.05,1.5"]),
+    ] {
+        assert_eq!(written.matches("\nminimum_tension_n = 10.0\nmaximum_tension_n = 2000.0\n").count(), 6, "{written}");
+    }
+    assert!(imported(&[&example("tripod.wcrfx")]).contains("\nbreaking_load_n = 15000.0\n"));
+    // What no cable can be held between, and what a hanging cable cannot be at.
+    let limits = "<force_min>10</force_min>\n        <force_max>2000</force_max>";
+    for (other, says) in [
+        (limits.replace("10<", "0.1<"), "not slack"),
+        (limits.replace("10<", "-1<"), "not slack"),
+        (limits.replace("10<", "2000<"), "minimum, which is not below the maximum"),
+        (limits.replace("2000<", "0<"), "maximum, which is not positive"),
+    ] {
+        let output = Changed::of(&CASPR, &[(limits, other.as_str())]).import(&ROPES);
+        assert!(stderr(&output).contains(says), "{says}: {}", stderr(&output));
+        assert_eq!(stdout(&output).matches("_tension_n").count(), 11, "the other limit stays");
+    }
+    let weak = Changed::of(&["tripod.wcrfx"], &[("breaking_load=\"15000.0\"", "breaking_load=\"1500.0\"")]).import(&[]);
+    assert!(stderr(&weak).contains("maximum, which is above the breaking load"), "{}", stderr(&weak));
+    assert!(!stdout(&weak).contains("maximum_tension_n") && stdout(&weak).contains("breaking_load_n = 1500.0"));
+}
+
+#[test]
+fn a_model_without_a_pose_is_a_robot_without_a_state() {
+    let changes = [("SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"", "SPATIAL_EULER_XYZ\"")];
+    let old = Changed::of(&CASPR, &changes);
+    let text = old.imported(&ROPES);
+    assert!(!text.contains("[state]") && text.contains("The file has no pose, q_initial"), "{text}");
+    assert!(old.imported(&[&ROPES[..], &["--pose", "0,0,1.5"]].concat()).contains("position_m = [0.0, 0.0, 1.5]"));
+}
+
+#[test]
+fn options_that_would_change_nothing_are_refused() {
+    let [bodies, cables] = caspr();
+    let springs =
+        [&bodies, cables.as_str(), "--cable-set", "springs", "--mass-kg-per-m", "0.05", "--diameter-m", "0.004"];
+    let point = Changed::of(&["tripod.wcrfx"], &[("3R3T", "3T")]);
+    for (output, says) in [
+        (import(&springs), "EA of the ropes, which --diameter-m does not change"),
+        (point.import(&["--inertia-kg-m2", "1,1,1"]), "leave out --inertia-kg-m2"),
+        (point.import(&["--center-of-mass-m", "1,1,1"]), "leave out --center-of-mass-m"),
+    ] {
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(says), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn of_a_planar_platform_the_moment_about_the_normal_is_enough() {
+    let of = |changes: [(&str, &str); 2]| {
+        let joint = "SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"";
+        Changed::of(&CASPR, &[&[(joint, "PLANAR_XZ\" q_initial=\"0.1 1.5 0\"")], &changes[..]].concat()).import(&ROPES)
+    };
+    let whole = of([("<Ixx>4.0", "<Ixx>0.0"), ("<Izz>7.0", "<Izz>0.0")]);
+    assert!(stdout(&whole).contains("\ninertia_kg_m2 = 5.0\n"), "{}{}", stdout(&whole), stderr(&whole));
+    let without = of([("<Ixx>4.0", "<Ixx>4.0"), ("<Iyy>5.0", "<Iyy>0.0")]);
+    assert_eq!(without.status.code(), Some(2));
+    assert!(stderr(&without).contains("the moment about the normal of its plane counts"), "{}", stderr(&without));
 }
 
 #[test]
@@ -371,7 +439,6 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
         (&CASPR, (POSE, "P_XY\" q_initial=\"0 0\""), &[], "translates along less than three axes"),
         (&CASPR, (POSE, "HINGE\" q_initial=\"0\""), &[], "joint `HINGE` is of a kind that is not known"),
         (&CASPR, (POSE, "T_XYZ\" actuated=\"true\" q_initial=\"0 0 0\""), &[], "the joint is actuated"),
-        (&CASPR, (POSE, "SPATIAL_EULER_XYZ\""), &[], "no attribute `q_initial`"),
         (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03"), &[], "holds 5 numbers, SPATIAL_EULER_XYZ has 6"),
         (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03 x"), &[], "`q_initial` holds `x`, which is not a number"),
         (&CASPR, (POSE, "SPATIAL_QUATERNION\" q_initial=\"0 0 1 0 0 0 0\""), &[], "the quaternion zero"),
