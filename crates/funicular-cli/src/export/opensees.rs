@@ -8,8 +8,9 @@
 //! their distance from it however far they go, so this is no linearisation. It needs the normal as a coordinate axis: where
 //! it is none, the whole model is turned.
 //!
-//! Nodes of bars take no moments; on beams OpenSees' moments stay fixed in the world and make its tangent unsymmetric. A moment is two couples of dead forces at right angles, half of it each: semi-tangential,
-//! with the stiffness ½\[m\]× of the theory (48), so that statics and frequencies are both those of funicular.
+//! Nodes of bars take no moments; on beams OpenSees' moments stay fixed in the world and make its tangent unsymmetric. A
+//! moment is two couples of dead forces at right angles, half of it each: semi-tangential, with the stiffness ½\[m\]× of
+//! the theory (48), so that statics and frequencies are both those of funicular.
 
 use super::chain::Chain;
 use super::{first_frequencies, modes_below, one_line};
