@@ -150,7 +150,7 @@ fn caspr_with_cables(cables: &str) -> String {
 fn files_that_are_none_of_one_robot_are_refused() {
     let [bodies, cables] = caspr();
     let (wirex, moordyn) = (example("tripod.wcrfx"), example("tripod.txt"));
-    let yuan = super::robot("yuan2014-4mm.toml");
+    let yuan = crate::robot("yuan2014-4mm.toml");
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
