@@ -120,13 +120,11 @@ fn axes(freedoms: Freedoms) -> ([Vec3; 3], Option<usize>) {
     let coordinates = [Vec3::x(), Vec3::y(), Vec3::z()];
     let Freedoms::Planar(plane) = freedoms else { return (coordinates, None) };
     let normal = plane.normal_w();
-    match coordinates.iter().position(|axis| *axis == normal) {
-        Some(guided) => (coordinates, Some(guided)),
-        None => {
-            let [first, second] = in_plane(&normal);
-            ([first, second, normal], Some(2))
-        }
+    if let Some(guided) = coordinates.iter().position(|axis| *axis == normal) {
+        return (coordinates, Some(guided));
     }
+    let [first, second] = in_plane(&normal);
+    ([first, second, normal], Some(2))
 }
 
 /// Two unit vectors that make a right-handed set of axes with a normal.
@@ -280,7 +278,7 @@ mod tests {
         let n: Vec<f64> = normal.split(", ").map(|x| x.parse().unwrap()).collect();
         let [u, v] = in_plane(&Vec3::new(n[0], n[1], n[2]).normalize());
         let corner = |a: f64, b: f64| format!("{:?}", (u * a + v * b).as_slice());
-        let cables: String = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
+        let cables: Vec<String> = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
             .iter()
             .map(|&(a, b)| {
                 let (anchor, attachment) = (corner(a, b), corner(0.1 * a, 0.05 * b));
@@ -291,7 +289,8 @@ mod tests {
         format!(
             "name = \"p\"\n[platform]\nmass_kg = 3.0\nfreedoms = \"planar\"\nplane_normal = [{normal}]\n\
              inertia_kg_m2 = 0.2\ncenter_of_mass_m = [0.05, 0.02, 0.01]\n[materials.r]\naxial_stiffness_n = 1e4\n\
-             mass_kg_per_m = 0.02\n{cables}"
+             mass_kg_per_m = 0.02\n{}",
+            cables.concat()
         )
     }
 
