@@ -6,7 +6,7 @@ Written by `funicular export --to opensees`; needs openseespy from PyPI. SI unit
 Cables are chains of {{ segments }} equal corotational truss bars, weight in the joints, mass half consistent and half lumped.
 Such a chain cuts corners: its bars are a little shorter than the cable, and its weight a little other, so that it pulls
 at the platform as the cable does. The platform is points that have its mass, centre of mass and inertia, on a frame of
-stiff bars. Frequencies differ by a part that falls with the square of the number of bars: `funicular export --segments`.
+stiff bars; a guide holds each of them across its plane, a moment is two couples of dead forces. Frequencies differ by a part that falls with the square of the number of bars: `funicular export --segments`.
 """
 
 import math
@@ -16,12 +16,17 @@ import openseespy.opensees as ops
 NAME = {{ name }}
 # Source of the robot: {{ source }}
 GRAVITY = {{ gravity }}  # m/s2
-# Points of the platform [m] and their masses [kg]: the centre of mass, then pairs along the principal axes.
+# World axes of the coordinates here, and the one in which a guide holds the platform.
+AXES = {{ axes }}
+GUIDED = {% if let Some(guided) = guided %}{{ guided }}{% else %}None{% endif %}
+# Points of the platform [m] and their masses [kg]: the centre of mass, then pairs along axes at right angles.
 PLATFORM = {{ platform }}
+# Dead forces on the platform: where [m], and what [N].
+LOADS = {{ loads }}
 SIZE = {{ size }}  # of the platform [m]
 TOUCHING = {{ touching|fmt("{:e}") }}  # points nearer than this are one [m]
 FRAME_STIFFNESS = {{ frame_stiffness|fmt("{:e}") }}  # of each bar of the platform [N/m]
-# Each cable from the platform to its anchor: mass [kg], weight of the chain over the cable's, EA [N], lengths [m], joints
+# Each cable from the platform to its anchor: mass [kg], weight and wind of the chain [N], EA [N], lengths [m], joints
 # [m] where the chain is in equilibrium.
 CABLES = [
 {% for cable in cables -%}
@@ -34,10 +39,28 @@ TENSIONS_N = {{ tensions }}  # at the platform and at the anchor
 FREQUENCIES_HZ = {{ frequencies }}  # of exact cables
 
 
+def inward(vector):
+    """Coordinates here of a vector in world axes."""
+    return [sum(a * x for a, x in zip(axis, vector)) for axis in AXES]
+
+
+def outward(vector):
+    """World axes of a vector in the coordinates here."""
+    return [sum(axis[k] * x for axis, x in zip(AXES, vector)) for k in range(3)]
+
+
 def node(point):
     tag = len(ops.getNodeTags()) + 1
-    ops.node(tag, *point)
+    ops.node(tag, *inward(point))
     return tag
+
+
+def place(tag):
+    return outward(ops.nodeCoord(tag))
+
+
+def displacement(tag):
+    return outward(ops.nodeDisp(tag))
 
 
 def bar(start, end, length, stiffness, mass):
@@ -57,25 +80,33 @@ def add(where, tag, mass):
 
 ops.wipe()
 ops.model("basic", "-ndm", 3, "-ndf", 3)
-weights, masses = {}, {}  # of nodes [kg]
+forces, masses = {}, {}  # on nodes [N], of nodes [kg]
 
 # The platform: every point is joined with every other.
 frame = []
 for point, mass in PLATFORM:
     frame.append(node(point))
-    add(weights, frame[-1], mass)
+    forces[frame[-1]] = [mass * g for g in GRAVITY]
     add(masses, frame[-1], mass)
 points = list(frame)
-held = []
-for cable in CABLES:
-    near = [tag for tag in points if math.dist(ops.nodeCoord(tag), cable["attachment"]) <= TOUCHING]
-    held.append(near[0] if near else node(cable["attachment"]))
+
+
+def point_at(where):
+    """The platform's node at a place, a new one if there is none."""
+    near = [tag for tag in points if math.dist(place(tag), where) <= TOUCHING]
     if not near:
-        points.append(held[-1])
+        points.append(node(where))
+    return near[0] if near else points[-1]
+
+
+held = [point_at(cable["attachment"]) for cable in CABLES]
+loaded = [(point_at(where), force) for where, force in LOADS]
 for i, start in enumerate(points):
     for end in points[i + 1 :]:
         distance = math.dist(ops.nodeCoord(start), ops.nodeCoord(end))
         bar(start, end, distance, FRAME_STIFFNESS * distance, 0.0)
+for tag in points:
+    ops.fix(tag, *(int(k == GUIDED) for k in range(3)))
 
 # The cables.
 cable_ends = []
@@ -83,23 +114,26 @@ for cable, first in zip(CABLES, held):
     tags = [first] + [node(point) for point in cable["nodes"]]
     ops.fix(tags[-1], 1, 1, 1)
     mass = cable["mass"] / (len(tags) - 1)
-    heavy = mass * cable["weight_factor"]
+    heavy = [force / (len(tags) - 1) for force in cable["load"]]
+    half = [0.5 * force for force in heavy]
     bars = []
     for start, end in zip(tags, tags[1:]):
         # Waves are too fast with consistent mass and too slow with lumped mass, by the same: so half of each.
         bars.append(bar(start, end, cable["bar_length"], cable["axial_stiffness"], 0.5 * mass))
         for tag in (start, end):
-            add(weights, tag, 0.5 * heavy)
+            forces[tag] = [a + b for a, b in zip(forces.get(tag, (0.0, 0.0, 0.0)), half)]
             add(masses, tag, 0.25 * mass)
-    cable_ends.append([(bars[0], tags[0], tags[1], 0.5 * heavy), (bars[-1], tags[-2], tags[-1], -0.5 * heavy)])
+    cable_ends.append([(bars[0], tags[0], tags[1], 1.0, half), (bars[-1], tags[-2], tags[-1], -1.0, half)])
 for tag, mass in masses.items():
     ops.mass(tag, mass, mass, mass)
 
 # Statics: the equilibrium of the bars, by Newton's method from funicular's.
 ops.timeSeries("Constant", 1)
 ops.pattern("Plain", 1, 1)
-for tag, mass in weights.items():
-    ops.load(tag, *(mass * g for g in GRAVITY))
+for tag, force in forces.items():
+    ops.load(tag, *inward(force))
+for tag, force in loaded:
+    ops.load(tag, *inward(force))
 ops.constraints("Plain")
 ops.numberer("RCM")
 ops.system("BandGen")
@@ -116,7 +150,7 @@ def cross(a, b):
 
 
 def moved(tag):
-    return [x + u for x, u in zip(ops.nodeCoord(tag), ops.nodeDisp(tag))]
+    return [x + u for x, u in zip(place(tag), displacement(tag))]
 
 
 def direction(start, end):
@@ -128,28 +162,28 @@ def motion():
     """From funicular's pose to OpenSees': displacement of the platform's origin [m], rotation vector [rad], both small."""
     turn = [0.0, 0.0, 0.0]
     for minus, plus in zip(frame[1::2], frame[2::2]):
-        # Each of the three axes says two components, so each component is said twice.
-        part = cross(direction(ops.nodeCoord(minus), ops.nodeCoord(plus)), direction(moved(minus), moved(plus)))
+        # Each of three axes says two components, so each component is said twice; as those about the normal by two axes.
+        part = cross(direction(place(minus), place(plus)), direction(moved(minus), moved(plus)))
         turn = [a + 0.5 * b for a, b in zip(turn, part)]
-    arm = [a - b for a, b in zip(POSITION, ops.nodeCoord(frame[0]))]
-    return [a + b for a, b in zip(ops.nodeDisp(frame[0]), cross(turn, arm))], turn
+    arm = [a - b for a, b in zip(POSITION, place(frame[0]))]
+    return [a + b for a, b in zip(displacement(frame[0]), cross(turn, arm))], turn
 
 
-def tension(tag, start, end, mass):
-    """At a cable's end: that of the bar beside it, and the half weight in between [N]."""
+def tension(tag, start, end, sign, half):
+    """At a cable's end: that of the bar beside it, and half a bar's weight and wind in between [N]."""
     force = ops.eleResponse(tag, "axialForce")[0]
     along = direction(moved(start), moved(end))
-    return math.hypot(*(force * e + mass * g for e, g in zip(along, GRAVITY)))
+    return math.hypot(*(force * e + sign * w for e, w in zip(along, half)))
 
 
-displacement, rotation = motion()
+shift, rotation = motion()
 tensions = [[tension(*end) for end in ends] for ends in cable_ends]
 count = len(FREQUENCIES_HZ)
 squares = ops.eigen("-genBandArpack", count) if count else []
 frequencies = [math.copysign(math.sqrt(abs(square)), square) / (2.0 * math.pi) for square in squares]
 result = {
-    "position_m": [a + b for a, b in zip(POSITION, displacement)],
-    "displacement_m": displacement,
+    "position_m": [a + b for a, b in zip(POSITION, shift)],
+    "displacement_m": shift,
     "rotation_rad": rotation,
     "tensions_n": tensions,
     "frequencies_hz": frequencies,
@@ -157,7 +191,7 @@ result = {
 
 print(NAME)
 print("\nplatform's origin [m]     funicular        OpenSees      difference")
-for axis, ours, theirs, difference in zip("xyz", POSITION, result["position_m"], displacement):
+for axis, ours, theirs, difference in zip("xyz", POSITION, result["position_m"], shift):
     print(f"{axis:>4}               {ours:16.9f} {theirs:15.9f} {difference:15.3e}")
 print(f"rotation between them [rad]                          {math.hypot(*rotation):15.3e}")
 print("\ntension [N]          funicular        OpenSees      difference")

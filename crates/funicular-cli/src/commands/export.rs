@@ -6,7 +6,6 @@ use crate::export::{moordyn, opensees, vtk};
 use crate::output::Target;
 use crate::{robot_file, state};
 use anyhow::{Result, bail};
-use funicular::robot::{Freedoms, Load};
 
 pub(crate) fn run(args: &ExportArgs) -> Result<()> {
     let file = robot_file::read(Some(&args.robot.robot), &args.robot.changes)?;
@@ -18,24 +17,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<()> {
         bail!("MoorDyn has no modes: leave out --modes-below-hz");
     }
     let (at_rest, _) = state::equilibrium_with(file.robot, &args.state, &args.tensions)?;
-    if args.to != ExportFormat::Vtk {
-        // Of others' models these parts are not written; without them they would be another robot.
-        if matches!(at_rest.robot.platform.freedoms, Freedoms::Planar(_)) {
-            bail!("a planar platform and its guide are exported to VTK only");
-        }
-        if at_rest.robot.load != Load::default() {
-            bail!("loads on the platform are exported to VTK only: leave out [loads] and --force-n, --moment-n-m");
-        }
-    }
-    if args.to != ExportFormat::Vtk {
-        let robot = &at_rest.robot;
-        let along = robot.cables.iter().any(|cable| cable.load_per_length_w.norm() > 0.0);
-        if robot.wind.velocity_w.norm() > 0.0 || along {
-            bail!(
-                "wind and loads along cables are exported to VTK only: leave out [wind], `load_n_per_m` and their options"
-            );
-        }
-    }
     let segments = args.segments as usize;
     let text = match args.to {
         ExportFormat::Opensees => opensees::script(&at_rest, segments, args.modes_below_hz)?,

@@ -15,7 +15,7 @@ use funicular::statics::Equilibrium;
 pub(crate) struct Chain {
     /// Unstrained length of each bar [m].
     pub(crate) bar_length: f64,
-    /// Weight of the chain over that of the cable.
+    /// Weight (and other load along it) of the chain over that of the cable.
     pub(crate) weight_factor: f64,
     /// Joints in equilibrium from the platform to the anchor, ends included, world axes [m].
     pub(crate) nodes_w: Vec<Vec3>,
@@ -26,6 +26,7 @@ struct Cable {
     chord_w: Vec3,
     /// Force on the platform [N].
     force_w: Vec3,
+    /// With any other load along it [N].
     weight_w: Vec3,
     axial_stiffness: f64,
 }
@@ -38,7 +39,10 @@ impl Chain {
     pub(crate) fn of(robot: &Robot, equilibrium: &Equilibrium, i: usize, count: usize) -> Result<Self> {
         let (cable, state) = (&robot.cables[i], &equilibrium.cables[i]);
         let mass = cable.material.mass_per_length * state.unstrained_length;
-        let weight_w = robot.gravity_w * mass;
+        let weight_w = robot.line_load(i, &state.chord_w()).vector_w() * state.unstrained_length;
+        if mass == 0.0 && weight_w != Vec3::zeros() {
+            bail!("cable \"{}\" has a load and no mass: joints of bars need a `mass_kg_per_m`", cable.name);
+        }
         let count = if mass > 0.0 { count } else { 1 };
         let straight = Cable {
             chord_w: state.anchor_w - state.attachment_w,

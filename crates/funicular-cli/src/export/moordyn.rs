@@ -61,15 +61,14 @@ struct LineRow {
 /// The input file.
 ///
 /// # Errors
-/// A slack cable, or what MoorDyn has not: massless lines, gravity other than along −z.
+/// A slack cable, or what MoorDyn has not: guides, loads, massless lines, gravity other than along −z.
 pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
     let mut types = Vec::new();
     let body = match robot.platform.freedoms {
-        // A planar one is refused before.
-        Freedoms::Rigid | Freedoms::Planar(_) => Some(Frame::of(at_rest)),
-        Freedoms::PointMass => None,
+        Freedoms::Rigid => Some(Frame::of(at_rest)),
+        Freedoms::PointMass | Freedoms::Planar(_) => None,
     };
     let mut points = Vec::new();
     let mut lines = Vec::new();
@@ -135,6 +134,25 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
 const STEP: f64 = 0.5;
 
 fn refuse(robot: &Robot) -> Result<()> {
+    if matches!(robot.platform.freedoms, Freedoms::Planar(_)) {
+        bail!(
+            "the platform is planar: MoorDyn's bodies are free in all six freedoms or moved by another program, and \
+             nothing guides them in a plane; export it to OpenSees"
+        );
+    }
+    if robot.load.force_w != Vec3::zeros() || robot.load.moment_w != Vec3::zeros() {
+        bail!(
+            "a load acts on the platform: MoorDyn's input has no forces but weight and water (EXTERNAL LOADS is read by \
+             its Fortran edition only); leave out [loads], --force-n and --moment-n-m, or export to OpenSees"
+        );
+    }
+    let along = robot.cables.iter().any(|cable| cable.load_per_length_w != Vec3::zeros());
+    if robot.wind.velocity_w != Vec3::zeros() || along {
+        bail!(
+            "wind or another load acts along the cables: MoorDyn's input has water, no wind; leave out [wind], \
+             `load_n_per_m`, --wind-m-s and --cable-load-n-per-m, or export to OpenSees"
+        );
+    }
     let g = robot.gravity_w;
     if g.x != 0.0 || g.y != 0.0 || g.z > 0.0 {
         bail!("gravity is ({}, {}, {}) m/s²: MoorDyn has it along -z only; turn the robot's world axes", g.x, g.y, g.z);
@@ -167,11 +185,7 @@ impl Frame {
             (Mat3::identity(), inertia.diagonal())
         } else {
             let principal = inertia.symmetric_eigen();
-            let mut axes = principal.eigenvectors;
-            if axes.determinant() < 0.0 {
-                axes.set_column(2, &-axes.column(2));
-            }
-            (axes, principal.eigenvalues)
+            nearest_frame(&principal.eigenvectors, &principal.eigenvalues)
         };
         let rot_wb = pose.rot_wp.to_rotation_matrix() * axes_p;
         // Roll, pitch and yaw about moving axes, R = Rx Ry Rz.
@@ -187,5 +201,61 @@ impl Frame {
             moments,
         };
         Self { axes_p, row }
+    }
+}
+
+/// Axes and their moments in the order and with the signs that turn them least: right-handed, of the largest trace. An
+/// eigenvalue solver leaves both open, and forward statics of an imported robot begins from its frame without rotation.
+fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
+    const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+    let mut nearest = (Mat3::identity(), *moments);
+    let mut largest = f64::NEG_INFINITY;
+    for order in ORDERS {
+        // One sign too many is put on the axis that loses least by it.
+        let mut frame = Mat3::from_columns(&order.map(|k| axes.column(k).into_owned()));
+        for k in 0..3 {
+            if frame[(k, k)] < 0.0 {
+                frame.column_mut(k).neg_mut();
+            }
+        }
+        if frame.determinant() < 0.0 {
+            let least = frame.diagonal().imin();
+            frame.column_mut(least).neg_mut();
+        }
+        if frame.trace() > largest {
+            largest = frame.trace();
+            nearest = (frame, Vec3::from(order.map(|k| moments[k])));
+        }
+    }
+    nearest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use funicular::math::{Rotation, rotation};
+
+    #[test]
+    fn of_all_principal_axes_those_are_taken_that_turn_the_frame_least() {
+        const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+        for case in 0..200 {
+            // Turns all around, and moments that are near each other too.
+            let angle = |step: f64| 3.0 * (step * f64::from(case)).sin();
+            let turn = Vec3::new(angle(0.7), angle(1.3), angle(2.1));
+            let rot = rotation::turned(&Rotation::identity(), &turn).to_rotation_matrix();
+            let moments = Vec3::new(1.0, 1.0 + 0.01 * f64::from(case % 7 + 1), 1.5);
+            let tensor = rot.matrix() * Mat3::from_diagonal(&moments) * rot.matrix().transpose();
+            let principal = tensor.symmetric_eigen();
+            let (axes, found) = nearest_frame(&principal.eigenvectors, &principal.eigenvalues);
+            assert!((axes.determinant() - 1.0).abs() < 1e-12, "{case}");
+            assert!((axes * Mat3::from_diagonal(&found) * axes.transpose() - tensor).norm() < 1e-12, "{case}");
+            for order in ORDERS {
+                for signs in 0..8_u8 {
+                    let column = |k: usize| axes.column(order[k]) * if signs >> k & 1 == 1 { -1.0 } else { 1.0 };
+                    let other = Mat3::from_columns(&[column(0), column(1), column(2)]);
+                    assert!(other.determinant() < 0.0 || other.trace() <= axes.trace() + 1e-12, "{case}");
+                }
+            }
+        }
     }
 }

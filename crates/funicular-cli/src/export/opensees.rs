@@ -1,8 +1,16 @@
 //! A script for OpenSeesPy: cables as chains of bars, the platform as masses on a frame of stiff bars.
 //!
-//! Only bars, no beams and no constraints: bars turn with their ends, so that a force on a platform that tilts keeps
+//! Only bars, no beams and no rigid links: bars turn with their ends, so that a force on a platform that tilts keeps
 //! its point. A rigid link of OpenSees is linear and loses the moment of that; a frame of stiff beams has their own
 //! flexibility against bending.
+//!
+//! The guide of a planar platform holds every point of it across the plane. Points of a platform that moves in a plane keep
+//! their distance from it however far they go, so this is no linearisation. It needs the normal as a coordinate axis: where
+//! it is none, the whole model is turned.
+//!
+//! Nodes of bars take no moments; on beams OpenSees' moments stay fixed in the world and make its tangent unsymmetric. A
+//! moment is two couples of dead forces at right angles, half of it each: semi-tangential, with the stiffness ½\[m\]× of
+//! the theory (48), so that statics and frequencies are both those of funicular.
 
 use super::chain::Chain;
 use super::{first_frequencies, modes_below, one_line};
@@ -10,7 +18,7 @@ use crate::state::AtRest;
 use anyhow::Result;
 use askama::Template;
 use funicular::math::{Mat3, Vec3};
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::{Freedoms, Load, Robot};
 use serde::Serialize;
 
 /// Natural frequencies to compare with, unless a limit is given.
@@ -28,7 +36,10 @@ struct Script {
     name: String,
     source: String,
     gravity: String,
+    axes: String,
+    guided: Option<usize>,
     platform: String,
+    loads: String,
     cables: Vec<String>,
     position: String,
     tensions: String,
@@ -44,7 +55,8 @@ struct CableData<'a> {
     name: &'a str,
     attachment: [f64; 3],
     mass: f64,
-    weight_factor: f64,
+    /// Weight and other load of the whole chain [N].
+    load: [f64; 3],
     axial_stiffness: f64,
     unstrained_length: f64,
     bar_length: f64,
@@ -61,8 +73,12 @@ pub(crate) fn script(at_rest: &AtRest, segments: usize, below_hz: Option<f64>) -
         None => first_frequencies(at_rest, FREQUENCIES)?,
         Some(limit) => modes_below(at_rest, limit)?.1.modes.iter().map(|mode| mode.frequency_hz).collect(),
     };
-    let (points, size) = platform(at_rest);
-    let platform: Vec<([f64; 3], f64)> = points.iter().map(|(point, mass)| ((*point).into(), *mass)).collect();
+    let body = body(at_rest);
+    let size = body.size;
+    let platform: Vec<([f64; 3], f64)> = body.points.iter().map(|(point, mass)| ((*point).into(), *mass)).collect();
+    let loads: Vec<[[f64; 3]; 2]> =
+        body.loads(at_rest).iter().map(|(point, force)| [(*point).into(), (*force).into()]).collect();
+    let (axes, guided) = axes(robot.platform.freedoms);
     let stiffest = |i: usize| robot.cables[i].material.axial_stiffness / equilibrium.cables[i].unstrained_length;
     let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments)).collect::<Result<Vec<_>>>()?;
     let script = Script {
@@ -70,7 +86,10 @@ pub(crate) fn script(at_rest: &AtRest, segments: usize, below_hz: Option<f64>) -
         name: json(&robot.name)?,
         source: one_line(&robot.source),
         gravity: json(&<[f64; 3]>::from(robot.gravity_w))?,
+        axes: json(&axes.map(<[f64; 3]>::from))?,
+        guided,
         platform: json(&platform)?,
+        loads: json(&loads)?,
         cables,
         position: json(&<[f64; 3]>::from(equilibrium.pose.position_w))?,
         tensions: json(&equilibrium.cables.iter().map(|c| [c.tension_platform, c.tension_anchor]).collect::<Vec<_>>())?,
@@ -89,7 +108,9 @@ fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
         name: &cable.name,
         attachment: state.attachment_w.into(),
         mass: cable.material.mass_per_length * state.unstrained_length,
-        weight_factor: chain.weight_factor,
+        load: (at_rest.robot.line_load(i, &state.chord_w()).vector_w()
+            * (state.unstrained_length * chain.weight_factor))
+            .into(),
         axial_stiffness: cable.material.axial_stiffness,
         unstrained_length: state.unstrained_length,
         bar_length: chain.bar_length,
@@ -97,35 +118,98 @@ fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
     })
 }
 
-/// Points with masses, centre of mass first, then pairs along the principal axes; and the size of the frame [m].
+/// World axes of the script's coordinates, and the coordinate that a guide holds.
+fn axes(freedoms: Freedoms) -> ([Vec3; 3], Option<usize>) {
+    let coordinates = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let Freedoms::Planar(plane) = freedoms else { return (coordinates, None) };
+    let normal = plane.normal_w();
+    if let Some(guided) = coordinates.iter().position(|axis| *axis == normal) {
+        return (coordinates, Some(guided));
+    }
+    let [first, second] = in_plane(&normal);
+    ([first, second, normal], Some(2))
+}
+
+/// Two unit vectors that make a right-handed set of axes with a normal.
+fn in_plane(normal: &Vec3) -> [Vec3; 2] {
+    let first = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
+    [first, normal.cross(&first)]
+}
+
+/// The platform as points with masses.
+struct Body {
+    /// Places in the world [m] and masses [kg]: the centre of mass, then a pair at either end of each arm.
+    points: Vec<(Vec3, f64)>,
+    /// From the centre to the second of each pair, world axes [m]; at right angles to each other.
+    arms: Vec<Vec3>,
+    /// Length of the arms [m].
+    size: f64,
+}
+
+/// The platform's points, which have its mass, its centre of mass, and its inertia as far as it can turn.
 ///
 /// A pair at ±r along an axis has the second moment of mass about the plane across it; the centre has what is left of the
 /// mass, which is not negative if r² is at least the sum of the second moments over the mass.
-fn platform(at_rest: &AtRest) -> (Vec<(Vec3, f64)>, f64) {
+fn body(at_rest: &AtRest) -> Body {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let Robot { platform, .. } = robot;
     let pose = &equilibrium.pose;
-    let center_w = pose.point_w(&platform.center_of_mass_p);
-    match platform.freedoms {
-        Freedoms::PointMass => (vec![(center_w, platform.mass)], 1.0),
-        // A planar one is refused before.
-        Freedoms::Rigid | Freedoms::Planar(_) => {
-            let principal = platform.inertia_p.symmetric_eigen();
-            let moments = principal.eigenvalues;
-            let half_trace = 0.5 * moments.sum();
-            // The file's reader has refused what is no body; rounding may leave less than nothing of a flat one.
-            let second = moments.map(|moment| (half_trace - moment).max(0.0));
-            let size = robot.platform_length().max((second.sum() / platform.mass).sqrt());
-            let axes_w: Mat3 = pose.rot_wp.to_rotation_matrix() * principal.eigenvectors;
-            let at_center = (platform.mass - second.sum() / (size * size)).max(0.0);
-            let mut points = vec![(center_w, at_center)];
-            for k in 0..3 {
-                let arm = axes_w.column(k) * size;
-                let mass = 0.5 * second[k] / (size * size);
-                points.extend([(center_w - arm, mass), (center_w + arm, mass)]);
-            }
-            (points, size)
+    // Along each axis its second moment of mass.
+    let axes: Vec<(Vec3, f64)> = match platform.freedoms {
+        Freedoms::PointMass => Vec::new(),
+        // The moment about the normal is all that counts, and all that the file has to say; each axis in the plane has
+        // half of it.
+        Freedoms::Planar(plane) => {
+            let normal = plane.normal_w();
+            let moment = normal.dot(&(pose.rot_wp * (platform.inertia_p * (pose.rot_wp.inverse() * normal))));
+            in_plane(&normal).map(|axis| (axis, 0.5 * moment)).into()
         }
+        Freedoms::Rigid => {
+            let principal = platform.inertia_p.symmetric_eigen();
+            let half_trace = 0.5 * principal.eigenvalues.sum();
+            let axes_w: Mat3 = pose.rot_wp.to_rotation_matrix() * principal.eigenvectors;
+            // The file's reader has refused what is no body; rounding may leave less than nothing of a flat one.
+            let second = principal.eigenvalues.map(|moment| (half_trace - moment).max(0.0));
+            (0..3).map(|k| (axes_w.column(k).into_owned(), second[k])).collect()
+        }
+    };
+    let whole: f64 = axes.iter().map(|(_, second)| second).sum();
+    let size = robot.platform_length().max((whole / platform.mass).sqrt());
+    let center_w = pose.point_w(&platform.center_of_mass_p);
+    let mut points = vec![(center_w, (platform.mass - whole / (size * size)).max(0.0))];
+    for (axis, second) in &axes {
+        let mass = 0.5 * second / (size * size);
+        points.extend([(center_w - axis * size, mass), (center_w + axis * size, mass)]);
+    }
+    Body { points, arms: axes.iter().map(|(axis, _)| axis * size).collect(), size }
+}
+
+impl Body {
+    /// Dead forces that are the robot's load: where they act, world axes [m], and what they are [N].
+    fn loads(&self, at_rest: &AtRest) -> Vec<(Vec3, Vec3)> {
+        let AtRest { robot, equilibrium, .. } = at_rest;
+        let Load { force_w, moment_w, point_p } = robot.load;
+        let mut loads = Vec::new();
+        let of_wind = robot.force_at_mass_centre_w() - robot.gravity_w * robot.platform.mass;
+        if of_wind != Vec3::zeros() {
+            loads.push((self.points[0].0, of_wind));
+        }
+        if force_w != Vec3::zeros() {
+            loads.push((equilibrium.pose.point_w(&point_p), force_w));
+        }
+        let center_w = self.points[0].0;
+        for (i, a) in self.arms.iter().enumerate() {
+            for b in &self.arms[i + 1..] {
+                // Of a planar platform there is one pair of arms; other components of the moment are the guide's.
+                let about = moment_w.dot(&a.cross(b)) / self.size.powi(4);
+                if about != 0.0 {
+                    for (arm, force) in [(a, b * (0.25 * about)), (b, -a * (0.25 * about))] {
+                        loads.extend([(center_w + arm, force), (center_w - arm, -force)]);
+                    }
+                }
+            }
+        }
+        loads
     }
 }
 
@@ -153,7 +237,7 @@ mod tests {
             [include_str!("../../../../robots/cogiro.toml"), include_str!("../../../../robots/yuan2014-4mm.toml")]
         {
             let at_rest = at_rest(text);
-            let (points, _) = platform(&at_rest);
+            let points = body(&at_rest).points;
             let of = &at_rest.robot.platform;
             let rot_wp = at_rest.equilibrium.pose.rot_wp.to_rotation_matrix();
             let center_w = at_rest.equilibrium.pose.point_w(&of.center_of_mass_p);
@@ -174,6 +258,80 @@ mod tests {
 
     fn mass_of(points: &[(Vec3, f64)]) -> f64 {
         points.iter().map(|(_, mass)| mass).sum()
+    }
+
+    #[test]
+    fn the_points_of_a_planar_platform_have_its_mass_its_centre_and_its_moment_about_the_normal() {
+        for normal in ["0.0, 1.0, 0.0", "1.0, 2.0, -2.0"] {
+            let at_rest = at_rest(&planar(normal));
+            let Body { points, size, .. } = body(&at_rest);
+            let of = &at_rest.robot.platform;
+            let Freedoms::Planar(plane) = of.freedoms else { panic!("it is planar") };
+            let center_w = at_rest.equilibrium.pose.point_w(&of.center_of_mass_p);
+            let mass: f64 = points.iter().map(|(_, mass)| mass).sum();
+            let moment: f64 = points.iter().map(|(point, mass)| mass * (point - center_w).norm_squared()).sum();
+            assert!((mass - 3.0).abs() < 1e-14 && (moment - 0.2).abs() < 1e-14, "{mass} {moment}");
+            for (point, _) in &points {
+                assert!(plane.normal_w().dot(&(point - center_w)).abs() < 1e-15 * size.max(1.0));
+            }
+            let (axes, guided) = axes(of.freedoms);
+            assert!((axes[guided.unwrap()] - plane.normal_w()).norm() < 1e-15);
+            assert!((Mat3::from_columns(&axes).determinant() - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// A platform on four cables in a plane through the origin.
+    fn planar(normal: &str) -> String {
+        let n: Vec<f64> = normal.split(", ").map(|x| x.parse().unwrap()).collect();
+        let [u, v] = in_plane(&Vec3::new(n[0], n[1], n[2]).normalize());
+        let corner = |a: f64, b: f64| format!("{:?}", (u * a + v * b).as_slice());
+        let cables: Vec<String> = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
+            .iter()
+            .map(|&(a, b)| {
+                let (anchor, attachment) = (corner(a, b), corner(0.1 * a, 0.05 * b));
+                format!("[[cables]]\nname = \"{a} {b}\"\nmaterial = \"r\"\nanchor_m = {anchor}\nattachment_m = {attachment}\n\
+                         unstrained_length_m = 2.28\n")
+            })
+            .collect();
+        format!(
+            "name = \"p\"\n[platform]\nmass_kg = 3.0\nfreedoms = \"planar\"\nplane_normal = [{normal}]\n\
+             inertia_kg_m2 = 0.2\ncenter_of_mass_m = [0.05, 0.02, 0.01]\n[materials.r]\naxial_stiffness_n = 1e4\n\
+             mass_kg_per_m = 0.02\n{}",
+            cables.concat()
+        )
+    }
+
+    #[test]
+    fn the_forces_that_stand_for_a_load_have_its_wrench_and_its_stiffness() {
+        let load = Load {
+            force_w: Vec3::new(3.0, -2.0, 5.0),
+            moment_w: Vec3::new(0.7, 1.1, -0.4),
+            point_p: Vec3::new(0.1, 0.2, -0.1),
+        };
+        let cross = |v: &Vec3| v.cross_matrix();
+        for text in [include_str!("../../../../robots/yuan2014-4mm.toml"), &planar("1.0, 2.0, -2.0")] {
+            let mut at_rest = at_rest(text);
+            at_rest.robot.load = load;
+            let freedoms = at_rest.robot.platform.freedoms;
+            // Of a planar platform the rest of the moment is the guide's.
+            let moment_w = match freedoms {
+                Freedoms::Planar(plane) => plane.normal_w() * plane.normal_w().dot(&load.moment_w),
+                _ => load.moment_w,
+            };
+            let pose = &at_rest.equilibrium.pose;
+            let lever = pose.rot_wp * load.point_p;
+            let (mut force, mut moment, mut stiffness) = (Vec3::zeros(), Vec3::zeros(), Mat3::zeros());
+            for (point, dead) in body(&at_rest).loads(&at_rest) {
+                let arm = point - pose.position_w;
+                force += dead;
+                moment += arm.cross(&dead);
+                stiffness -= cross(&dead) * cross(&arm);
+            }
+            assert!((force - load.force_w).norm() < 1e-14);
+            assert!((moment - lever.cross(&load.force_w) - moment_w).norm() < 1e-14, "{moment}");
+            let wanted = cross(&moment_w) * 0.5 - cross(&load.force_w) * cross(&lever);
+            assert!((stiffness - wanted).norm() < 1e-14, "{stiffness}");
+        }
     }
 
     #[test]

@@ -29,6 +29,11 @@ pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Resu
     let stem = bodies.file().stem();
     let stem = stem.strip_suffix("_bodies").unwrap_or(&stem);
     let name = if stem.is_empty() { clean(&body.name) } else { stem.to_owned() };
+    let mut notes =
+        vec!["Platform frame: at the joint of the source's link. Gravity 9.81 m/s² along -z, as in CASPR".to_owned()];
+    if body.pose.is_none() {
+        notes.push("The file has no pose, q_initial: --pose of import or of an analysis gives one".to_owned());
+    }
     let mut lost = body.lost;
     lost.extend(set.lost);
     Ok(Draft {
@@ -43,10 +48,8 @@ pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Resu
             place: body.place,
         },
         cables: set.cables,
-        state: DraftState::Pose(body.pose),
-        notes: vec![
-            "Platform frame: at the joint of the source's link. Gravity 9.81 m/s² along -z, as in CASPR".to_owned(),
-        ],
+        state: body.pose.map_or(DraftState::Unknown, DraftState::Pose),
+        notes,
         assumed: body.assumed,
         lost,
     })

@@ -5,7 +5,8 @@ mod file;
 use crate::args::{ImportedPlatformArgs, RopeArgs};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Rotation, Vec3};
-use funicular::robot::Pose;
+use funicular::robot::{Pose, Robot};
+use funicular::statics::TensionRange;
 use std::collections::BTreeSet;
 
 /// What a source says of a robot.
@@ -52,6 +53,18 @@ pub(crate) enum DraftFreedoms {
     },
 }
 
+impl DraftFreedoms {
+    /// Of a planar platform the world axis across its plane, x first.
+    fn across(self) -> Option<usize> {
+        match self {
+            Self::Planar { plane: "yz" } => Some(0),
+            Self::Planar { plane: "xz" } => Some(1),
+            Self::Planar { .. } => Some(2),
+            Self::Rigid | Self::PointMass => None,
+        }
+    }
+}
+
 /// A cable.
 pub(crate) struct DraftCable {
     pub(crate) name: String,
@@ -79,6 +92,8 @@ pub(crate) struct DraftRope {
     pub(crate) youngs_modulus: Option<f64>,
     /// Diameter [m].
     pub(crate) diameter: Option<f64>,
+    /// Tension at which it breaks [N].
+    pub(crate) breaking_load: Option<f64>,
 }
 
 /// What the source says of the state.
@@ -96,6 +111,7 @@ impl Draft {
     ///
     /// One message with every option that is needed and missing.
     pub(crate) fn complete(&mut self, ropes: &RopeArgs, platform: &ImportedPlatformArgs) -> Result<()> {
+        self.refuse_useless(ropes, platform)?;
         self.name_cables();
         self.merge_point_mass();
         self.set_state(platform)?;
@@ -104,7 +120,69 @@ impl Draft {
         if !missing.is_empty() {
             bail!("the source lacks what no robot file is without: {}", missing.join("; "));
         }
+        self.leave_out_limits();
         Ok(())
+    }
+
+    /// Refuses options that would change nothing.
+    fn refuse_useless(&self, ropes: &RopeArgs, platform: &ImportedPlatformArgs) -> Result<()> {
+        if self.platform.freedoms == DraftFreedoms::PointMass {
+            let given = [
+                ("--inertia-kg-m2", platform.inertia_kg_m2.is_some()),
+                ("--center-of-mass-m", platform.center_of_mass_m.is_some()),
+            ];
+            if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
+                bail!(
+                    "the platform is a point mass, which has neither inertia tensor nor centre of mass: leave out {option}"
+                );
+            }
+        }
+        let has_stiffness = self.cables.iter().any(|cable| cable.rope.axial_stiffness.is_some());
+        if ropes.diameter_m.is_some() && ropes.youngs_modulus_pa.is_none() && has_stiffness {
+            bail!(
+                "the source has EA of the ropes, which --diameter-m does not change: leave it out, or add --youngs-modulus-pa"
+            );
+        }
+        Ok(())
+    }
+
+    /// Leaves out limits of tension that a robot file cannot hold, or that mean something else there.
+    fn leave_out_limits(&mut self) {
+        let limits: Vec<_> = self.cables.iter_mut().map(|cable| std::mem::take(&mut cable.limits)).collect();
+        let mut text = String::new();
+        self.tables(&mut text);
+        // A robot that is none is refused later, with the reason.
+        let robot = Robot::from_toml(&text).ok();
+        let mut left: [(&str, Vec<String>); 4] = [
+            ("maximum, which is not positive", Vec::new()),
+            ("maximum, which is above the breaking load", Vec::new()),
+            ("minimum, which is not below the maximum", Vec::new()),
+            (
+                "minimum, which is below that of analyses without one: it says of straight cables that they are not slack",
+                Vec::new(),
+            ),
+        ];
+        for (i, (cable, [mut minimum, mut maximum])) in self.cables.iter_mut().zip(limits).enumerate() {
+            let chord = match &self.state {
+                DraftState::Pose(pose) => cable.anchor_w - pose.point_w(&cable.attachment_p),
+                DraftState::Lengths | DraftState::Unknown => Vec3::zeros(),
+            };
+            let without = robot.as_ref().map_or(0.0, |robot| TensionRange::of(robot, i, &chord).minimum);
+            let breaks = cable.rope.breaking_load.unwrap_or(f64::INFINITY);
+            let gone = [
+                maximum.take_if(|greatest| *greatest <= 0.0),
+                maximum.take_if(|greatest| *greatest > breaks),
+                minimum.take_if(|least| *least >= maximum.unwrap_or(breaks)),
+                minimum.take_if(|least| *least < without),
+            ];
+            for ((_, names), _) in left.iter_mut().zip(gone).filter(|(_, gone)| gone.is_some()) {
+                names.push(cable.name.clone());
+            }
+            cable.limits = [minimum, maximum];
+        }
+        for (what, names) in left.into_iter().filter(|(_, names)| !names.is_empty()) {
+            self.lost.push(format!("a limit of tension of the cables {}, the {what}", listed(&names)));
+        }
     }
 
     /// Gives every cable a name of its own, as results are listed by name.
@@ -193,10 +271,14 @@ impl Draft {
             self.notes.push("The platform's centre of mass is that of --center-of-mass-m".to_owned());
             platform.center_of_mass_p = Some(center);
         }
-        if platform.inertia_p.is_none() {
+        let across = platform.freedoms.across();
+        // About the normal of its plane a planar platform needs a moment, however many others there are.
+        let turns = |inertia: &Mat3| across.is_none_or(|normal| inertia[(normal, normal)] > 0.0);
+        if !platform.inertia_p.as_ref().is_some_and(turns) {
             missing.push(format!(
-                "{}: the platform has no inertia tensor that a body can have, give --inertia-kg-m2 XX,YY,ZZ",
-                platform.place
+                "{}: the platform has no inertia tensor that a body can have, give --inertia-kg-m2 XX,YY,ZZ{}",
+                platform.place,
+                if across.is_some() { ", of which the moment about the normal of its plane counts" } else { "" }
             ));
         }
         if platform.center_of_mass_p.is_none() {

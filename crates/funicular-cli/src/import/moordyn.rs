@@ -164,6 +164,7 @@ fn cable(file: &SourceFile, model: &Model, line: &Line, anchor: &Point, attachme
             axial_stiffness: Some(kind.axial_stiffness),
             youngs_modulus: None,
             diameter: None,
+            breaking_load: None,
         },
         limits: [None; 2],
         unstrained_length: Some(line.unstrained_length),

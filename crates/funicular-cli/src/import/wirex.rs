@@ -184,6 +184,7 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
         axial_stiffness: None,
         youngs_modulus: quantity("elasticity")?.filter(|modulus| *modulus > 0.0),
         diameter: quantity("radius")?.filter(|radius| *radius > 0.0).map(|radius| 2.0 * radius),
+        breaking_load: quantity("breaking_load")?.filter(|load| *load > 0.0),
     };
     if let (Some(mass), Some(diameter)) = (rope.mass_per_length.filter(|mass| *mass > 0.0), rope.diameter) {
         let density = mass / (std::f64::consts::FRAC_PI_4 * diameter * diameter);
@@ -197,7 +198,6 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
     }
     for (name, what) in [
         ("damping", "a damping per length of unknown unit"),
-        ("breaking_load", "the breaking load [N]"),
         ("max_length", "the greatest length [m]"),
         ("min_length", "the least length [m]"),
     ] {
@@ -244,11 +244,6 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
             "the pulleys at the base, of radius {} m: each cable ends at the point of its <base>",
             radii.join(", ")
         ));
-    }
-    if cables.iter().any(|cable| cable.limits != [None; 2]) {
-        lost.push(
-            "the limits of tension, minimum_load and f_max: they stand in comments beside their cables".to_owned(),
-        );
     }
     Ok(cables)
 }

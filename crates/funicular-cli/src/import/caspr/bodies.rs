@@ -16,7 +16,8 @@ pub(super) struct Body {
     /// From the joint, body axes [m].
     pub(super) center_of_mass_p: Vec3,
     pub(super) freedoms: DraftFreedoms,
-    pub(super) pose: Pose,
+    /// `None` where the file has no coordinates of the joint.
+    pub(super) pose: Option<Pose>,
     pub(super) place: String,
     pub(super) assumed: Vec<String>,
     pub(super) lost: Vec<String>,
@@ -100,7 +101,8 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
         bail!(xml.error(parent, format!("<num> is {parent_link}; the only link has to hang on the base, link 0")));
     }
     let joint_node = xml.required(link, "joint")?;
-    let (freedoms, translation, rot_wp) = joint(xml, joint_node)?;
+    let (freedoms, place) = joint(xml, joint_node)?;
+    let location = xml.child_vector(parent, "location")?;
     let physical = xml.required(link, "physical")?;
     let center_of_mass_p = xml.child_vector(physical, "com_location")?;
     let mass = mass(xml, physical)?;
@@ -126,14 +128,15 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
         inertia_p,
         center_of_mass_p,
         freedoms,
-        pose: Pose { position_w: xml.child_vector(parent, "location")? + translation, rot_wp },
+        pose: place.map(|(translation, rot_wp)| Pose { position_w: location + translation, rot_wp }),
         place: xml.place(physical),
         assumed,
         lost,
     })
 }
 
-fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Vec3, Rotation)> {
+/// The freedoms of a joint, and where it is if the file says so.
+fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Option<(Vec3, Rotation)>)> {
     let kind = node.attribute("type").unwrap_or_default().trim();
     let Some(joint) = joint_of(kind) else {
         let which = match kind.split('_').next().unwrap_or_default() {
@@ -158,9 +161,8 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Vec3, Rotation)> {
         ));
     }
     let text = node.attribute("q_initial").map(str::trim).filter(|text| !text.is_empty());
-    let Some(text) = text else {
-        bail!(xml.error(node, "<joint> has no attribute `q_initial`, the pose; CASPR requires it"));
-    };
+    // Models of before 2017 have none.
+    let Some(text) = text else { return Ok((joint.freedoms, None)) };
     let q = text::numbers(text).map_err(|wrong| xml.error(node, format!("attribute `q_initial` holds {wrong}")))?;
     if q.len() != joint.count {
         let count = joint.count;
@@ -169,8 +171,7 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Vec3, Rotation)> {
     if joint.count == 7 && q[3..].iter().all(|part| *part == 0.0) {
         bail!(xml.error(node, "attribute `q_initial` holds the quaternion zero, which is no orientation"));
     }
-    let (translation, rot_wp) = (joint.place)(&q);
-    Ok((joint.freedoms, translation, rot_wp))
+    Ok((joint.freedoms, Some((joint.place)(&q))))
 }
 
 /// The mass; zero, which stands in files that nobody filled in, is none.
@@ -205,7 +206,8 @@ fn inertia(
                 .to_owned(),
         );
     }
-    match node.attribute("ref").map(str::trim) {
+    // Models of before 2017 write CoM.
+    match node.attribute("ref").map(|text| text.trim().to_ascii_lowercase()).as_deref() {
         Some("com") => Ok(Some(tensor)),
         Some("joint") => {
             let shift = Mat3::identity() * center_p.norm_squared() - center_p * center_p.transpose();

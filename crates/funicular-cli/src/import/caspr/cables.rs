@@ -32,11 +32,6 @@ pub(super) fn read(xml: &Xml, wanted: Option<&str>, center_of_mass_p: &Vec3) -> 
         bail!(xml.error(node, format!("cable set \"{id}\" has no cables")));
     }
     let mut lost = left.lost();
-    if cables.iter().any(|cable| cable.limits != [None; 2]) {
-        lost.push(
-            "the limits of tension, force_min and force_max: they stand in comments beside their cables".to_owned(),
-        );
-    }
     let others: Vec<String> = ids.into_iter().filter(|other| *other != id).collect();
     if !others.is_empty() {
         lost.push(format!("the other sets of cables, {}; --cable-set chooses one", listed(&others)));

@@ -10,9 +10,6 @@ use std::fmt::Write;
 /// Width of comments.
 const WIDTH: usize = 118;
 
-/// What stands before tension limits: the robot file has no keys for them, so they are kept as comments.
-const LIMIT_PREFIX: &str = "# ";
-
 impl Draft {
     /// The robot file. What comes out has been read back.
     ///
@@ -50,7 +47,7 @@ impl Draft {
         }
     }
 
-    fn tables(&self, out: &mut String) {
+    pub(super) fn tables(&self, out: &mut String) {
         let mut line = |text: String| out.push_str(&(text + "\n"));
         line(format!("\nname = {}", quoted(&self.name)));
         line(format!("source = {}", quoted(&self.source)));
@@ -63,12 +60,17 @@ impl Draft {
                 if let DraftFreedoms::Planar { plane } = of {
                     line(format!("freedoms = \"planar-{plane}\""));
                     // The plane of a planar robot is the one that its pose is in.
-                    if let DraftState::Pose(pose) = &self.state {
-                        let across = ["yz", "xz", "xy"].iter().position(|name| *name == plane).unwrap_or(2);
+                    if let (DraftState::Pose(pose), Some(across)) = (&self.state, of.across()) {
                         line(format!("plane_offset_m = {}", float(pose.position_w[across])));
                     }
                 }
-                line(format!("inertia_kg_m2 = {}", tensor(&self.platform.inertia_p.unwrap_or_default())));
+                let inertia = self.platform.inertia_p.unwrap_or_default();
+                // Of planar robots the sources leave all but the moment about the normal at zero, which is no body's
+                // tensor; the robot file takes that moment alone.
+                line(match of.across() {
+                    Some(normal) => format!("inertia_kg_m2 = {}", float(inertia[(normal, normal)])),
+                    None => format!("inertia_kg_m2 = {}", tensor(&inertia)),
+                });
                 line(format!("center_of_mass_m = {}", vector(&self.platform.center_of_mass_p.unwrap_or_default())));
             }
         }
@@ -82,6 +84,9 @@ impl Draft {
                 line(format!("diameter_m = {}", float(rope.diameter.unwrap_or_default())));
             }
             line(format!("mass_kg_per_m = {}", float(rope.mass_per_length.unwrap_or_default())));
+            if let Some(load) = rope.breaking_load {
+                line(format!("breaking_load_n = {}", float(load)));
+            }
         }
         for cable in &self.cables {
             let material = ropes.iter().find(|(_, rope)| same(rope, &cable.rope)).map_or("", |(name, _)| name);
@@ -115,7 +120,7 @@ impl Draft {
         }
         for (key, limit) in ["minimum_tension_n", "maximum_tension_n"].into_iter().zip(cable.limits) {
             if let Some(limit) = limit {
-                line(&format!("{LIMIT_PREFIX}{key}"), float(limit));
+                line(key, float(limit));
             }
         }
         text
@@ -147,7 +152,8 @@ fn same(a: &DraftRope, b: &DraftRope) -> bool {
         Some(_) => (rope.axial_stiffness, None, None),
         None => (None, rope.youngs_modulus, rope.diameter),
     };
-    a.name == b.name && a.mass_per_length == b.mass_per_length && key(a) == key(b)
+    let same = a.name == b.name && a.mass_per_length == b.mass_per_length && key(a) == key(b);
+    same && a.breaking_load == b.breaking_load
 }
 
 /// Lines of `# `, wrapped between words.
