@@ -1,5 +1,6 @@
 //! Static equilibrium: lengths to pose ([`forward`]), pose to lengths ([`inverse`]).
 
+mod energy;
 mod forward;
 mod inverse;
 mod limits;
@@ -7,6 +8,7 @@ mod nearest;
 mod start;
 mod tension;
 
+pub use energy::energy;
 pub use forward::forward;
 pub use inverse::inverse;
 pub use limits::{Limit, TensionMargin, TensionRange};

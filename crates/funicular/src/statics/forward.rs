@@ -2,7 +2,7 @@
 
 use super::{
     CableState, Equilibrium, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance, check_lengths,
-    collect, hang, load_wrench, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, wrench_of,
+    collect, energy, hang, load_wrench, residual_of, rope, scaled, scaled_residual, scaled_wrench, start, wrench_of,
 };
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
@@ -84,11 +84,7 @@ impl Search<'_> {
             self.ropes.iter().enumerate().map(|(i, &rope)| hang(self.robot, i, &pose, self.up_w, rope)).collect();
         let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
-        let weight_w = self.robot.gravity_w * self.robot.platform.mass;
-        let com_w = pose.point_w(&self.robot.platform.center_of_mass_p);
-        let loaded_w = pose.point_w(&self.robot.load.point_p);
-        let of_loads = weight_w.dot(&com_w) + self.robot.load.force_w.dot(&loaded_w);
-        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - of_loads;
+        let energy = energy::of_parts(self.robot, &pose, cables.iter());
         let residual = scaled_residual(self.robot, &wrench, force_scale);
         let stiffest: f64 = self.ropes.iter().map(|rope| rope.axial_stiffness).sum();
         let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
