@@ -16,7 +16,7 @@ impl<W: Write> CsvRows<W> {
     /// What `out` reports.
     pub fn new(out: W, columns: &[Column]) -> io::Result<Self> {
         let mut out = csv::Writer::from_writer(out);
-        out.write_record(columns.iter().map(|column| column.name.as_str()))?;
+        out.write_record(columns.iter().map(|column| column.name.as_str())).map_err(below)?;
         Ok(Self { out })
     }
 
@@ -36,13 +36,17 @@ impl<W: Write> CsvRows<W> {
                             // The shortest text that reads back as the same number.
                             let _ = write!(number, "{value:?}");
                         }
-                        self.out.write_field(number.as_bytes())?;
+                        self.out.write_field(number.as_bytes()).map_err(below)?;
                     }
-                    Values::Flag(values) => self.out.write_field(if values[row] { "true" } else { "false" })?,
-                    Values::Text(values) => self.out.write_field(values[row].as_deref().unwrap_or(""))?,
+                    Values::Flag(values) => {
+                        self.out.write_field(if values[row] { "true" } else { "false" }).map_err(below)?
+                    }
+                    Values::Text(values) => {
+                        self.out.write_field(values[row].as_deref().unwrap_or("")).map_err(below)?
+                    }
                 }
             }
-            self.out.write_record(None::<&[u8]>)?;
+            self.out.write_record(None::<&[u8]>).map_err(below)?;
         }
         Ok(())
     }
@@ -53,6 +57,14 @@ impl<W: Write> CsvRows<W> {
     /// What `out` reports.
     pub fn finish(mut self) -> io::Result<()> {
         self.out.flush()
+    }
+}
+
+/// The error of what is written to, whose kind the other conversion loses.
+fn below(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
     }
 }
 

@@ -164,10 +164,16 @@ fn deep_difference(what: &str, theirs: &Value, ours: &Value) -> Option<Differenc
         let keys = b.keys().chain(a.keys().filter(|key| !b.contains_key(*key)));
         return keys
             .filter_map(|key| {
-                let inner = if what == "plan" { key.clone() } else { format!("{what} {key}") };
+                let inner = if what == "plan" { key.clone() } else { format!("{what}, {key}") };
                 deep_difference(&inner, a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null))
             })
             .next();
+    }
+    if let (Value::Array(a), Value::Array(b)) = (theirs, ours)
+        && a.len() == b.len()
+    {
+        let items = a.iter().zip(b).enumerate();
+        return items.filter_map(|(i, (a, b))| deep_difference(&format!("{what}, item {}", i + 1), a, b)).next();
     }
     Some(Difference { what: what.to_owned(), theirs: shown(theirs), ours: shown(ours) })
 }

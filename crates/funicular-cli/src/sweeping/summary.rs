@@ -27,6 +27,11 @@ pub(crate) struct Summary {
     /// Columns in front of `feasible`.
     #[serde(skip)]
     coordinates: usize,
+    /// The coordinates of the first row, and which of them are others elsewhere.
+    #[serde(skip)]
+    first: Vec<f64>,
+    #[serde(skip)]
+    varies: Vec<bool>,
 }
 
 #[derive(Serialize)]
@@ -60,6 +65,8 @@ impl Summary {
             warnings: Vec::new(),
             columns: columns.to_vec(),
             coordinates: columns.iter().take_while(|column| column.kind == Kind::Real).count(),
+            first: Vec::new(),
+            varies: columns.iter().take_while(|column| column.kind == Kind::Real).map(|_| false).collect(),
         }
     }
 
@@ -72,6 +79,14 @@ impl Summary {
                 .filter_map(|column| if let Values::Real(values) = column { values[row] } else { None })
                 .collect()
         };
+        if self.first.is_empty() {
+            self.first = at(0);
+        }
+        for row in 0..chunk.rows() {
+            for ((varies, first), value) in self.varies.iter_mut().zip(&self.first).zip(at(row)) {
+                *varies |= first.to_bits() != value.to_bits();
+            }
+        }
         let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] =
             &chunk.columns[self.coordinates..self.coordinates + 3]
         else {
@@ -107,6 +122,13 @@ impl Summary {
         }
     }
 
+    /// Of coordinates in order, those that vary.
+    fn chosen(&self, coordinates: impl Iterator<Item = String>) -> String {
+        let chosen: Vec<String> =
+            coordinates.zip(&self.varies).filter_map(|(text, varies)| varies.then_some(text)).collect();
+        if chosen.len() == 1 { chosen.concat() } else { format!("({})", chosen.join(", ")) }
+    }
+
     /// To standard output.
     pub(super) fn print(mut self, format: Option<Format>) -> Result<()> {
         let place = |code: &str| CODES.iter().position(|known| known.0 == code);
@@ -135,13 +157,10 @@ impl Results for Summary {
         let mut text =
             format!("{}: {} rows, {} feasible ({} %)\n", self.robot, self.rows, self.feasible, short(share, 4));
         if !self.ranges.is_empty() {
-            let names: Vec<&str> = self.columns[..self.coordinates].iter().map(|column| column.name.as_str()).collect();
-            let place = format!("at ({})", names.join(", "));
+            let place = format!("at {}", self.chosen(self.columns.iter().map(|column| column.name.clone())));
             let mut table = Table::new(&["", "least", &place, "greatest", &place]);
             for range in &self.ranges {
-                let at = |place: &[f64]| {
-                    format!("({})", place.iter().map(|value| short(*value, 5)).collect::<Vec<_>>().join(", "))
-                };
+                let at = |place: &[f64]| self.chosen(place.iter().map(|value| short(*value, 5)));
                 table.row(vec![
                     range.column.clone(),
                     significant(range.least, 5),

@@ -8,6 +8,7 @@ mod import;
 mod pages;
 mod readme;
 mod results;
+mod sweeps;
 
 use assert_cmd::Command;
 use std::path::PathBuf;

@@ -19,5 +19,6 @@ mod reference;
 mod response;
 mod robot_files;
 mod statics;
+mod sweep;
 mod tension;
 mod underconstrained;
