@@ -3,7 +3,7 @@
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::whole::{Temporary, is_regular_or_new};
-use crate::{FilesError, Format, Record, Rows, vti, write_whole};
+use crate::{FilesError, Format, Record, Rows, vti, with_ending, write_whole};
 use funicular::sweep::Chunk;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ impl Job {
         if record.part.is_some() && format != Format::Parquet {
             return Err(place("a part has to be a .parquet file, which says what it is a part of".to_owned()));
         }
-        let partial = beside(path);
+        let partial = with_ending(path, ".partial");
         if begin == Begin::Resume
             && !partial.exists()
             && path.exists()
@@ -102,7 +102,7 @@ impl Job {
             take(chunk);
             Ok(())
         });
-        each.map_err(|source| FilesError::Read { path: self.journal.path.clone(), source })
+        each.map_err(|cause| FilesError::Read { path: self.journal.path.clone(), cause })
     }
 
     /// Takes the next chunk.
@@ -153,22 +153,15 @@ impl Job {
         Ok(true)
     }
 
-    fn failed(&self, path: &Path, source: std::io::Error) -> FilesError {
+    fn failed(&self, path: &Path, cause: std::io::Error) -> FilesError {
         let rows = self.journal.record().rows_of(self.journal.record().range());
         let saved = format!(
             "{} of {rows} rows are safe in {}: make room, then go on with --resume",
             self.done(),
             self.journal.path.display()
         );
-        FilesError::Write { path: path.to_owned(), saved, source }
+        FilesError::Write { path: path.to_owned(), saved, cause }
     }
-}
-
-/// `FILE.partial`.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".partial");
-    name.into()
 }
 
 /// The file is the whole result already.
@@ -182,7 +175,7 @@ fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
 
 fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal, FilesError> {
     let path = || partial.to_owned();
-    let unreadable = |source| FilesError::Read { path: path(), source };
+    let unreadable = |cause| FilesError::Read { path: path(), cause };
     let unwritable = |source| FilesError::Place { path: path(), reason: crate::told(&source) };
     let file = Journal::lock(partial)?;
     let found = match begin {

@@ -22,8 +22,8 @@ pub use record::{Difference, Part, Record};
 pub use variations::{Variation, Variations};
 pub use vti::Grid;
 
-use crate::whole::Temporary;
 use funicular::sweep::Chunk;
+use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -46,22 +46,22 @@ pub enum FilesError {
         reason: String,
     },
     /// The rows are there, but writing them failed.
-    #[error("cannot write {}: {}; {saved}", .path.display(), told(.source))]
+    #[error("cannot write {}: {}; {saved}", .path.display(), told(.cause))]
     Write {
         /// The file.
         path: PathBuf,
         /// What is safe, and what to do.
         saved: String,
         /// What the system says.
-        source: io::Error,
+        cause: io::Error,
     },
     /// A file that cannot be read.
-    #[error("cannot read {}: {}", .path.display(), told(.source))]
+    #[error("cannot read {}: {}", .path.display(), told(.cause))]
     Read {
         /// The file.
         path: PathBuf,
         /// What the system says.
-        source: io::Error,
+        cause: io::Error,
     },
     /// Work in the way.
     #[error(
@@ -159,18 +159,37 @@ trait Rows {
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()>;
 }
 
-/// Writes rows to a file, as a whole or not at all.
+/// Writes rows to a file, as a whole or not at all. Until then they are in `FILE.writing`: a name that the next try takes
+/// over, so that nothing is left of a run that was killed here.
 fn write_whole(path: &Path, format: Format, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {
-    let mut file = Temporary::beside(path)?;
-    let out = io::BufWriter::with_capacity(1 << 20, file.as_file_mut());
-    match format {
-        Format::Parquet => parquet::write(out, record, rows, complete)?,
-        Format::Csv => csv::write(out, record, rows)?,
-        Format::Vti => vti::write(out, record, rows)?,
+    let beside = with_ending(path, ".writing");
+    let file = OpenOptions::new().write(true).create(true).truncate(false).open(&beside)?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another run is writing it"));
     }
-    // The journal goes once the file is there: it has to be on the disk by then.
-    file.as_file_mut().sync_data()?;
-    file.persist(path)
+    let write = || {
+        file.set_len(0)?;
+        let out = io::BufWriter::with_capacity(1 << 20, &file);
+        match format {
+            Format::Parquet => parquet::write(out, record, rows, complete)?,
+            Format::Csv => csv::write(out, record, rows)?,
+            Format::Vti => vti::write(out, record, rows)?,
+        }
+        if let Ok(metadata) = fs::metadata(path) {
+            file.set_permissions(metadata.permissions())?;
+        }
+        // The journal goes once the file is there: it has to be on the disk by then.
+        file.sync_data()?;
+        fs::rename(&beside, path)
+    };
+    write().inspect_err(|_| drop(fs::remove_file(&beside)))
+}
+
+/// The name of a file with more behind it.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
 }
 
 pub use csv::CsvRows;

@@ -52,10 +52,10 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     }
     let to = to.canonicalize().unwrap_or_else(|_| to.to_owned());
     let rows = Parts { record: &record, parts: &found };
-    write_whole(&to, format, &record, &rows, true).map_err(|source| FilesError::Write {
+    write_whole(&to, format, &record, &rows, true).map_err(|cause| FilesError::Write {
         path: to.clone(),
         saved: "the parts are as they were: make room, and merge again".to_owned(),
-        source,
+        cause,
     })?;
     Ok(record.rows)
 }

@@ -102,7 +102,7 @@ impl ParquetFile {
     /// Reads what the file says of itself.
     pub(crate) fn open(path: &Path) -> Result<Self, FilesError> {
         let not_ours = |reason: &str| FilesError::NotOurs { path: path.to_owned(), reason: reason.to_owned() };
-        let file = File::open(path).map_err(|source| FilesError::Read { path: path.to_owned(), source })?;
+        let file = File::open(path).map_err(|cause| FilesError::Read { path: path.to_owned(), cause })?;
         let reader = ParquetRecordBatchReaderBuilder::try_new(file)
             .map_err(|error| not_ours(&format!("it is no Parquet file ({error})")))?;
         let metadata = reader.metadata().file_metadata();

@@ -81,7 +81,11 @@ fn rows_are_the_same_bits_on_any_number_of_threads_and_in_any_part() {
 #[test]
 fn every_column_is_what_the_function_it_stands_for_gives() {
     let robot = yuan();
-    let (points, options) = (grid(&robot, [3, 2, 2]), Options::default());
+    // Around the middle, where no cable is all but slack: such a one cannot be resolved far above its first frequency.
+    let near = |to, count| Steps::range(-to, to, count).unwrap();
+    let given = axes(&[("x", near(0.4, 3)), ("y", near(0.3, 2)), ("z", Steps::range(0.3, 0.9, 2).unwrap())]);
+    let points = Poses::grid(robot.clone(), &given, None).unwrap();
+    let options = Options::default();
     let asked = quantities(
         "frequencies:3,first-frequency,tension-max,tensions,lengths,stiffness-min,stiffness,energy,model-error:spring,pose-error",
     );
@@ -109,8 +113,8 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
         assert!((x * compliance[(0, 0)] - 1.0).abs() < 1e-9);
         let first = |cable_model| {
             let asked = Linearisation { cable_model, ..Linearisation::default() };
-            let dynamics = Dynamics::about(&robot, &rest, asked, 30.0).unwrap();
-            modes::below(&dynamics, 30.0).modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>()
+            let dynamics = Dynamics::about(&robot, &rest, asked, 15.0).unwrap();
+            modes::below(&dynamics, 15.0).modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>()
         };
         let exact = first(CableModel::Exact);
         let near = |name: &str, expected: f64| {
