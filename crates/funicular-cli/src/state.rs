@@ -46,7 +46,7 @@ pub(crate) fn equilibrium_with(
     args: &StateArgs,
     tensions: &TensionArgs,
 ) -> Result<(AtRest, Option<TensionRule>)> {
-    let robot = with_limits(with_options(robot, args)?, tensions)?;
+    let robot = with_limits(&with_options(robot, args)?, tensions)?;
     let asked = rule(tensions)?;
     let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
     match &robot.state {
@@ -69,7 +69,7 @@ pub(crate) fn equilibrium_with(
 }
 
 /// The robot with the limits of tension that the options give.
-pub(crate) fn with_limits(robot: Robot, tensions: &TensionArgs) -> Result<Robot> {
+pub(crate) fn with_limits(robot: &Robot, tensions: &TensionArgs) -> Result<Robot> {
     let limits = TensionLimits { minimum: tensions.min_tension_n, maximum: tensions.max_tension_n };
     let robot = robot.with_tension_limits(limits);
     for cable in &robot.cables {

@@ -39,10 +39,10 @@ impl<W: Write> CsvRows<W> {
                         self.out.write_field(number.as_bytes()).map_err(below)?;
                     }
                     Values::Flag(values) => {
-                        self.out.write_field(if values[row] { "true" } else { "false" }).map_err(below)?
+                        self.out.write_field(if values[row] { "true" } else { "false" }).map_err(below)?;
                     }
                     Values::Text(values) => {
-                        self.out.write_field(values[row].as_deref().unwrap_or("")).map_err(below)?
+                        self.out.write_field(values[row].as_deref().unwrap_or("")).map_err(below)?;
                     }
                 }
             }

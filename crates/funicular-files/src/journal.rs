@@ -62,11 +62,10 @@ impl Journal {
             .truncate(false)
             .open(path)
             .map_err(|source| FilesError::Place { path: path.to_owned(), reason: crate::told(&source) })?;
+        // Any other error is a file system without locks: the user has to know what runs.
         match file.try_lock() {
-            Ok(()) => Ok(file),
             Err(TryLockError::WouldBlock) => Err(FilesError::Locked { path: path.to_owned() }),
-            // A file system without locks: the user has to know what runs.
-            Err(TryLockError::Error(_)) => Ok(file),
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
         }
     }
 

@@ -161,19 +161,17 @@ fn deep_difference(what: &str, theirs: &Value, ours: &Value) -> Option<Differenc
         return None;
     }
     if let (Value::Object(a), Value::Object(b)) = (theirs, ours) {
-        let keys = b.keys().chain(a.keys().filter(|key| !b.contains_key(*key)));
-        return keys
-            .filter_map(|key| {
-                let inner = if what == "plan" { key.clone() } else { format!("{what}, {key}") };
-                deep_difference(&inner, a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null))
-            })
-            .next();
+        let mut keys = b.keys().chain(a.keys().filter(|key| !b.contains_key(*key)));
+        return keys.find_map(|key| {
+            let inner = if what == "plan" { key.clone() } else { format!("{what}, {key}") };
+            deep_difference(&inner, a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null))
+        });
     }
     if let (Value::Array(a), Value::Array(b)) = (theirs, ours)
         && a.len() == b.len()
     {
-        let items = a.iter().zip(b).enumerate();
-        return items.filter_map(|(i, (a, b))| deep_difference(&format!("{what}, item {}", i + 1), a, b)).next();
+        let mut items = a.iter().zip(b).enumerate();
+        return items.find_map(|(i, (a, b))| deep_difference(&format!("{what}, item {}", i + 1), a, b));
     }
     Some(Difference { what: what.to_owned(), theirs: shown(theirs), ours: shown(ours) })
 }

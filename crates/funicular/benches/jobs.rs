@@ -9,7 +9,7 @@ use funicular::math::Vec3;
 use funicular::response::{self, Direction, Quantity};
 use funicular::robot::{Robot, State, TensionLimits};
 use funicular::statics::{self, StaticModel, TensionRule};
-use funicular::sweep::{Options, Plan, Poses, Quantity};
+use funicular::sweep::{Options, Plan, Poses, Quantity as Asked};
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
 use std::time::Duration;
@@ -154,17 +154,14 @@ fn sweeps(c: &mut Criterion) {
         .collect();
     let points = Poses::list(robot.clone(), poses);
     let options = Options::default();
-    let mut bench = |name: &str, quantities: &[Quantity]| {
+    let mut bench = |name: &str, quantities: &[Asked]| {
         let plan = Plan::new(&points, &robot, quantities, &options).expect("a plan");
         c.bench_function(&format!("sweep: 1,000 poses, {name}"), |b| {
             b.iter(|| (0..plan.chunks()).map(|i| plan.evaluate(i, || false).map_or(0, |c| c.rows())).sum::<usize>());
         });
     };
-    bench("lengths and tensions", &[Quantity::Lengths, Quantity::Tensions]);
-    bench(
-        "lengths, tensions and exact first frequency",
-        &[Quantity::Lengths, Quantity::Tensions, Quantity::FirstFrequency],
-    );
+    bench("lengths and tensions", &[Asked::Lengths, Asked::Tensions]);
+    bench("lengths, tensions and exact first frequency", &[Asked::Lengths, Asked::Tensions, Asked::FirstFrequency]);
 }
 
 criterion_group! {

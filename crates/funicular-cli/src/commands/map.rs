@@ -16,27 +16,21 @@ use std::path::Path;
 
 pub(crate) fn run(args: &MapArgs) -> Result<()> {
     let file = robot_file::read(Some(&args.robot.robot), &args.robot.changes)?;
-    let robot = state::with_limits(state::with_options(file.robot, &args.state)?, &args.tensions)?;
+    let robot = state::with_limits(&state::with_options(file.robot, &args.state)?, &args.tensions)?;
     let options = sweeping::options(&robot, &args.state, &args.tensions, &args.model, &args.what)?;
     let mut plan = Map::new();
-    let points = match &args.poses {
-        Some(path) => {
-            let poses = read_poses(path, &robot)?;
-            plan.insert("poses".to_owned(), json!({ "count": poses.len(), "sha256": digest(&poses) }));
-            Poses::list(robot.clone(), poses)
+    let points = if let Some(path) = &args.poses {
+        let poses = read_poses(path, &robot)?;
+        plan.insert("poses".to_owned(), json!({ "count": poses.len(), "sha256": digest(&poses) }));
+        Poses::list(robot.clone(), poses)
+    } else {
+        let base = base(&robot, args)?;
+        let grid = Poses::grid(robot.clone(), &args.grid, base.as_ref())?;
+        plan.insert("grid".to_owned(), axes_of(&grid));
+        if let Some(base) = base {
+            plan.insert("orientation_wxyz".to_owned(), json!(funicular::math::rotation::quaternion_wxyz(&base.rot_wp)));
         }
-        None => {
-            let base = base(&robot, args)?;
-            let grid = Poses::grid(robot.clone(), &args.grid, base.as_ref())?;
-            plan.insert("grid".to_owned(), axes_of(&grid));
-            if let Some(base) = base {
-                plan.insert(
-                    "orientation_wxyz".to_owned(),
-                    json!(funicular::math::rotation::quaternion_wxyz(&base.rot_wp)),
-                );
-            }
-            grid
-        }
+        grid
     };
     plan.extend(sweeping::described(&options, &args.state, &args.tensions, &args.what.quantity));
     sweeping::run(&Job {
@@ -75,7 +69,7 @@ fn axes_of(grid: &Poses) -> Value {
 fn digest(poses: &[[f64; 6]]) -> String {
     let mut sha = Sha256::new();
     poses.iter().flatten().for_each(|value| sha.update(value.to_bits().to_le_bytes()));
-    sha.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    format!("{:x}", sha.finalize())
 }
 
 /// The columns of a file of poses; all others are left alone.

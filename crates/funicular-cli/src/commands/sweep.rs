@@ -13,7 +13,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<()> {
     let file = robot_file::read(Some(&args.robot.robot), &args.robot.changes)?;
     let as_asked = |robot: Robot| {
         let robot = state::with_options(robot, &args.state)?;
-        state::with_limits(robot, &args.tensions)
+        state::with_limits(&robot, &args.tensions)
     };
     let adjust = Box::new(|robot| as_asked(robot).map_err(|error| format!("{error:#}")));
     let points = Variations::new(file.text.clone(), args.vary.clone(), adjust).map_err(|error| anyhow!("{error}"))?;

@@ -169,7 +169,8 @@ impl Results for Summary {
                     at(&range.greatest_at),
                 ]);
             }
-            text += &format!("\n{table}");
+            text += "\n";
+            text += &table.to_string();
         }
         let others: Vec<&StatusCount> = self.status.iter().filter(|count| count.code != "ok").collect();
         if !others.is_empty() {
@@ -177,7 +178,8 @@ impl Results for Summary {
             for count in others {
                 table.row(vec![count.code.to_owned(), count.rows.to_string(), count.first_reason.clone()]);
             }
-            text += &format!("\n{table}");
+            text += "\n";
+            text += &table.to_string();
         }
         text
     }

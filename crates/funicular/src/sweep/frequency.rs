@@ -27,9 +27,9 @@ pub(super) fn lowest(
 ) -> Result<Lowest, Status> {
     if let Stability::Unstable { directions, .. } = rest.stability {
         let reason = format!("the equilibrium is not stable ({directions} directions): it has no first frequency");
-        return Err(Status::new("unstable", reason));
+        return Err(Status::new("unstable", &reason));
     }
-    let none = |reason: String| Status::new("no-frequency", reason);
+    let none = |reason: String| Status::new("no-frequency", &reason);
     let mut limit = first_limit(robot, rest, linearisation.cable_model).min(highest_hz);
     loop {
         let dynamics = Dynamics::about(robot, rest, linearisation, limit).map_err(|error| none(error.to_string()))?;

@@ -39,7 +39,7 @@ pub struct Poses {
 #[derive(Debug, Clone)]
 enum Which {
     /// All combinations of values along axes.
-    Grid { axes: [Steps; 6], turns: bool, base: Pose },
+    Grid { axes: Box<[Steps; 6]>, turns: bool, base: Pose },
     /// Position [m] and roll, pitch, yaw [degrees].
     List(Vec<[f64; 6]>),
 }
@@ -84,10 +84,10 @@ impl Poses {
         let at_base: [f64; 6] = numbers(&base);
         let turns = found[3..].iter().any(Option::is_some);
         let mut at_base = at_base.into_iter();
-        let axes = found.map(|steps| {
+        let axes = Box::new(found.map(|steps| {
             let value = at_base.next().unwrap_or(0.0);
             steps.unwrap_or_else(|| Steps::List(vec![value]))
-        });
+        }));
         Ok(Self { robot, which: Which::Grid { axes, turns, base } })
     }
 
@@ -165,7 +165,7 @@ impl Points for Poses {
             Which::Grid { axes, turns, base } => {
                 let mut at = [0.0; 6];
                 for ((value, steps), digit) in
-                    at.iter_mut().zip(axes).zip(steps::digits(i, axes.iter().map(Steps::count)))
+                    at.iter_mut().zip(axes.iter()).zip(steps::digits(i, axes.iter().map(Steps::count)))
                 {
                     *value = steps.at(digit);
                 }
@@ -177,7 +177,9 @@ impl Points for Poses {
                 (at, pose)
             }
         };
-        at.iter_mut().for_each(|value| *value += 0.0);
+        for value in &mut at {
+            *value += 0.0;
+        }
         Point {
             coordinates: at[..self.width()].to_vec(),
             robot: Ok((Cow::Borrowed(&self.robot), Cow::Owned(State::Pose(pose)))),

@@ -226,7 +226,7 @@ impl Row<'_> {
         let with = |model| {
             statics::forward(self.robot, &lengths, model, Some(&self.rest.pose))
                 .map(|found| found.pose)
-                .map_err(|error| Status::new("no-comparison", error))
+                .map_err(|error| Status::new("no-comparison", &error))
         };
         let spring = with(StaticModel::Spring);
         let distance = |from: &_, to: &_| PoseDifference::between(from, to).distance;
@@ -271,7 +271,7 @@ impl Row<'_> {
         let least = |cable_model| {
             let asked = Linearisation { cable_model, ..self.options.linearisation };
             let dynamics = Dynamics::about(self.robot, self.rest, asked, 0.0)
-                .map_err(|error| Status::new("no-comparison", error))?;
+                .map_err(|error| Status::new("no-comparison", &error))?;
             let stiffness: Mat6 = dynamics.dynamic_stiffness(0.0);
             Ok::<f64, Status>(inertia::eigen(&stiffness, dynamics.freedoms()).0[0])
         };
