@@ -82,7 +82,7 @@ fn rows_are_the_same_bits_on_any_number_of_threads_and_in_any_part() {
 fn every_column_is_what_the_function_it_stands_for_gives() {
     let robot = yuan();
     // Around the middle, where no cable is all but slack: such a one cannot be resolved far above its first frequency.
-    let near = |to, count| Steps::range(-to, to, count).unwrap();
+    let near = |to: f64, count| Steps::range(-to, to, count).unwrap();
     let given = axes(&[("x", near(0.4, 3)), ("y", near(0.3, 2)), ("z", Steps::range(0.3, 0.9, 2).unwrap())]);
     let points = Poses::grid(robot.clone(), &given, None).unwrap();
     let options = Options::default();
