@@ -2,17 +2,19 @@
 
 mod export;
 mod import;
+mod sweep;
 pub(crate) mod values;
 
-use crate::set::Assignment;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use export::{ExportArgs, ExportFormat};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
 use funicular::statics::StaticModel;
+use funicular_files::edit::Assignment;
 pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
+pub(crate) use sweep::{MapArgs, MergeArgs, RunArgs, SweepArgs, WhatArgs};
 use values::{Input, Lengths, MassRange, Output, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
@@ -76,6 +78,26 @@ pub(crate) enum Command {
         In Python: m = numpy.load('model.npz'); m['M'], m['C'], m['K'], m['ss_A'], …\n\
         In MATLAB: M = readmatrix('model/M.csv'); sys = ss(A, B, C, D) from ss_A.csv, …")]
     Reduce(ReduceArgs),
+    /// Tensions, frequencies, stiffness over the workspace: one row a pose
+    #[command(after_help = "Examples:\n  \
+        funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
+        --quantity tension-max,stiffness-min -o cogiro.parquet\n  \
+        funicular map robots/yuan2014-4mm.toml --grid x=-1:1:21 --grid y=-1:1:21 --grid z=0.5 \\\n    \
+        --quantity first-frequency,model-error:spring -o first.vti\n  \
+        funicular map robots/cogiro.toml --poses trajectory.csv --quantity lengths,tensions --format csv\n\n\
+        Stopped, killed or out of power: the same command with --resume goes on, and ends with the same file.\n\
+        As a job array: --part 3/8 -o part-3.parquet, and at the end funicular merge part-*.parquet -o all.parquet")]
+    Map(MapArgs),
+    /// The same over values of the robot file: one row a combination
+    #[command(after_help = "Examples:\n  \
+        funicular sweep robots/yuan2014-4mm.toml --vary platform.mass_kg=10.55:86.35:50 \\\n    \
+        --quantity pose,first-frequency,pose-error -o mass.parquet\n  \
+        funicular sweep robots/yuan2014-4mm.toml --pose 0,0,0.5 --vary materials.rope-4mm.diameter_m=0.002:0.008:25 \\\n    \
+        --vary platform.mass_kg=10,20,40 --quantity tension-max,sag-max --format csv")]
+    Sweep(SweepArgs),
+    /// Parts of a map or sweep become one file
+    #[command(after_help = "Example:\n  funicular merge part-*.parquet -o all.parquet")]
+    Merge(MergeArgs),
     /// All of it on one page, figures included
     #[command(after_help = "Examples:\n  funicular report\n  \
         funicular report robots/cogiro.toml -o cogiro.html\n  \
@@ -126,7 +148,7 @@ pub(crate) struct RobotArgs {
 #[derive(Debug, Args)]
 pub(crate) struct ChangeArgs {
     /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by their name; repeatable)
-    #[arg(long, value_name = "PATH=VALUE", value_parser = crate::set::assignment)]
+    #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_files::edit::assignment)]
     pub(crate) set: Vec<Assignment>,
 }
 

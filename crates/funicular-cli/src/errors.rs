@@ -12,6 +12,9 @@ const NO_SOLUTION: u8 = 1;
 /// The input has to change.
 const BAD_INPUT: u8 = 2;
 
+/// The user or the system has stopped it: what a shell calls SIGINT.
+const INTERRUPTED: u8 = 130;
+
 /// A message that already says `error:` and shows its place.
 #[derive(Debug, Error)]
 #[error("{0}")]
@@ -21,6 +24,11 @@ pub(crate) struct Rendered(pub(crate) String);
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub(crate) struct NoSolution(pub(crate) String);
+
+/// Work that was stopped from outside, with what is left of it.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub(crate) struct Interrupted(pub(crate) String);
 
 /// Prints the error and chooses the exit code.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
@@ -65,6 +73,9 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
 }
 
 fn code(error: &anyhow::Error) -> u8 {
+    if error.is::<Interrupted>() {
+        return INTERRUPTED;
+    }
     let no_solution = match error.downcast_ref::<StaticsError>() {
         Some(
             StaticsError::Singular

@@ -12,8 +12,8 @@ mod page;
 mod places;
 mod progress;
 mod robot_file;
-mod set;
 mod state;
+mod sweeping;
 mod table;
 mod validation;
 
@@ -49,6 +49,9 @@ fn run(command: &Command) -> Result<()> {
         Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
         Command::Reduce(args) => steps(&args.robot, &args.sink, |robot| commands::reduce::run(robot, args)),
+        Command::Map(args) => commands::map::run(args),
+        Command::Sweep(args) => commands::sweep::run(args),
+        Command::Merge(args) => commands::merge::run(args),
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
         Command::Import(args) => commands::import::run(args),

@@ -4,6 +4,7 @@ use crate::args::{Format, OutputArgs};
 use crate::errors::NoSolution;
 use crate::json;
 use anyhow::{Context, Result, anyhow, bail};
+use funicular_files::whole::{Temporary, is_regular_or_new};
 use serde::Serialize;
 use std::fs;
 use std::io::{self, Write};
@@ -13,6 +14,11 @@ use std::path::{Path, PathBuf};
 pub(crate) trait Results: Serialize {
     /// The verb.
     const COMMAND: &'static str;
+
+    /// The verb, where several give the same kind of result.
+    fn command(&self) -> &'static str {
+        Self::COMMAND
+    }
 
     /// Name of the robot; empty where the result is of no single one.
     fn robot(&self) -> &str;
@@ -49,7 +55,7 @@ impl Target {
             if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
                 bail!("cannot write to {shown}: it is read-only");
             }
-            temporary(&target).with_context(|| format!("cannot write to {shown}"))?;
+            Temporary::beside(&target).with_context(|| format!("cannot write to {shown}"))?;
         }
         Ok(Self { file: Some(target) })
     }
@@ -120,7 +126,7 @@ impl Sink {
 }
 
 fn as_json<R: Results>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
-    json::write(out, R::COMMAND, results.robot(), results, results.warnings()).map_err(|error| {
+    json::write(out, results.command(), results.robot(), results, results.warnings()).map_err(|error| {
         NoSolution(format!(
             "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the frequency or check the units"
         ))
@@ -146,44 +152,11 @@ fn to_stdout(bytes: &[u8]) -> Result<()> {
     }
 }
 
-/// Not a device or a pipe: those are written as they are.
-fn is_regular_or_new(path: &Path) -> bool {
-    fs::metadata(path).map_or(true, |metadata| metadata.is_file())
-}
-
 fn to_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if !is_regular_or_new(path) {
         return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
     }
-    let mut file = temporary(path)?;
-    file.write_all(bytes)?;
-    if let Ok(metadata) = fs::metadata(path) {
-        file.as_file().set_permissions(metadata.permissions())?;
-    }
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
-}
-
-/// A file beside `path` that takes its name when it is complete, and vanishes if it never is.
-fn temporary(path: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let directory = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    if path.file_name().is_none() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it names no file"));
-    }
-    if !directory.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no directory {}", directory.display())));
-    }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".funicular-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file; tempfile's own choice keeps others from reading it. The umask applies.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    // Without the path that the error would carry: it is not the one the user gave.
-    builder.tempfile_in(directory).map_err(|error| error.kind().into())
+    let mut file = Temporary::beside(path)?;
+    file.as_file_mut().write_all(bytes)?;
+    file.persist(path)
 }

@@ -2,7 +2,6 @@
 
 use crate::args::PointArgs;
 use crate::args::values::{Input, OnCable, Output};
-use crate::set;
 use crate::state::AtRest;
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
@@ -10,6 +9,7 @@ use funicular::dynamics::Dynamics;
 use funicular::math::{Vec3, Vec6};
 use funicular::response::{Direction, Port};
 use funicular::robot::{Freedoms, Robot};
+use funicular_files::edit;
 
 /// The points on cables where a response begins or ends.
 pub(crate) struct Places {
@@ -62,7 +62,7 @@ impl Places {
 pub(crate) fn cable_of(robot: &Robot, place: &OnCable) -> Result<usize> {
     robot.cables.iter().position(|cable| cable.name == place.name).ok_or_else(|| {
         let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-        anyhow!("the robot has no cable \"{}\"{}", place.name, set::suggestion(&place.name, &names))
+        anyhow!("the robot has no cable \"{}\"{}", place.name, edit::suggestion(&place.name, &names))
     })
 }
 

@@ -14,12 +14,25 @@ pub(crate) struct Progress {
     total: usize,
     done: usize,
     what: &'static str,
+    template: &'static str,
     bar: Option<ProgressBar>,
 }
 
+/// What is done, and the time left.
+const PLAIN: &str = "{bar:40} {human_pos}/{human_len} {msg}, {eta} left";
+/// With how many a second.
+const WITH_RATE: &str = "{bar:40} {human_pos}/{human_len} {msg}, {per_sec}, {eta} left";
+
 impl Progress {
     pub(crate) fn new(total: usize, what: &'static str) -> Self {
-        Self { started: Instant::now(), total, done: 0, what, bar: None }
+        Self { started: Instant::now(), total, done: 0, what, template: PLAIN, bar: None }
+    }
+
+    /// Which shows the rate, too.
+    pub(crate) fn with_rate(total: usize, what: &'static str) -> Self {
+        let mut progress = Self::new(total, what);
+        progress.template = WITH_RATE;
+        progress
     }
 
     /// `count` more are done.
@@ -27,9 +40,8 @@ impl Progress {
         self.done += count;
         if self.bar.is_none() && self.started.elapsed() > PATIENCE {
             // indicatif draws on stderr, and nothing where that is no terminal.
-            let bar = ProgressBar::new(self.total as u64);
-            let template = "{bar:40} {human_pos}/{human_len} {msg}, {eta} left";
-            if let Ok(style) = ProgressStyle::with_template(template) {
+            let bar = ProgressBar::new(self.total as u64).with_elapsed(self.started.elapsed());
+            if let Ok(style) = ProgressStyle::with_template(self.template) {
                 bar.set_style(style);
             }
             bar.set_message(self.what);

@@ -2,9 +2,9 @@
 
 use crate::args::ChangeArgs;
 use crate::errors::Rendered;
-use crate::set;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
+use funicular_files::edit;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -40,7 +40,7 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotFil
         }
     };
     if !changes.set.is_empty() {
-        text = set::apply(&text, &changes.set)?;
+        text = edit::apply(&text, &changes.set)?;
         name.push_str(" with --set");
     }
     match Robot::from_toml(&text) {

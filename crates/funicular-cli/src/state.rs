@@ -46,19 +46,7 @@ pub(crate) fn equilibrium_with(
     args: &StateArgs,
     tensions: &TensionArgs,
 ) -> Result<(AtRest, Option<TensionRule>)> {
-    let limits = TensionLimits { minimum: tensions.min_tension_n, maximum: tensions.max_tension_n };
-    let robot = with_options(robot, args)?.with_tension_limits(limits);
-    for cable in &robot.cables {
-        if let TensionLimits { minimum: Some(minimum), maximum: Some(maximum) } = cable.limits()
-            && minimum >= maximum
-        {
-            bail!(
-                "the least tension of cable \"{}\" is {minimum} N and its greatest {maximum} N: give --min-tension-n \
-                 below --max-tension-n (what is not given is as the robot file says)",
-                cable.name
-            );
-        }
-    }
+    let robot = with_limits(&with_options(robot, args)?, tensions)?;
     let asked = rule(tensions)?;
     let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
     match &robot.state {
@@ -80,8 +68,26 @@ pub(crate) fn equilibrium_with(
     }
 }
 
+/// The robot with the limits of tension that the options give.
+pub(crate) fn with_limits(robot: &Robot, tensions: &TensionArgs) -> Result<Robot> {
+    let limits = TensionLimits { minimum: tensions.min_tension_n, maximum: tensions.max_tension_n };
+    let robot = robot.with_tension_limits(limits);
+    for cable in &robot.cables {
+        if let TensionLimits { minimum: Some(minimum), maximum: Some(maximum) } = cable.limits()
+            && minimum >= maximum
+        {
+            bail!(
+                "the least tension of cable \"{}\" is {minimum} N and its greatest {maximum} N: give --min-tension-n \
+                 below --max-tension-n (what is not given is as the robot file says)",
+                cable.name
+            );
+        }
+    }
+    Ok(robot)
+}
+
 /// The rule that the options name.
-fn rule(tensions: &TensionArgs) -> Result<Option<TensionRule>> {
+pub(crate) fn rule(tensions: &TensionArgs) -> Result<Option<TensionRule>> {
     let wanted = tensions.wanted_tension_n.as_ref().map(|wanted| wanted.0.clone());
     Ok(match (tensions.tension_rule, wanted) {
         (None | Some(TensionRuleName::Closest), Some(wanted)) => Some(TensionRule::Closest(wanted)),

@@ -58,4 +58,5 @@ pub mod reduction;
 pub mod response;
 pub mod robot;
 pub mod statics;
+pub mod sweep;
 pub mod validity;

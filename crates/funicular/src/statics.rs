@@ -1,6 +1,7 @@
 //! Static equilibrium: lengths to pose ([`forward`]), pose to lengths ([`inverse`]).
 
 mod all;
+mod energy;
 mod forward;
 mod inverse;
 mod limits;
@@ -9,6 +10,7 @@ mod start;
 mod tension;
 
 pub use all::{Candidate, Candidates, all, other_stable};
+pub use energy::energy;
 pub use forward::forward;
 pub use inverse::inverse;
 pub use limits::{Limit, TensionMargin, TensionRange};
@@ -404,26 +406,36 @@ fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec
 ///
 /// Slack cables balance nothing. `None` where the others are fewer than the freedoms, infinite at a singular pose.
 pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
-    let ell = robot.platform_length();
-    let freedoms = &robot.platform.freedoms;
-    let units: Vec<Vec6> = equilibrium
-        .cables
-        .iter()
-        .filter(|cable| !cable.is_slack())
-        .map(|cable| {
-            let force = cable.force_on_platform_w.try_normalize(0.0).unwrap_or_else(|| cable.chord_w().normalize());
-            freedoms.reduced(&wrench_of(&force, &(cable.lever_w / ell)))
-        })
-        .collect();
-    let n = freedoms.count();
-    if units.len() < n {
-        return None;
-    }
-    let gram: Mat6 = units.iter().map(|unit| unit * unit.transpose()).sum();
-    let (values, _) = inertia::eigen(&gram, n);
+    let n = robot.platform.freedoms.count();
+    let (values, _) = inertia::eigen(&wrench_gram(robot, equilibrium)?, n);
     // Squares below the rounding of their sum are none.
     let least = if values[0] > 1e-14 * values[n - 1] { values[0] } else { 0.0 };
     Some(1.0 / least.sqrt())
+}
+
+/// Whether [`tension_gain`] is above a limit; in a fraction of its time.
+pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, limit: f64) -> bool {
+    let Some(mut gram) = wrench_gram(robot, equilibrium) else { return false };
+    let n = robot.platform.freedoms.count();
+    for k in 0..6 {
+        gram[(k, k)] += if k < n { -1.0 / (limit * limit) } else { 1.0 };
+    }
+    gram.cholesky().is_none()
+}
+
+/// Sum of the squares of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None`
+/// where they are fewer than the freedoms.
+fn wrench_gram(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    let ell = robot.platform_length();
+    let freedoms = &robot.platform.freedoms;
+    let (mut gram, mut pulling) = (Mat6::zeros(), 0);
+    for cable in equilibrium.cables.iter().filter(|cable| !cable.is_slack()) {
+        let force = cable.force_on_platform_w.try_normalize(0.0).unwrap_or_else(|| cable.chord_w().normalize());
+        let unit = freedoms.reduced(&wrench_of(&force, &(cable.lever_w / ell)));
+        gram += unit * unit.transpose();
+        pulling += 1;
+    }
+    (pulling >= freedoms.count()).then_some(gram)
 }
 
 /// Total wrench on the platform at any pose, cables, weight and load, about the platform origin [N, N·m]; the residual of

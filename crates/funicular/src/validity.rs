@@ -247,7 +247,9 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
             warnings.push(Warning::NoDrag { ropes });
         }
     }
-    if let Some(gain) = statics::tension_gain(robot, equilibrium).filter(|gain| *gain > SINGULAR_GAIN) {
+    if statics::tension_gain_exceeds(robot, equilibrium, SINGULAR_GAIN)
+        && let Some(gain) = statics::tension_gain(robot, equilibrium)
+    {
         warnings.push(Warning::NearlySingular { gain });
     }
     if let Stability::Unstable { least_stiffness, directions } = equilibrium.stability {

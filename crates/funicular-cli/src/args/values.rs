@@ -2,6 +2,9 @@
 
 use funicular::math::{Mat3, Vec3};
 use funicular::response::Quantity;
+use funicular::sweep::{self, Steps};
+use funicular_files::{Variation, edit};
+use std::num::NonZeroUsize;
 
 /// Largest magnitude of a number, as in robot files: no product of the analyses overflows within it.
 const LARGEST: f64 = 1e12;
@@ -263,6 +266,63 @@ pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
     match count.trim().parse::<usize>() {
         Ok(count @ 2..=MOST_MASSES) => Ok(MassRange { from, to, count }),
         _ => Err(format!("`{count}` is not a count of masses: a whole number from 2 to {MOST_MASSES}")),
+    }
+}
+
+/// Most values that a list of them may have; a range may have more.
+const MOST_LISTED: usize = 10_000;
+
+/// `A:B:N`, or values separated by commas.
+fn steps(text: &str) -> Result<Steps, String> {
+    let parts: Vec<&str> = text.split(':').collect();
+    match parts[..] {
+        [_] => {
+            let values = list(text)?;
+            if values.len() > MOST_LISTED {
+                return Err(format!("{} values are more than the {MOST_LISTED} of a list", values.len()));
+            }
+            Ok(Steps::List(values))
+        }
+        [from, to, count] => {
+            let (from, to) = (finite(from)?, finite(to)?);
+            let most = sweep::MOST_POINTS;
+            match count.trim().parse::<usize>() {
+                Ok(count) if count <= most => Steps::range(from, to, count),
+                _ => Err(format!("`{count}` is not a number of values: a whole number from 2 to {most}")),
+            }
+        }
+        _ => Err("not a range: write from:to:count, as in -4:4:81, or values, as in 0.5,1,2".to_owned()),
+    }
+}
+
+/// `x=-4:4:81`
+pub(crate) fn grid_axis(text: &str) -> Result<(String, Steps), String> {
+    let (axis, values) = text.split_once('=').ok_or("it has no `=`: write AXIS=from:to:count, as in x=-4:4:81")?;
+    let axis = axis.trim();
+    if !sweep::AXES.contains(&axis) {
+        return Err(sweep::SweepError::UnknownAxis { axis: axis.to_owned() }.to_string());
+    }
+    Ok((axis.to_owned(), steps(values)?))
+}
+
+/// `platform.mass_kg=10:90:81`
+pub(crate) fn variation(text: &str) -> Result<Variation, String> {
+    let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
+    let (path, values) = edit::split(text).ok_or(form)?;
+    Ok(Variation { path: edit::path(path)?, steps: steps(values)? })
+}
+
+/// The name of a quantity of a sweep.
+pub(crate) fn quantity(text: &str) -> Result<sweep::Quantity, String> {
+    text.parse().map_err(|error: sweep::UnknownQuantity| error.to_string())
+}
+
+/// A number of threads.
+pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    const MOST: usize = 1024;
+    match text.trim().parse::<NonZeroUsize>() {
+        Ok(count) if count.get() <= MOST => Ok(count),
+        _ => Err(format!("`{text}` is not a number of threads: a whole number from 1 to {MOST}")),
     }
 }
 

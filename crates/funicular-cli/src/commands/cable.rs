@@ -4,7 +4,6 @@ use crate::args::CableArgs;
 use crate::errors::NoSolution;
 use crate::grid;
 use crate::output::Results;
-use crate::set;
 use crate::state::{self, SagNumbers, static_model_name};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::{Result, bail};
@@ -13,6 +12,7 @@ use funicular::dynamics::DynamicsError;
 use funicular::math::{Complex, Mat3};
 use funicular::robot::Robot;
 use funicular::statics::CableState;
+use funicular_files::edit;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -83,7 +83,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
     let frequency_hz = grid::frequencies(&args.range)?;
     let Some(i) = robot.cables.iter().position(|cable| cable.name == args.name) else {
         let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-        bail!("the robot has no cable \"{}\"{}", args.name, set::suggestion(&args.name, &names))
+        bail!("the robot has no cable \"{}\"{}", args.name, edit::suggestion(&args.name, &names))
     };
     let at_rest = state::equilibrium(robot, &args.state)?;
     let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);

@@ -8,6 +8,7 @@ mod import;
 mod pages;
 mod readme;
 mod results;
+mod sweeps;
 mod wind;
 
 use assert_cmd::Command;

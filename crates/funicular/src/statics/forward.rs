@@ -2,7 +2,7 @@
 
 use super::{
     CableState, Equilibrium, LoadedCable, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance,
-    check_lengths, collect, load_wrench, residual_of, scaled, scaled_residual, scaled_wrench, start, wrench_of,
+    check_lengths, collect, energy, load_wrench, residual_of, scaled, scaled_residual, scaled_wrench, start, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec3, Vec6, inertia};
@@ -93,10 +93,7 @@ impl<'a> Search<'a> {
             self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length)).collect();
         let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
-        let com_w = pose.point_w(&self.robot.platform.center_of_mass_p);
-        let loaded_w = pose.point_w(&self.robot.load.point_p);
-        let of_loads = self.robot.force_at_mass_centre_w().dot(&com_w) + self.robot.load.force_w.dot(&loaded_w);
-        let energy = cables.iter().map(HangingCable::energy).sum::<f64>() - of_loads;
+        let energy = energy::of_parts(self.robot, &pose, cables.iter());
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
         let residual = scaled_residual(self.robot, &wrench, force_scale);
         let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness).sum();

@@ -20,6 +20,7 @@ mod response;
 mod robot_files;
 mod several;
 mod statics;
+mod sweep;
 mod tension;
 mod underconstrained;
 mod wind;

@@ -1,30 +1,92 @@
-//! `--set PATH=VALUE`: changes the text of the robot file before it is read, so that every check of the reader holds
-//! and its errors point at the changed line.
+//! `PATH=VALUE`: changes the text of a robot file before it is read, so that every check of the reader holds and its
+//! errors point at the changed line.
 
-use anyhow::{Result, anyhow, bail};
 use std::str::FromStr;
+use thiserror::Error;
 use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
 
-/// One `--set`.
+/// One value, and where it goes.
 #[derive(Debug, Clone)]
-pub(crate) struct Assignment {
+pub struct Assignment {
     /// As the user wrote it.
     text: String,
+    /// What the user wrote it after: `--set`.
+    option: &'static str,
     path: Vec<String>,
     value: Value,
+}
+
+impl Assignment {
+    /// As the user wrote it.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// Why a value cannot be set: which, and what there is instead.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{0}")]
+pub struct EditError(String);
+
+type Result<T, E = EditError> = std::result::Result<T, E>;
+
+macro_rules! bail {
+    ($($format:tt)*) => { return Err(EditError(format!($($format)*))) };
+}
+
+/// Keys of a robot file, from its root to a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// As the user wrote it.
+    pub text: String,
+    keys: Vec<String>,
+}
+
+impl Path {
+    /// The last key, whose ending is the unit.
+    pub fn last(&self) -> &str {
+        self.keys.last().map_or("", String::as_str)
+    }
+
+    /// A number for the value there, as the user's `option` asked.
+    pub fn with(&self, option: &'static str, value: f64) -> Assignment {
+        let text = format!("{}={value}", self.text);
+        Assignment { text, option, path: self.keys.clone(), value: Value::from(value) }
+    }
+}
+
+/// Parses `path.to.key`: keys separated by dots, quoted where they hold anything but letters, digits, _ and -.
+///
+/// # Errors
+/// A text for the user.
+pub fn path(text: &str) -> Result<Path, String> {
+    let keys = Key::parse(text).map_err(|_| {
+        format!(
+            "`{text}` is not a path: keys separated by dots, quoted if they hold anything but letters, digits, _ and -"
+        )
+    })?;
+    Ok(Path { text: text.trim().to_owned(), keys: keys.iter().map(|key| key.get().to_owned()).collect() })
 }
 
 /// Likeness (Jaro-Winkler) from which a known name is suggested, as in the robot file's reader.
 const ALIKE: f64 = 0.8;
 
-/// Parses `path.to.key=value`; the value is TOML, and a bare word is text.
-pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
-    let (path, value) = split(text).ok_or("it has no `=`: write PATH=VALUE, as in platform.mass_kg=20")?;
-    let path: Vec<String> = Key::parse(path)
-        .map_err(|_| format!("`{path}` is not a path: keys separated by dots, quoted if they hold anything but letters, digits, _ and -"))?
-        .iter()
-        .map(|key| key.get().to_owned())
-        .collect();
+/// Parses `path.to.key=value`; the value is TOML, and a bare word is text. For `--set`.
+///
+/// # Errors
+/// A text for the user.
+///
+/// # Example
+/// ```
+/// use funicular_files::edit;
+///
+/// let change = edit::assignment("platform.mass_kg=20")?;
+/// assert_eq!(edit::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # from --set platform.mass_kg=20\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn assignment(text: &str) -> Result<Assignment, String> {
+    let (at, value) = split(text).ok_or("it has no `=`: write PATH=VALUE, as in platform.mass_kg=20")?;
+    let path = path(at)?.keys;
     let value = value.trim();
     let value = match Value::from_str(value) {
         Ok(value) => value,
@@ -32,11 +94,11 @@ pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
         Err(_) if is_word(value) => Value::from(value),
         Err(_) => return Err(format!("`{value}` is not a TOML value: a number, \"text\" or an [array]")),
     };
-    Ok(Assignment { text: text.to_owned(), path, value })
+    Ok(Assignment { text: text.to_owned(), option: "--set", path, value })
 }
 
-/// At the first `=` outside quotes.
-fn split(text: &str) -> Option<(&str, &str)> {
+/// The parts before and after the first `=` outside quotes.
+pub fn split(text: &str) -> Option<(&str, &str)> {
     let mut quote = None;
     for (at, c) in text.char_indices() {
         match (quote, c) {
@@ -54,13 +116,17 @@ fn is_word(value: &str) -> bool {
 }
 
 /// The text with all assignments made, in order.
-pub(crate) fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
+///
+/// # Errors
+/// [`EditError`] for a place that the file does not have.
+pub fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
     // The reader explains a file that is no TOML better than this parser would.
     let Ok(mut document) = text.trim_start_matches('\u{feff}').parse::<DocumentMut>() else {
         return Ok(text.to_owned());
     };
     for assignment in assignments {
-        assign(&mut document, assignment).map_err(|reason| anyhow!("--set {}: {reason}", assignment.text))?;
+        assign(&mut document, assignment)
+            .map_err(|reason| EditError(format!("{} {}: {reason}", assignment.option, assignment.text)))?;
     }
     Ok(document.to_string())
 }
@@ -119,7 +185,7 @@ fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assign
     if in_lines {
         // An error shows the line, and so where it comes from.
         let origin: String = assignment.text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        *value.decor_mut() = Decor::new(" ", format!(" # from --set {origin}"));
+        *value.decor_mut() = Decor::new(" ", format!(" # from {} {origin}", assignment.option));
     }
     match table.get_mut(key) {
         Some(item @ (Item::Table(_) | Item::ArrayOfTables(_))) => {
@@ -137,7 +203,7 @@ fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assign
 }
 
 /// `, did you mean …` or the names there are.
-pub(crate) fn suggestion(word: &str, names: &[String]) -> String {
+pub fn suggestion(word: &str, names: &[String]) -> String {
     let nearest = names
         .iter()
         .map(|name| (strsim::jaro_winkler(word, name), name))
@@ -171,7 +237,7 @@ mod tests {
     const FILE: &str = "name = \"r\"\n[platform]\nmass_kg = 1 # light\n[[cables]]\nname = \"a.b\"\nx = 1\n";
 
     fn set(text: &str) -> Result<String> {
-        apply(FILE, &[assignment(text).map_err(anyhow::Error::msg)?])
+        apply(FILE, &[assignment(text).map_err(EditError)?])
     }
 
     #[test]

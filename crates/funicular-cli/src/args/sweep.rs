@@ -1,0 +1,109 @@
+//! Options of `map`, `sweep` and `merge`.
+
+use super::{Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
+use clap::Args;
+use funicular::sweep::{Quantity, Steps};
+use funicular_files::{Part, Variation};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct MapArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// An axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], from A to B in N values, or the values (repeatable);
+    /// axes that are not given are those of the robot's state, or of --pose
+    #[arg(long, value_name = "AXIS=A:B:N|V,V,…", value_parser = values::grid_axis, required_unless_present = "poses")]
+    pub(crate) grid: Vec<(String, Steps)>,
+
+    /// Poses of a CSV file instead of a grid: columns x_m, y_m, z_m and, if they turn, roll_deg, pitch_deg, yaw_deg
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["grid", "pose", "lengths_m"])]
+    pub(crate) poses: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) what: WhatArgs,
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// A number of the robot file, from A to B in N values, or the values (repeatable: all combinations, the first fastest)
+    #[arg(long, value_name = "PATH=A:B:N|V,V,…", value_parser = values::variation, required = true)]
+    pub(crate) vary: Vec<Variation>,
+
+    #[command(flatten)]
+    pub(crate) what: WhatArgs,
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+}
+
+/// What is asked of every point.
+#[derive(Debug, Args)]
+pub(crate) struct WhatArgs {
+    /// What to compute, docs/sweeps.md has the list: first-frequency, first-kind, frequencies:N, tension-max, tension-min,
+    /// tensions, lengths, tension-margin, stiffness-min, stiffness, pose-error, sag-max, model-error:MODEL,
+    /// stiffness-error:MODEL, condition, energy, pose
+    #[arg(long, value_name = "Q,Q,…", value_parser = values::quantity, value_delimiter = ',', default_value = "tension-min,tension-max")]
+    pub(crate) quantity: Vec<Quantity>,
+
+    /// Where the search for natural frequencies ends [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular::sweep::HIGHEST_HZ)]
+    pub(crate) up_to_hz: f64,
+}
+
+/// How rows are computed and where they go.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct RunArgs {
+    /// What goes to standard output: a summary as text or json, or, without -o, all rows as csv [default: text]
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    pub(crate) format: Option<Format>,
+
+    /// Write the rows to FILE.parquet, .csv or .vti (ParaView), as a whole; until then they are in FILE.partial
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output_file: Option<PathBuf>,
+
+    /// Go on with what FILE.partial holds of the same sweep; begin if there is nothing
+    #[arg(long, requires = "output_file", conflicts_with = "force")]
+    pub(crate) resume: bool,
+
+    /// Forget what FILE.partial holds
+    #[arg(long, requires = "output_file")]
+    pub(crate) force: bool,
+
+    /// The k-th of n parts, each with a FILE.parquet of its own, for `funicular merge`
+    #[arg(long, value_name = "K/N", requires = "output_file")]
+    pub(crate) part: Option<Part>,
+
+    /// Threads [default: one a core]; the rows do not depend on it
+    #[arg(long, value_name = "N", value_parser = values::threads, allow_hyphen_values = true)]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArgs {
+    /// The parts, in any order
+    #[arg(value_name = "PART.parquet", required = true)]
+    pub(crate) parts: Vec<PathBuf>,
+
+    /// Write all rows to FILE.parquet, .csv or .vti, as a whole or not at all
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output_file: PathBuf,
+}

@@ -1,0 +1,227 @@
+//! `map`, `sweep` and `merge`: rows, and what becomes of them when the program is stopped.
+
+use super::{command, json, robot, run, stderr, stdout, succeed};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Rows of a CSV on stdout: header and cells.
+fn rows(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    (header, reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect())
+}
+
+fn column(text: &str, name: &str) -> Vec<String> {
+    let (header, rows) = rows(text);
+    let at = header.iter().position(|column| column == name).unwrap_or_else(|| panic!("{name} in {header:?}"));
+    rows.into_iter().map(|row| row[at].clone()).collect()
+}
+
+#[test]
+fn a_map_has_a_row_for_every_point_and_a_reason_where_there_is_no_number() {
+    let text = succeed(&["map", "ROBOT", "--grid", "x=-6:6:3", "--grid", "y=0", "--grid", "z=0.5", "--format", "csv"]);
+    assert_eq!(column(&text, "x_m"), ["-6.0", "0.0", "6.0"]);
+    assert_eq!(column(&text, "feasible"), ["false", "true", "false"]);
+    assert_eq!(column(&text, "status")[0], "would-push");
+    assert!(column(&text, "reason")[0].contains("would need"), "{text}");
+    let tensions = column(&text, "tension_max_n");
+    assert!(tensions[0].is_empty() && tensions[1].parse::<f64>().unwrap() > 50.0, "{tensions:?}");
+    // The orientation of the robot's own state.
+    assert!(column(&text, "pitch_deg")[1].starts_with("2.884"));
+}
+
+#[test]
+fn a_row_of_a_map_is_what_the_command_for_one_pose_says() {
+    let robot = robot("cogiro.toml");
+    let pose = ["1,-2,1.5,0,0,5", "--tension-rule", "middle", "--max-tension-n", "1500"];
+    let one = json(&[&["statics", &robot, "--pose"], &pose[..]].concat());
+    let grid = [
+        "--grid", "x=1", "--grid", "y=-2", "--grid", "z=1.5", "--grid", "roll=0", "--grid", "pitch=0", "--grid",
+        "yaw=5",
+    ];
+    let asked = ["--quantity", "tensions,lengths", "--format", "csv"];
+    let text = succeed(&[&["map", &robot], &grid[..], &pose[1..], &asked[..]].concat());
+    for (i, cable) in one["cables"].as_array().unwrap().iter().enumerate() {
+        for (key, name) in [("tension_platform_n", "tension_platform"), ("unstrained_length_m", "unstrained_length")] {
+            let suffix = key.rsplit('_').next().unwrap();
+            let found: f64 = column(&text, &format!("{name}_{}_{suffix}", i + 1))[0].parse().unwrap();
+            assert_eq!(found.to_bits(), cable[key].as_f64().unwrap().to_bits(), "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
+    let vary = ["--vary", "platform.mass_kg=10.55,20", "--vary", "materials.rope-4mm.diameter_m=0.003:0.004:2"];
+    let text = succeed(&[&["sweep", "ROBOT", "--quantity", "pose,tension-max", "--format", "csv"], &vary[..]].concat());
+    assert_eq!(column(&text, "platform.mass_kg"), ["10.55", "20.0", "10.55", "20.0"]);
+    assert_eq!(column(&text, "materials.rope-4mm.diameter_m"), ["0.003", "0.003", "0.004", "0.004"]);
+    let rest = json(&["statics", "ROBOT", "--mass-kg", "20"]);
+    let found: f64 = column(&text, "pose_z_m")[3].parse().unwrap();
+    assert!((found - rest["pose"]["position_m"][2].as_f64().unwrap()).abs() < 1e-12);
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("poses.csv");
+    fs::write(&path, "time_s,z_m,y_m,x_m\n0,0.5,0,0.25\n1,0.6,0.1,0\n").unwrap();
+    let poses = ["map", "ROBOT", "--poses", path.to_str().unwrap()];
+    let text = succeed(&[&poses[..], &["--format", "csv"]].concat());
+    assert_eq!(column(&text, "x_m"), ["0.25", "0.0"]);
+    let summary = json(&poses);
+    assert_eq!((summary["command"].as_str(), summary["feasible"].as_u64()), (Some("map"), Some(2)));
+    assert!(succeed(&poses).contains("2 rows, 2 feasible (100 %)"));
+    fs::write(&path, "x_m,y_m,z_m\n0,0,0.5\n0,zero,0.5\n").unwrap();
+    let output = run(&poses);
+    assert!(stderr(&output).contains("line 3, column `y_m`: `zero` is not a number"), "{}", stderr(&output));
+}
+
+/// A map that takes a while, with its file.
+fn slow(path: &Path) -> Vec<String> {
+    let path = path.to_str().unwrap();
+    let words =
+        "map ROBOT --grid x=-0.4:0.4:10 --grid y=-0.4:0.4:10 --grid z=0.5 --quantity first-frequency,tensions -o";
+    words.split(' ').chain([path]).map(str::to_owned).collect()
+}
+
+fn started(arguments: &[String]) -> std::process::Child {
+    let path = robot("yuan2014-4mm.toml");
+    let arguments = arguments.iter().map(|argument| if argument == "ROBOT" { &path } else { argument });
+    let mut command = Command::new(env!("CARGO_BIN_EXE_funicular"));
+    command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+#[test]
+fn killed_twenty_times_and_resumed_a_map_has_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, whole) = (folder.path().join("a.parquet"), folder.path().join("whole.parquet"));
+    let begun = Instant::now();
+    assert!(started(&slow(&whole)).wait().unwrap().success());
+    let takes = begun.elapsed();
+    let resumed = [slow(&path), vec!["--resume".to_owned()]].concat();
+    let mut killed = 0;
+    for i in 0..20_u32 {
+        let mut child = started(&resumed);
+        // At moments that are spread over starting, the first rows and, in the end, writing the file.
+        std::thread::sleep(
+            takes.mul_f64(0.13 * f64::from(i * 7 % 20) / 20.0) + Duration::from_millis(u64::from(i % 3)),
+        );
+        let _ = child.kill();
+        killed += u32::from(!child.wait().unwrap().success());
+    }
+    assert!(killed >= 5, "{killed}: it is slow enough to be killed");
+    assert!(started(&resumed).wait().unwrap().success());
+    assert!(fs::read(&path).unwrap() == fs::read(&whole).unwrap());
+    let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let left: Vec<String> = names.filter(|name| name.ends_with(".partial")).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let mut arguments = slow(&path);
+    arguments[3] = "x=-0.4:0.4:1000".to_owned();
+    let child = started(&arguments);
+    let journal = folder.path().join("a.parquet.partial");
+    let length = || fs::metadata(&journal).map_or(0, |metadata| metadata.len());
+    let begun = Instant::now();
+    while length() < 20_000 && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let asked = Instant::now();
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    // A second, and what a busy machine adds.
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert_eq!(output.status.code(), Some(130));
+    let message = stderr(&output);
+    assert!(message.contains("--resume goes on") && message.contains("marked as incomplete"), "{message}");
+    assert!(path.exists() && journal.exists());
+    let again = started(&arguments).wait_with_output().unwrap();
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("go on with --resume, or begin anew with --force"), "{}", stderr(&again));
+}
+
+#[test]
+fn parts_of_a_map_are_merged_into_the_same_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let robot = robot("cogiro.toml");
+    let map = |rest: &[&str]| {
+        let grid = ["map", &robot, "--grid", "x=-6:6:31", "--grid", "y=-4:4:9", "--quantity", "tension-max"];
+        succeed(&[&grid[..], rest].concat());
+    };
+    map(&["-o", &file("whole.parquet")]);
+    map(&["-o", &file("whole.vti")]);
+    for part in ["1/3", "2/3", "3/3"] {
+        map(&["-o", &file(&format!("part-{}.parquet", &part[..1])), "--part", part, "--threads", &part[..1]]);
+    }
+    let parts = ["1", "2", "3"].map(|k| file(&format!("part-{k}.parquet")));
+    for ending in ["parquet", "vti"] {
+        let merged = file(&format!("merged.{ending}"));
+        succeed(&["merge", &parts[2], &parts[0], &parts[1], "-o", &merged]);
+        assert!(fs::read(merged).unwrap() == fs::read(file(&format!("whole.{ending}"))).unwrap(), "{ending}");
+    }
+    let output = run(&["merge", &parts[0], &parts[1], "-o", &file("no.parquet")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("part 3/3 is missing"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let mut child = started(
+        &"map ROBOT --grid x=-0.4:0.4:400 --grid y=-0.4:0.4:40 --format csv"
+            .split(' ')
+            .map(str::to_owned)
+            .collect::<Vec<_>>(),
+    );
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), stderr(&output)), (Some(0), ""));
+}
+
+#[test]
+fn broken_sweeps_are_refused_with_one_message() {
+    for (line, expected) in [
+        ("map ROBOT", "--grid"),
+        ("map ROBOT --grid x", "it has no `=`"),
+        ("map ROBOT --grid w=1", "there is no axis `w`"),
+        ("map ROBOT --grid x=1:0:5", "it must end above its start"),
+        ("map ROBOT --grid x=0:1:1", "2 or more"),
+        ("map ROBOT --grid x=0:1:1e3", "is not a number of values"),
+        ("map ROBOT --grid x=0:1:5 --grid x=2", "given twice"),
+        (
+            "map ROBOT --grid x=0:1:10000 --grid y=0:1:10000 --grid z=0:1:10000",
+            "1000000000000 points are more than the 100000000",
+        ),
+        ("map ROBOT --grid x=0:1:5 --quantity tension-mx", "did you mean `tension-max`?"),
+        ("map ROBOT --grid x=0:1:5 --quantity energy,energy", "would be there twice"),
+        ("map ROBOT --grid x=0:1:5 --quantity stiffness --static-model ideal", "does not exist with the static model"),
+        ("map ROBOT --grid x=0:1:5 --tension-rule lowest", "nothing to choose"),
+        ("map ROBOT --grid x=0:1:5 -o rows.txt", "names no format: .parquet, .csv or .vti"),
+        ("map ROBOT --grid x=0:1:5 -o no/such/folder/a.csv", "there is no directory"),
+        ("map ROBOT --grid x=0:1:5 -o /dev/null", "names no format"),
+        ("map ROBOT --grid x=0:1:5 --resume", "--output-file"),
+        ("map ROBOT --grid x=0:1:5 --part 3/2 -o a.parquet", "is no part"),
+        ("map ROBOT --grid x=0:1:5 --threads 0", "is not a number of threads"),
+        ("map ROBOT --poses no-such-file.csv", "cannot read the poses no-such-file.csv"),
+        ("sweep ROBOT", "--vary"),
+        ("sweep ROBOT --vary platform.mass_kg", "it has no `=`"),
+        ("sweep ROBOT --vary platfrom.mass_kg=1:2:3", "did you mean `platform`"),
+        ("sweep ROBOT --vary platform.mass_kg=-1:2:3", "it must be positive"),
+        ("sweep ROBOT --vary platform.mass_kgs=1:2:3", "mass_kg"),
+        ("merge no-such-file.parquet -o a.parquet", "cannot read no-such-file.parquet"),
+    ] {
+        let output = run(&line.split(' ').collect::<Vec<_>>());
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {message}");
+        assert!(message.contains(expected) && message.matches("error:").count() == 1, "{line}: {message}");
+        assert!(!message.contains("panicked") && stdout(&output).is_empty(), "{line}: {message}");
+    }
+    let camera = robot("stadium-camera.toml");
+    let output = command(&["map", &camera, "--grid", "yaw=0:1:3"]).output().unwrap();
+    assert!(stderr(&output).contains("cannot move along the axis `yaw`"), "{}", stderr(&output));
+}

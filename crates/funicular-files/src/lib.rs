@@ -1,0 +1,195 @@
+//! Files of funicular: robot files edited by path, and the results of sweeps.
+//!
+//! A [`Job`] takes the [chunks](funicular::sweep::Chunk) of a [plan](funicular::sweep::Plan) in order. They go to a
+//! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
+//! as a whole. Parquet, CSV and VTK hold the same rows; [`arrow::batch`] gives them in memory.
+
+pub mod arrow;
+mod csv;
+pub mod edit;
+mod job;
+mod journal;
+mod merge;
+mod parquet;
+mod record;
+mod variations;
+mod vti;
+pub mod whole;
+
+pub use job::{Begin, Job, Opened};
+pub use merge::merge;
+pub use record::{Difference, Part, Record};
+pub use variations::{Variation, Variations};
+pub use vti::Grid;
+
+use funicular::sweep::Chunk;
+use std::fs::{self, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a file of a sweep cannot be read or written.
+#[derive(Debug, Error)]
+pub enum FilesError {
+    /// The ending of a file says no format.
+    #[error("the ending of {} names no format: .parquet, .csv or .vti (for ParaView)", .path.display())]
+    Ending {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A place that results cannot be written to.
+    #[error("cannot write to {}: {reason}", .path.display())]
+    Place {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// The rows are there, but writing them failed.
+    #[error("cannot write {}: {}; {saved}", .path.display(), told(.cause))]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What is safe, and what to do.
+        saved: String,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// A file that cannot be read.
+    #[error("cannot read {}: {}", .path.display(), told(.cause))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// Work in the way.
+    #[error(
+        "{} holds {done} of {rows} rows of a run that did not end: go on with --resume, or begin anew with --force",
+        .journal.display()
+    )]
+    Unfinished {
+        /// The journal.
+        journal: PathBuf,
+        /// Rows that it has.
+        done: usize,
+        /// Rows that were asked for.
+        rows: usize,
+    },
+    /// A file that is no journal where one would be.
+    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with --force", .path.display())]
+    NoJournal {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another process writes the journal.
+    #[error("another run is writing {}: wait for it, or choose another file", .path.display())]
+    Locked {
+        /// The journal.
+        path: PathBuf,
+    },
+    /// A file or journal of something else.
+    #[error("{} belongs to another sweep: {difference}", .path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What differs.
+        difference: Difference,
+    },
+    /// A file without what a sweep writes into it.
+    #[error("{} was not written by a sweep of funicular: {reason}", .path.display())]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+        /// What is missing or wrong.
+        reason: String,
+    },
+    /// A grid that ParaView's images do not have.
+    #[error("{}: {reason}; write .parquet or .csv", .path.display())]
+    NoImage {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// Parts that do not make a whole.
+    #[error("{0}")]
+    Parts(String),
+}
+
+/// What the system says, in words where they help.
+fn told(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+        io::ErrorKind::QuotaExceeded => "the disk quota is used up".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// A format of rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Columns with units, robot and plan in the file.
+    Parquet,
+    /// Text, every digit.
+    Csv,
+    /// An image for ParaView, of a grid.
+    Vti,
+}
+
+impl Format {
+    /// By the ending of a file.
+    ///
+    /// # Errors
+    /// [`FilesError::Ending`] for any other.
+    pub fn of(path: &Path) -> Result<Self, FilesError> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+        match ending.as_deref() {
+            Some("parquet") => Ok(Self::Parquet),
+            Some("csv") => Ok(Self::Csv),
+            Some("vti") => Ok(Self::Vti),
+            _ => Err(FilesError::Ending { path: path.to_owned() }),
+        }
+    }
+}
+
+/// Rows in chunks, as often as they are asked for.
+trait Rows {
+    /// Every chunk in order.
+    fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()>;
+}
+
+/// Writes rows to a file, as a whole or not at all. Until then they are in `FILE.writing`: a name that the next try takes
+/// over, so that nothing is left of a run that was killed here.
+fn write_whole(path: &Path, format: Format, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {
+    let beside = with_ending(path, ".writing");
+    let file = OpenOptions::new().write(true).create(true).truncate(false).open(&beside)?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another run is writing it"));
+    }
+    let write = || {
+        file.set_len(0)?;
+        let out = io::BufWriter::with_capacity(1 << 20, &file);
+        match format {
+            Format::Parquet => parquet::write(out, record, rows, complete)?,
+            Format::Csv => csv::write(out, record, rows)?,
+            Format::Vti => vti::write(out, record, rows)?,
+        }
+        if let Ok(metadata) = fs::metadata(path) {
+            file.set_permissions(metadata.permissions())?;
+        }
+        // The journal goes once the file is there: it has to be on the disk by then.
+        file.sync_data()?;
+        fs::rename(&beside, path)
+    };
+    write().inspect_err(|_| drop(fs::remove_file(&beside)))
+}
+
+/// The name of a file with more behind it.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+pub use csv::CsvRows;

@@ -1,0 +1,136 @@
+//! Parts become the file that one run would have written.
+
+use crate::parquet::ParquetFile;
+use crate::record::SCHEMA;
+use crate::whole::{Temporary, is_regular_or_new};
+use crate::{FilesError, Format, Part, Record, Rows, vti, write_whole};
+use funicular::sweep::{Chunk, Column, Kind};
+use serde_json::Value;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Writes the rows of all parts of a sweep, in any order, to one file; byte for byte what a single run writes. The rows.
+///
+/// # Errors
+/// [`FilesError`]: files that are no parts, parts that are missing, double, incomplete or of another sweep.
+pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
+    let format = Format::of(to)?;
+    let place = |reason: &str| FilesError::Place { path: to.to_owned(), reason: reason.to_owned() };
+    if !is_regular_or_new(to) {
+        return Err(place("it is no regular file"));
+    }
+    Temporary::beside(to).map_err(|error| place(&crate::told(&error)))?;
+    let same = |path: &Path| path.canonicalize().ok().zip(to.canonicalize().ok()).is_some_and(|(a, b)| a == b);
+    if parts.iter().any(|part| same(part)) {
+        return Err(place("it is one of the parts; choose another name"));
+    }
+    let mut files = Vec::with_capacity(parts.len());
+    for path in parts {
+        files.push((path, ParquetFile::open(path)?));
+    }
+    let Some((first_path, first)) = files.first() else {
+        return Err(FilesError::Parts("there are no parts to merge".to_owned()));
+    };
+    let record = record_of(first, first_path)?;
+    let mut found: Vec<(Part, ParquetFile)> = Vec::with_capacity(files.len());
+    for (path, file) in files {
+        found.push((checked(&record, path, &file, &found)?, file));
+    }
+    found.sort_by_key(|(part, _)| part.number);
+    let of = found[0].0.of;
+    let missing: Vec<String> =
+        (1..=of).filter(|k| !found.iter().any(|(part, _)| part.number == *k)).map(|k| format!("{k}/{of}")).collect();
+    if !missing.is_empty() {
+        const SHOWN: usize = 10;
+        let more = if missing.len() > SHOWN { ", …" } else { "" };
+        let (noun, is) = if missing.len() == 1 { ("part", "is") } else { ("parts", "are") };
+        let listed = missing.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+        return Err(FilesError::Parts(format!("{noun} {listed}{more} {is} missing: give all {of} parts")));
+    }
+    if format == Format::Vti {
+        vti::check(&record).map_err(|reason| FilesError::NoImage { path: to.to_owned(), reason })?;
+    }
+    let to = to.canonicalize().unwrap_or_else(|_| to.to_owned());
+    let rows = Parts { record: &record, parts: &found };
+    write_whole(&to, format, &record, &rows, true).map_err(|cause| FilesError::Write {
+        path: to.clone(),
+        saved: "the parts are as they were: make room, and merge again".to_owned(),
+        cause,
+    })?;
+    Ok(record.rows)
+}
+
+/// The part that a file is, if it fits what was found before.
+fn checked(
+    record: &Record,
+    path: &Path,
+    file: &ParquetFile,
+    before: &[(Part, ParquetFile)],
+) -> Result<Part, FilesError> {
+    let shown = path.display();
+    if let Some(difference) = record.difference(&file.json, &file.robot_file) {
+        return Err(FilesError::Foreign { path: path.to_owned(), difference });
+    }
+    let Some(part) = file.part else {
+        return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without --part")));
+    };
+    if !file.complete || file.rows != record.rows_of(part.range(record.chunks())) {
+        return Err(FilesError::Parts(format!(
+            "{shown} (part {part}) is incomplete: go on with the command that began it and --resume"
+        )));
+    }
+    if let Some((other, _)) = before.first().filter(|(other, _)| other.of != part.of) {
+        return Err(FilesError::Parts(format!("{shown} is part {part}, others are parts of {}", other.of)));
+    }
+    if before.iter().any(|(other, _)| other.number == part.number) {
+        return Err(FilesError::Parts(format!("part {part} is given twice, the second time as {shown}")));
+    }
+    Ok(part)
+}
+
+struct Parts<'a> {
+    record: &'a Record,
+    parts: &'a [(Part, ParquetFile)],
+}
+
+impl Rows for Parts<'_> {
+    fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()> {
+        self.parts.iter().try_for_each(|(part, file)| {
+            file.each(part.range(self.record.chunks()).start, self.record.chunk_rows, take)
+        })
+    }
+}
+
+/// The record that a file has, without the part.
+fn record_of(file: &ParquetFile, path: &Path) -> Result<Record, FilesError> {
+    let json = &file.json;
+    let not_ours = |reason: String| FilesError::NotOurs { path: path.to_owned(), reason };
+    if json["schema"] != SCHEMA {
+        return Err(not_ours(format!("its format is {}, this program reads \"{SCHEMA}\"", json["schema"])));
+    }
+    let read = || {
+        let number = |key: &str| json[key].as_u64().and_then(|n| usize::try_from(n).ok());
+        let columns: Option<Vec<Column>> = json["columns"].as_array()?.iter().map(column).collect();
+        Some(Record {
+            robot_file: file.robot_file.clone(),
+            plan: json["plan"].as_object()?.clone(),
+            columns: columns?,
+            rows: number("rows")?,
+            chunk_rows: number("chunk_rows").filter(|rows| *rows > 0)?,
+            part: None,
+        })
+    };
+    read().ok_or_else(|| not_ours("its metadata are damaged".to_owned()))
+}
+
+fn column(json: &Value) -> Option<Column> {
+    let text = |key: &str| json[key].as_str();
+    let kind = match text("kind")? {
+        "real" => Kind::Real,
+        "flag" => Kind::Flag,
+        "text" => Kind::Text,
+        _ => return None,
+    };
+    let (name, unit, about) = (text("name")?.to_owned(), text("unit")?.to_owned(), text("about")?.to_owned());
+    Some(Column { name, unit: unit.into(), about, kind })
+}

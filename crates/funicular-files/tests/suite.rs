@@ -1,0 +1,257 @@
+//! Files of sweeps: what survives, what is refused, what can be read back.
+#![allow(missing_docs)]
+
+use arrow_array::{Array, Float64Array};
+use funicular::robot::Robot;
+use funicular::sweep::{Chunk, Options, Plan, Poses, Quantity, Steps, Values};
+use funicular_files::{Begin, FilesError, Grid, Job, Opened, Part, Record, merge};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use serde_json::{Map, json};
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+const ROBOT: &str = include_str!("../../../robots/cogiro.toml");
+
+/// A sweep of 70×3 poses, some of them infeasible, and its rows.
+fn sweep() -> (Record, Vec<Chunk>) {
+    let robot = Robot::from_toml(ROBOT).unwrap();
+    let axes = [
+        ("x".to_owned(), Steps::range(-9.0, 9.0, 70).unwrap()),
+        ("y".to_owned(), Steps::range(-1.0, 1.0, 3).unwrap()),
+        ("z".to_owned(), Steps::List(vec![1.0])),
+    ];
+    let points = Poses::grid(robot.clone(), &axes, None).unwrap();
+    // Kinds are texts, and absent where a pose is infeasible.
+    let quantities = [Quantity::TensionMax, Quantity::FirstKind, Quantity::Tensions];
+    let options = Options { highest_hz: 1e-3, ..Options::default() };
+    let plan = Plan::new(&points, &robot, &quantities, &options).unwrap();
+    let chunks = (0..plan.chunks()).map(|index| plan.evaluate(index, || false).unwrap()).collect();
+    let record = Record {
+        robot_file: ROBOT.to_owned(),
+        plan: Map::from_iter([("grid".to_owned(), Grid(axes.to_vec()).to_json()), ("mass_kg".to_owned(), json!(1.5))]),
+        columns: plan.columns().to_vec(),
+        rows: plan.rows(),
+        chunk_rows: plan.chunk_rows(),
+        part: None,
+    };
+    (record, chunks)
+}
+
+fn open(path: &Path, record: &Record, begin: Begin) -> Result<Box<Job>, FilesError> {
+    match Job::open(path, record.clone(), begin)? {
+        Opened::Work(job) => Ok(job),
+        Opened::Done => panic!("{} is done", path.display()),
+    }
+}
+
+fn complete(mut job: Box<Job>, chunks: &[Chunk], end: usize) {
+    for chunk in &chunks[job.next()..end] {
+        job.add(chunk).unwrap();
+    }
+    job.finish().unwrap();
+}
+
+/// A file of one run.
+fn whole(path: &Path, record: &Record, chunks: &[Chunk]) -> Vec<u8> {
+    complete(open(path, record, Begin::Anew).unwrap(), chunks, record.range().end);
+    fs::read(path).unwrap()
+}
+
+fn partial(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".partial");
+    name.into()
+}
+
+fn message(result: Result<Box<Job>, FilesError>) -> String {
+    result.err().expect("refused").to_string()
+}
+
+#[test]
+fn a_journal_torn_or_damaged_anywhere_leads_to_the_same_file() {
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    for ending in ["parquet", "csv", "vti"] {
+        let expected = whole(&folder.path().join("whole").with_extension(ending), &record, &chunks);
+        let path = folder.path().join("torn").with_extension(ending);
+        let mut job = open(&path, &record, Begin::Anew).unwrap();
+        chunks[..40].iter().for_each(|chunk| job.add(chunk).unwrap());
+        drop(job);
+        let journal = fs::read(partial(&path)).unwrap();
+        let mut kept = Vec::new();
+        for cut in (0..journal.len()).step_by(journal.len() / 23).chain([1, journal.len() - 1, journal.len()]) {
+            for damaged in [false, true] {
+                let mut bytes = journal.clone();
+                if damaged {
+                    // A byte that was never written: all behind it is lost, nothing before it.
+                    let Some(byte) = bytes.get_mut(cut).filter(|_| cut > 20) else { continue };
+                    *byte ^= 0x55;
+                } else {
+                    bytes.truncate(cut);
+                }
+                fs::write(partial(&path), bytes).unwrap();
+                let job = open(&path, &record, Begin::Resume).unwrap();
+                kept.push(job.next());
+                complete(job, &chunks, chunks.len());
+                assert!(fs::read(&path).unwrap() == expected, "{ending}: cut at {cut}, damaged: {damaged}");
+                assert!(!partial(&path).exists());
+                fs::remove_file(&path).unwrap();
+            }
+        }
+        assert!(kept.contains(&0) && kept.contains(&40) && kept.iter().any(|next| (1..40).contains(next)), "{kept:?}");
+    }
+}
+
+#[test]
+fn work_is_not_lost_unasked_and_not_mixed() {
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let mut job = open(&path, &record, Begin::Anew).unwrap();
+    assert!(message(open(&path, &record, Begin::Resume)).contains("another run is writing"));
+    chunks[..5].iter().for_each(|chunk| job.add(chunk).unwrap());
+    drop(job);
+    assert!(message(open(&path, &record, Begin::Anew)).contains("holds 15 of 210 rows"));
+
+    let other = |change: &dyn Fn(&mut Record)| {
+        let mut other = record.clone();
+        change(&mut other);
+        message(open(&path, &other, Begin::Resume))
+    };
+    let said = other(&|record| record.robot_file = record.robot_file.replace("mass_kg = ", "mass_kg = 1"));
+    assert!(said.contains("robot file, line ") && said.contains("`mass_kg = "), "{said}");
+    let said = other(&|record| record.plan["grid"][1]["count"] = json!(4));
+    assert!(said.ends_with("its grid, item 2, count is 3, here it is 4"), "{said}");
+    let said = other(&|record| drop(record.plan.insert("mass_kg".to_owned(), json!(2.5))));
+    assert!(said.ends_with("its mass_kg is 1.5, here it is 2.5"), "{said}");
+    let said = other(&|record| record.part = Some(Part { number: 1, of: 2 }));
+    assert!(said.contains("its part is missing"), "{said}");
+
+    fs::write(partial(&path), "my notes").unwrap();
+    assert!(message(open(&path, &record, Begin::Resume)).contains("is no journal of funicular"));
+    assert!(message(open(&path, &record, Begin::Anew)).contains("is no journal of funicular"));
+    complete(open(&path, &record, Begin::Force).unwrap(), &chunks, chunks.len());
+    assert!(matches!(Job::open(&path, record.clone(), Begin::Resume), Ok(Opened::Done)));
+    let mut other = record.clone();
+    other.plan.insert("mass_kg".to_owned(), json!(3));
+    assert!(message(open(&path, &other, Begin::Resume)).contains("its mass_kg is 1.5"), "a file of another sweep");
+}
+
+#[test]
+fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    for more in [7, 9] {
+        let mut job = open(&path, &record, Begin::Resume).unwrap();
+        for chunk in &chunks[job.next()..][..more] {
+            job.add(chunk).unwrap();
+        }
+        assert!(job.interrupt().unwrap());
+    }
+    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    assert_eq!(reader.metadata().file_metadata().num_rows(), 16 * 3);
+    let expected = whole(&folder.path().join("whole.parquet"), &record, &chunks);
+    complete(open(&path, &record, Begin::Resume).unwrap(), &chunks, chunks.len());
+    assert!(fs::read(&path).unwrap() == expected);
+    let mut job = open(&path, &record, Begin::Force).unwrap();
+    job.add(&chunks[0]).unwrap();
+    assert!(!job.interrupt().unwrap());
+    assert!(fs::read(&path).unwrap() == expected, "a whole file stays");
+}
+
+#[test]
+fn parts_become_the_file_of_one_run_and_nothing_else_does() {
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let expected = whole(&at("whole.parquet"), &record, &chunks);
+    for of in [1, 3, 100] {
+        let part = |number| {
+            let record = Record { part: Some(Part { number, of }), ..record.clone() };
+            let path = at(&format!("{number}-{of}.parquet"));
+            complete_part(open(&path, &record, Begin::Anew).unwrap(), &chunks, &record);
+            path
+        };
+        let parts: Vec<PathBuf> = (1..=of).map(part).rev().collect();
+        assert_eq!(merge(&parts, &at("merged.parquet")).unwrap(), 210);
+        assert!(fs::read(at("merged.parquet")).unwrap() == expected, "{of} parts");
+    }
+    let refused = |parts: &[&str]| {
+        let parts: Vec<PathBuf> = parts.iter().map(|part| at(&format!("{part}.parquet"))).collect();
+        merge(&parts, &at("refused.parquet")).unwrap_err().to_string()
+    };
+    assert!(refused(&["1-3", "3-3"]).contains("part 2/3 is missing: give all 3 parts"));
+    assert!(refused(&["1-3", "2-3", "1-3", "3-3"]).contains("part 1/3 is given twice"));
+    assert!(refused(&["1-3", "2-100"]).contains("is part 2/100, others are parts of 3"));
+    assert!(refused(&["1-3", "whole"]).contains("is no part"));
+    let mut other = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
+    other.plan.insert("mass_kg".to_owned(), json!(9));
+    complete_part(open(&at("other.parquet"), &other, Begin::Anew).unwrap(), &chunks, &other);
+    assert!(refused(&["1-3", "other", "3-3"]).contains("its mass_kg is 9"));
+    let unfinished = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
+    let mut job = open(&at("unfinished.parquet"), &unfinished, Begin::Anew).unwrap();
+    job.add(&chunks[job.next()]).unwrap();
+    job.interrupt().unwrap();
+    assert!(refused(&["1-3", "unfinished", "3-3"]).contains("(part 2/3) is incomplete"));
+    fs::write(at("text.parquet"), "no").unwrap();
+    assert!(refused(&["text"]).contains("was not written by a sweep"));
+    assert!(!at("refused.parquet").exists());
+}
+
+fn complete_part(job: Box<Job>, chunks: &[Chunk], record: &Record) {
+    assert_eq!(job.next(), record.range().start);
+    complete(job, chunks, record.range().end);
+}
+
+#[test]
+fn a_parquet_file_holds_the_rows_their_units_the_robot_and_the_plan() {
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    whole(&path, &record, &chunks);
+    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
+    let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone()).unwrap();
+    assert_eq!(get("funicular.robot"), ROBOT);
+    assert_eq!(get("funicular.complete"), "true");
+    let plan: serde_json::Value = serde_json::from_str(&get("funicular.plan")).unwrap();
+    assert_eq!(plan["plan"]["mass_kg"], 1.5);
+    assert_eq!(reader.schema().field_with_name("tension_max_n").unwrap().metadata()["unit"], "N");
+    let place = record.columns.iter().position(|column| column.name == "tension_max_n").unwrap();
+    let values = chunks.iter().map(|chunk| match &chunk.columns[place] {
+        Values::Real(values) => values.clone(),
+        other => panic!("{other:?}"),
+    });
+    let written: Vec<Option<f64>> = values.flatten().collect();
+    let mut read = Vec::new();
+    for batch in reader.build().unwrap() {
+        let batch = batch.unwrap();
+        let column = batch.column(place).as_any().downcast_ref::<Float64Array>().unwrap();
+        read.extend((0..column.len()).map(|i| column.is_valid(i).then(|| column.value(i))));
+    }
+    assert_eq!(read, written);
+    assert!(read.iter().any(Option::is_none) && read.iter().any(Option::is_some));
+    let batch = funicular_files::arrow::batch(&record, &chunks[3]).unwrap();
+    assert_eq!((batch.num_rows(), batch.num_columns()), (3, record.columns.len()));
+}
+
+#[test]
+fn images_need_grids_of_equal_steps() {
+    let (record, _) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.vti");
+    let refused = |change: &dyn Fn(&mut Record)| {
+        let mut other = record.clone();
+        change(&mut other);
+        message(open(&path, &other, Begin::Anew))
+    };
+    let said = refused(&|record| drop(record.plan.remove("grid")));
+    assert!(said.contains("an image needs a grid"), "{said}");
+    let said = refused(&|record| record.plan["grid"][2]["values"] = json!([1.0, 1.5, 3.0]));
+    assert!(said.contains("give the axis z as from:to:count"), "{said}");
+    let said = refused(&|record| record.part = Some(Part { number: 1, of: 2 }));
+    assert!(said.contains("a part has to be a .parquet file"), "{said}");
+    assert!(message(open(&folder.path().join("a.txt"), &record, Begin::Anew)).contains("names no format"));
+    assert!(message(open(&folder.path().join("no/a.csv"), &record, Begin::Anew)).contains("there is no directory"));
+}

@@ -1,0 +1,31 @@
+//! Potential energy of a robot at a pose.
+
+use super::Equilibrium;
+use crate::catenary::space::HangingCable;
+use crate::robot::{Pose, Robot};
+
+/// Potential energy [J] of cables, platform and load at an equilibrium, but for a constant: weights are measured from
+/// the world's origin, cables without force have none. The moment of a load, which has no energy, is left out, the drag of
+/// the wind counts as if it kept its direction; ideal
+/// cables have neither weight nor strain.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let pose = Pose::new([0.2, 0.0, 0.6], [0.0; 3]);
+/// let ideal = statics::inverse(&robot, &pose, StaticModel::Ideal)?;
+/// assert!((statics::energy(&robot, &ideal) - 10.55 * 9.81 * 0.6).abs() < 1e-9); // m g z
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn energy(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
+    of_parts(robot, &equilibrium.pose, equilibrium.cables.iter().filter_map(|cable| cable.hanging.as_ref()))
+}
+
+/// The same of cables that hang at a pose, equilibrium or not.
+pub(super) fn of_parts<'a>(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = &'a HangingCable>) -> f64 {
+    let com_w = pose.point_w(&robot.platform.center_of_mass_p);
+    let loaded_w = pose.point_w(&robot.load.point_p);
+    let of_loads = robot.force_at_mass_centre_w().dot(&com_w) + robot.load.force_w.dot(&loaded_w);
+    cables.map(HangingCable::energy).sum::<f64>() - of_loads
+}

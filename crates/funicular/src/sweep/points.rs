@@ -1,0 +1,188 @@
+//! Where a sweep looks: grids and lists of poses, or robots that the caller supplies.
+
+use super::{Column, Kind, Steps, SweepError, steps};
+use crate::math::rotation;
+use crate::robot::{Freedoms, Pose, Robot, State};
+use std::borrow::Cow;
+
+/// The points of a sweep, in a fixed order.
+pub trait Points: Sync {
+    /// How many.
+    fn count(&self) -> usize;
+
+    /// Columns of their coordinates, all [`Kind::Real`].
+    fn columns(&self) -> Vec<Column>;
+
+    /// Point `i`. The same `i` gives the same point, whichever thread asks.
+    fn point(&self, i: usize) -> Point<'_>;
+}
+
+/// One point.
+#[derive(Debug, Clone)]
+pub struct Point<'a> {
+    /// Values of the columns.
+    pub coordinates: Vec<f64>,
+    /// The robot and its state, or why there is none.
+    pub robot: Result<(Cow<'a, Robot>, Cow<'a, State>), String>,
+}
+
+/// Names of the axes of a pose, in the order of its six numbers.
+pub const AXES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+/// Poses of one robot.
+#[derive(Debug, Clone)]
+pub struct Poses {
+    robot: Robot,
+    which: Which,
+}
+
+#[derive(Debug, Clone)]
+enum Which {
+    /// All combinations of values along axes.
+    Grid { axes: Box<[Steps; 6]>, turns: bool, base: Pose },
+    /// Position [m] and roll, pitch, yaw [degrees].
+    List(Vec<[f64; 6]>),
+}
+
+impl Poses {
+    /// All combinations of values [m, degrees] along axes (named as in [`AXES`]); x runs fastest, then y and so on. Axes
+    /// that are not given stay at `base`; without it angles are zero.
+    ///
+    /// # Errors
+    /// [`SweepError`]: an axis twice, an axis that the platform does not have, or neither values nor base for a position.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::robot::{Pose, Robot};
+    /// use funicular::sweep::{Points, Poses, Steps};
+    ///
+    /// let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+    /// let base = Pose::new([0.0, 0.0, 0.5], [0.0; 3]);
+    /// let axes = [("x", Steps::range(-1.0, 1.0, 5)?), ("y", Steps::List(vec![0.0, 0.3]))];
+    /// let grid = Poses::grid(robot, &axes.map(|(axis, steps)| (axis.to_owned(), steps)), Some(&base))?;
+    /// assert_eq!(grid.count(), 10);
+    /// assert_eq!(grid.point(7).coordinates, [0.0, 0.3, 0.5, 0.0, 0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn grid(robot: Robot, given: &[(String, Steps)], base: Option<&Pose>) -> Result<Self, SweepError> {
+        let mut found: [Option<Steps>; 6] = Default::default();
+        for (name, steps) in given {
+            let Some(axis) = AXES.iter().position(|axis| axis == name) else {
+                return Err(SweepError::UnknownAxis { axis: name.clone() });
+            };
+            refuse_missing_freedom(&robot.platform.freedoms, axis)?;
+            if found[axis].replace(steps.clone()).is_some() {
+                return Err(SweepError::RepeatedAxis { axis: name.clone() });
+            }
+        }
+        if base.is_none()
+            && let Some(axis) = (0..3).find(|&axis| found[axis].is_none())
+        {
+            return Err(SweepError::NoPosition { axis: AXES[axis] });
+        }
+        let base = base.copied().unwrap_or_else(|| Pose::new([0.0; 3], [0.0; 3]));
+        let at_base: [f64; 6] = numbers(&base);
+        let turns = found[3..].iter().any(Option::is_some);
+        let mut at_base = at_base.into_iter();
+        let axes = Box::new(found.map(|steps| {
+            let value = at_base.next().unwrap_or(0.0);
+            steps.unwrap_or_else(|| Steps::List(vec![value]))
+        }));
+        Ok(Self { robot, which: Which::Grid { axes, turns, base } })
+    }
+
+    /// Poses in the order given: position [m] and roll, pitch, yaw [degrees] each.
+    pub fn list(robot: Robot, poses: Vec<[f64; 6]>) -> Self {
+        Self { robot, which: Which::List(poses) }
+    }
+
+    /// Values along the six axes of a grid, those of one value included; none for a list.
+    pub fn axes(&self) -> Option<&[Steps; 6]> {
+        match &self.which {
+            Which::Grid { axes, .. } => Some(axes),
+            Which::List(_) => None,
+        }
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Angles are columns: the platform can turn.
+    fn width(&self) -> usize {
+        if self.robot.platform.freedoms.can_turn() { 6 } else { 3 }
+    }
+}
+
+/// Position [m] and roll, pitch, yaw [degrees] of a pose; no negative zeros.
+fn numbers(pose: &Pose) -> [f64; 6] {
+    let p = pose.position_w;
+    let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&pose.rot_wp);
+    [p.x, p.y, p.z, roll, pitch, yaw].map(|value| value + 0.0)
+}
+
+/// A platform that cannot move along an axis has no grid along it.
+fn refuse_missing_freedom(freedoms: &Freedoms, axis: usize) -> Result<(), SweepError> {
+    if freedoms.components().contains(&axis) {
+        return Ok(());
+    }
+    let has = freedoms.components().into_iter().map(|i| AXES[i]).collect::<Vec<_>>().join(", ");
+    Err(SweepError::NoSuchFreedom { axis: AXES[axis], freedoms: freedoms.name(), has })
+}
+
+impl Points for Poses {
+    fn count(&self) -> usize {
+        match &self.which {
+            Which::Grid { axes, .. } => axes.iter().fold(1, |count, steps| count.saturating_mul(steps.count())),
+            Which::List(poses) => poses.len(),
+        }
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        AXES[..self.width()]
+            .iter()
+            .enumerate()
+            .map(|(i, axis)| {
+                let (unit, suffix) = if i < 3 { ("m", "m") } else { ("deg", "deg") };
+                let about = if i < 3 { "position asked, world axes" } else { "angle asked, R = Rz Ry Rx" };
+                Column {
+                    name: format!("{axis}_{suffix}"),
+                    unit: unit.into(),
+                    about: about.to_owned(),
+                    kind: Kind::Real,
+                }
+            })
+            .collect()
+    }
+
+    fn point(&self, i: usize) -> Point<'_> {
+        let (mut at, pose) = match &self.which {
+            Which::List(poses) => {
+                let [x, y, z, roll, pitch, yaw] = poses[i];
+                (poses[i], Pose::new([x, y, z], [roll, pitch, yaw]))
+            }
+            Which::Grid { axes, turns, base } => {
+                let mut at = [0.0; 6];
+                for ((value, steps), digit) in
+                    at.iter_mut().zip(axes.iter()).zip(steps::digits(i, axes.iter().map(Steps::count)))
+                {
+                    *value = steps.at(digit);
+                }
+                let mut pose = Pose::new([at[0], at[1], at[2]], [at[3], at[4], at[5]]);
+                if !turns {
+                    // Without the rounding of its angles.
+                    pose.rot_wp = base.rot_wp;
+                }
+                (at, pose)
+            }
+        };
+        for value in &mut at {
+            *value += 0.0;
+        }
+        Point {
+            coordinates: at[..self.width()].to_vec(),
+            robot: Ok((Cow::Borrowed(&self.robot), Cow::Owned(State::Pose(pose)))),
+        }
+    }
+}

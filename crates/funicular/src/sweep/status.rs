@@ -1,0 +1,89 @@
+//! Why a row has no numbers, or not all: a short code that stays, and a text.
+
+use crate::robot::Robot;
+use crate::statics::{Equilibrium, Stability, StaticsError};
+use crate::validity::{self, Warning};
+use std::borrow::Cow;
+
+/// What there is to say of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Status {
+    pub(super) code: &'static str,
+    pub(super) reason: String,
+}
+
+/// Every code that a row can have, with what it means.
+pub const CODES: [(&str, &str); 14] = [
+    ("ok", "everything asked is there"),
+    ("out-of-plane", "infeasible: a pose that a planar platform cannot have"),
+    ("coinciding-ends", "infeasible: a cable has no length between its ends"),
+    ("singular", "infeasible: the cables' directions are dependent"),
+    ("would-push", "infeasible: a cable would have to push"),
+    ("beyond-limits", "infeasible: no tensions within the limits, or beyond what a rope bears"),
+    ("not-converged", "infeasible: no equilibrium found"),
+    ("bad-robot", "infeasible: the values of this row make no robot"),
+    ("bad-input", "infeasible: the state does not fit the robot"),
+    ("unstable", "an equilibrium that the platform leaves by itself"),
+    ("slack", "a cable carries no force"),
+    ("no-frequency", "no natural frequency to give: the model does not exist here, or none is below the limit"),
+    ("not-certified", "the frequencies are not certified"),
+    ("no-comparison", "another model that was asked for has no answer here"),
+];
+
+impl Status {
+    pub(super) fn new(code: &'static str, reason: &(impl ToString + ?Sized)) -> Self {
+        debug_assert!(CODES.iter().any(|known| known.0 == code));
+        Self { code, reason: reason.to_string() }
+    }
+
+    pub(super) fn of_error(error: &StaticsError) -> Self {
+        let code = match error {
+            StaticsError::OutOfPlane(_) => "out-of-plane",
+            StaticsError::CoincidingEnds { .. } => "coinciding-ends",
+            StaticsError::Singular => "singular",
+            StaticsError::WouldPush { .. } => "would-push",
+            StaticsError::BeyondLimits(_) | StaticsError::LimitsExclude { .. } => "beyond-limits",
+            StaticsError::NotNearest { .. } | StaticsError::NotConverged { .. } => "not-converged",
+            StaticsError::LengthCount { .. }
+            | StaticsError::Length { .. }
+            | StaticsError::CableCount { .. }
+            | StaticsError::InverseCableCount { .. }
+            | StaticsError::NeedsMaximum { .. }
+            | StaticsError::WantedCount { .. }
+            | StaticsError::Wanted { .. }
+            | StaticsError::OneIdeal
+            | StaticsError::NothingToStiffen => "bad-input",
+        };
+        Self::new(code, error)
+    }
+
+    /// What makes an equilibrium infeasible: limits of tension that the robot has, and cables that push.
+    pub(super) fn refusing(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+        validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
+            Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("beyond-limits", warning)),
+            Warning::Pushing { .. } => Some(Self::new("would-push", warning)),
+            _ => None,
+        })
+    }
+
+    /// What to mind of a feasible one.
+    pub(super) fn remarking(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+        let unstable = matches!(equilibrium.stability, Stability::Unstable { .. });
+        if !unstable && !equilibrium.cables.iter().any(crate::statics::CableState::is_slack) {
+            return None;
+        }
+        validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
+            Warning::Unstable { .. } => Some(Self::new("unstable", warning)),
+            Warning::Slack { .. } if !unstable => Some(Self::new("slack", warning)),
+            _ => None,
+        })
+    }
+
+    /// Code and text as values.
+    pub(super) fn of(status: Option<Self>) -> (Cow<'static, str>, Option<Cow<'static, str>>) {
+        match status {
+            None => (Cow::Borrowed("ok"), None),
+            Some(Self { code, reason }) => (Cow::Borrowed(code), Some(Cow::Owned(reason))),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Values along one axis of a grid.
+
+/// Values along one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Steps {
+    /// In equal steps, both ends included; at least two, ascending.
+    Range {
+        /// The first.
+        from: f64,
+        /// The last.
+        to: f64,
+        /// How many.
+        count: usize,
+    },
+    /// As listed; at least one.
+    List(Vec<f64>),
+}
+
+impl Steps {
+    /// `count` values from `from` to `to`, or what is wrong with these numbers.
+    ///
+    /// # Errors
+    /// A text: fewer than two values, an end that is not above the start, or more values than numbers there can be
+    /// told apart.
+    pub fn range(from: f64, to: f64, count: usize) -> Result<Self, String> {
+        if !(to > from && from.is_finite() && to.is_finite()) {
+            return Err(format!("the range ends at {to}, it must end above its start {from}"));
+        }
+        if count < 2 {
+            return Err(format!("{count} is not a number of values for a range: give 2 or more, or a single value"));
+        }
+        if (to - from) / (count - 1) as f64 <= 4.0 * f64::EPSILON * from.abs().max(to.abs()) {
+            return Err(format!("{count} values are more than the numbers between {from} and {to} can tell apart"));
+        }
+        Ok(Self::Range { from, to, count })
+    }
+
+    /// Number of values.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Range { count, .. } => *count,
+            Self::List(values) => values.len(),
+        }
+    }
+
+    /// Value `i`; the first and the last of a range are exact.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::sweep::Steps;
+    ///
+    /// let steps = Steps::range(-4.0, 4.0, 81)?;
+    /// assert_eq!((steps.at(0), steps.at(40), steps.at(80)), (-4.0, 0.0, 4.0));
+    /// # Ok::<(), String>(())
+    /// ```
+    pub fn at(&self, i: usize) -> f64 {
+        match self {
+            Self::Range { to, count, .. } if i + 1 == *count => *to,
+            Self::Range { from, to, count } => from + (to - from) * (i as f64 / (count - 1) as f64),
+            Self::List(values) => values[i],
+        }
+    }
+}
+
+/// Digits of an index in a grid whose first axis runs fastest.
+pub fn digits(mut index: usize, counts: impl Iterator<Item = usize>) -> impl Iterator<Item = usize> {
+    counts.map(move |count| {
+        let digit = index % count;
+        index /= count;
+        digit
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_axis_runs_fastest() {
+        let of = |index| digits(index, [2, 3].into_iter()).collect::<Vec<_>>();
+        assert_eq!([of(0), of(1), of(2), of(5)], [[0, 0], [1, 0], [0, 1], [1, 2]]);
+    }
+
+    #[test]
+    fn ranges_that_do_not_ascend_or_cannot_be_told_apart_are_refused() {
+        assert!(Steps::range(1.0, 1.0, 2).is_err() && Steps::range(2.0, 1.0, 2).is_err());
+        assert!(Steps::range(0.0, 1.0, 1).is_err() && Steps::range(0.0, f64::NAN, 3).is_err());
+        assert!(Steps::range(1.0, 1.0 + 1e-14, 1000).is_err());
+    }
+}

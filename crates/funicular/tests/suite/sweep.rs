@@ -1,0 +1,256 @@
+//! Sweeps: rows that depend on their own point alone, and columns that are what the functions they stand for give.
+
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes;
+use funicular::robot::{Pose, Robot};
+use funicular::statics::{self, Stability, StaticModel};
+use funicular::sweep::{CODES, Chunk, Kind, Options, Outcome, Plan, Poses, Quantity, Steps, SweepError, Values};
+use std::convert::Infallible;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+fn yuan() -> Robot {
+    Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap()
+}
+
+fn axes(given: &[(&str, Steps)]) -> Vec<(String, Steps)> {
+    given.iter().map(|(axis, steps)| ((*axis).to_owned(), steps.clone())).collect()
+}
+
+fn grid(robot: &Robot, counts: [usize; 3]) -> Poses {
+    let [x, y, z] = [(-1.5, 1.5), (-1.0, 1.0), (0.2, 1.4)].map(|(from, to)| (from, to));
+    let steps = |(from, to), count| Steps::range(from, to, count).unwrap();
+    let given = [("x", steps(x, counts[0])), ("y", steps(y, counts[1])), ("z", steps(z, counts[2]))];
+    Poses::grid(robot.clone(), &axes(&given), None).unwrap()
+}
+
+fn quantities(names: &str) -> Vec<Quantity> {
+    names.split(',').map(|name| name.parse().unwrap()).collect()
+}
+
+fn chunks(plan: &Plan, threads: usize) -> Vec<Chunk> {
+    let mut all = Vec::new();
+    let outcome = plan.run(0..plan.chunks(), NonZeroUsize::new(threads).unwrap(), &AtomicBool::new(false), |chunk| {
+        all.push(chunk);
+        Ok::<(), Infallible>(())
+    });
+    assert_eq!(outcome, Ok(Outcome::Complete));
+    all
+}
+
+/// Values of a column over all chunks.
+fn reals(plan: &Plan, chunks: &[Chunk], name: &str) -> Vec<Option<f64>> {
+    let at = plan.columns().iter().position(|column| column.name == name).unwrap_or_else(|| panic!("{name}"));
+    let values = chunks.iter().map(|chunk| match &chunk.columns[at] {
+        Values::Real(values) => values.clone(),
+        other => panic!("{name}: {other:?}"),
+    });
+    values.flatten().collect()
+}
+
+#[test]
+fn rows_are_the_same_bits_on_any_number_of_threads_and_in_any_part() {
+    let robot = yuan();
+    let (points, options) = (grid(&robot, [9, 8, 7]), Options::default());
+    let asked = quantities("tensions,stiffness,pose-error,condition,energy,lengths");
+    let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+    assert!(plan.chunks() > 50, "{}", plan.chunks());
+    let alone = chunks(&plan, 1);
+    assert_eq!(alone.iter().map(Chunk::rows).sum::<usize>(), plan.rows());
+    // No value is NaN, so that equality is equality of bits.
+    assert_eq!(chunks(&plan, 2), alone);
+    assert_eq!(chunks(&plan, 7), alone);
+    for index in [0, plan.chunks() / 2, plan.chunks() - 1] {
+        assert_eq!(plan.evaluate(index, || false).as_ref(), Some(&alone[index]));
+    }
+    // A single row, of a plan that has no other, is the same too.
+    let single = Poses::list(robot.clone(), vec![[-1.5, -1.0, 0.2, 0.0, 0.0, 0.0]]);
+    let plan = Plan::new(&single, &robot, &asked, &options).unwrap();
+    let columns = chunks(&plan, 1).remove(0).columns;
+    for (one, all) in columns.iter().zip(&alone[0].columns) {
+        match (one, all) {
+            (Values::Real(one), Values::Real(all)) => assert_eq!(one[0], all[0]),
+            (Values::Flag(one), Values::Flag(all)) => assert_eq!(one[0], all[0]),
+            (Values::Text(one), Values::Text(all)) => assert_eq!(one[0], all[0]),
+            _ => panic!("columns of two kinds"),
+        }
+    }
+}
+
+#[test]
+fn every_column_is_what_the_function_it_stands_for_gives() {
+    let robot = yuan();
+    // Around the middle, where no cable is all but slack: such a one cannot be resolved far above its first frequency.
+    let near = |to: f64, count| Steps::range(-to, to, count).unwrap();
+    let given = axes(&[("x", near(0.4, 3)), ("y", near(0.3, 2)), ("z", Steps::range(0.3, 0.9, 2).unwrap())]);
+    let points = Poses::grid(robot.clone(), &given, None).unwrap();
+    let options = Options::default();
+    let asked = quantities(
+        "frequencies:3,first-frequency,tension-max,tensions,lengths,stiffness-min,stiffness,energy,model-error:spring,pose-error",
+    );
+    let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+    let all = chunks(&plan, 2);
+    let of = |name: &str| reals(&plan, &all, name);
+    let (xs, ys, zs) = (of("x_m"), of("y_m"), of("z_m"));
+    let mut feasible = 0;
+    for row in 0..plan.rows() {
+        let pose = Pose::new([xs[row].unwrap(), ys[row].unwrap(), zs[row].unwrap()], [0.0; 3]);
+        let Ok(rest) = statics::inverse(&robot, &pose, StaticModel::Catenary) else {
+            assert_eq!(of("tension_platform_1_n")[row], None);
+            continue;
+        };
+        feasible += 1;
+        assert_eq!(of("tension_platform_2_n")[row], Some(rest.cables[1].tension_platform));
+        assert_eq!(of("unstrained_length_6_m")[row], Some(rest.cables[5].unstrained_length));
+        let greatest = rest.cables.iter().map(|c| c.tension_anchor.max(c.tension_platform)).fold(0.0, f64::max);
+        assert_eq!(of("tension_max_n")[row], Some(greatest), "all anchors are above the platform");
+        assert_eq!(of("potential_energy_j")[row], Some(statics::energy(&robot, &rest)));
+        let Stability::Stable { least_stiffness } = rest.stability else { continue };
+        assert_eq!(of("stiffness_min_n_per_m")[row], Some(least_stiffness));
+        let compliance = statics::tangent_stiffness(&robot, &rest).unwrap().try_inverse().unwrap();
+        let x = of("stiffness_x_n_per_m")[row].unwrap();
+        assert!((x * compliance[(0, 0)] - 1.0).abs() < 1e-9);
+        let first = |cable_model| {
+            let asked = Linearisation { cable_model, ..Linearisation::default() };
+            let dynamics = Dynamics::about(&robot, &rest, asked, 15.0).unwrap();
+            modes::below(&dynamics, 15.0).modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>()
+        };
+        let exact = first(CableModel::Exact);
+        let near = |name: &str, expected: f64| {
+            let found = of(name)[row].unwrap();
+            // The exact cable is as fine as the limit asks for, which differs here: its own tolerance.
+            assert!((found / expected - 1.0).abs() < 2e-9, "{name}: {found} for {expected}");
+        };
+        near("first_frequency_hz", exact[0]);
+        near("frequency_3_hz", exact[2]);
+        let spring = first(CableModel::Spring)[0] / exact[0] - 1.0;
+        let found = of("model_error_spring")[row].unwrap();
+        assert!((found - spring).abs() < 1e-8 * (1.0 + spring.abs()), "{found} for {spring}");
+        let lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let straight = statics::forward(&robot, &lengths, StaticModel::Spring, Some(&pose)).unwrap();
+        let gap = (straight.pose.position_w - pose.position_w).norm();
+        assert!((of("spring_from_catenary_distance_m")[row].unwrap() - gap).abs() < 1e-15);
+    }
+    assert!(feasible >= 4, "{feasible}");
+}
+
+#[test]
+fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
+    let all = "first-frequency,first-kind,tension-max,tension-min,tensions,lengths,tension-margin,stiffness-min,stiffness,\
+               pose-error,sag-max,model-error,stiffness-error,condition,energy,pose";
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let robot = Robot::from_toml(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        let rest = match &robot.state {
+            funicular::robot::State::Pose(pose) => *pose,
+            funicular::robot::State::Lengths(lengths) => {
+                statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap().pose
+            }
+            funicular::robot::State::Unknown => continue,
+        };
+        let reach = robot.cables[0].anchor_w.norm();
+        // At home, and so far away that nothing holds it.
+        let x = rest.position_w.x;
+        let steps = Steps::List(vec![x, x + 0.01 * reach, x + 40.0 * reach]);
+        let points = Poses::grid(robot.clone(), &axes(&[("x", steps)]), Some(&rest)).unwrap();
+        let (asked, options) = (quantities(all), Options::default());
+        let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+        let chunks = chunks(&plan, 2);
+        let feasible_at = plan.columns().iter().position(|column| column.name == "feasible").unwrap();
+        for chunk in &chunks {
+            let [Values::Flag(feasible), Values::Text(status), Values::Text(reason)] =
+                &chunk.columns[feasible_at..feasible_at + 3]
+            else {
+                panic!("three columns")
+            };
+            for row in 0..chunk.rows() {
+                let code = status[row].as_deref().unwrap();
+                assert!(CODES.iter().any(|known| known.0 == code), "{code}");
+                assert_eq!(reason[row].is_none(), code == "ok", "{path:?}: {code}");
+                for (column, values) in plan.columns().iter().zip(&chunk.columns).skip(feasible_at + 3) {
+                    if let Values::Real(values) = values {
+                        assert!(values[row].is_none_or(f64::is_finite), "{path:?}: {}", column.name);
+                        assert!(feasible[row] || values[row].is_none(), "{path:?}: {}", column.name);
+                        assert!(code != "ok" || values[row].is_some(), "{path:?}: {}", column.name);
+                    }
+                }
+            }
+        }
+        let Values::Flag(home) = &chunks[0].columns[feasible_at] else { panic!("a flag") };
+        assert!(home[0], "{path:?}: at home");
+        let Values::Flag(away) = &chunks[2].columns[feasible_at] else { panic!("a flag") };
+        assert!(!away[0], "{path:?}: far away");
+        seen += 1;
+    }
+    assert!(seen >= 9, "{seen}");
+}
+
+#[test]
+fn a_run_that_is_cancelled_or_refused_ends_behind_whole_chunks() {
+    let robot = yuan();
+    let (points, options) = (grid(&robot, [20, 20, 3]), Options::default());
+    let asked = quantities("tension-max");
+    let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+    let (cancel, three) = (AtomicBool::new(false), NonZeroUsize::new(3).unwrap());
+    let mut seen = Vec::new();
+    let outcome = plan.run(2..plan.chunks(), three, &cancel, |chunk| {
+        seen.push(chunk.index);
+        cancel.store(chunk.index == 5, Ordering::Relaxed);
+        Ok::<(), Infallible>(())
+    });
+    let Ok(Outcome::Cancelled { next }) = outcome else { panic!("{outcome:?}") };
+    assert!(next >= 6 && next < plan.chunks(), "{next}");
+    assert_eq!(seen, (2..next).collect::<Vec<_>>());
+    let refused = plan.run(0..plan.chunks(), three, &AtomicBool::new(false), |chunk| {
+        if chunk.index == 4 { Err("the disk is full") } else { Ok(()) }
+    });
+    assert_eq!(refused, Err("the disk is full"));
+}
+
+#[test]
+fn plans_that_cannot_be_are_refused_with_what_is_wrong() {
+    let robot = yuan();
+    let one = || Steps::List(vec![0.5]);
+    let refused = |given: &[(&str, Steps)], robot: &Robot| Poses::grid(robot.clone(), &axes(given), None).unwrap_err();
+    assert_eq!(refused(&[("x", one()), ("y", one())], &robot), SweepError::NoPosition { axis: "z" });
+    assert!(matches!(refused(&[("w", one())], &robot), SweepError::UnknownAxis { .. }));
+    assert!(matches!(refused(&[("x", one()), ("x", one())], &robot), SweepError::RepeatedAxis { .. }));
+    let camera = Robot::from_toml(include_str!("../../../../robots/stadium-camera.toml")).unwrap();
+    let message = refused(&[("yaw", one())], &camera).to_string();
+    assert!(message.contains("along the axis `yaw`") && message.contains("which has x, y, z"), "{message}");
+
+    let plan = |points: &Poses, names: &str, options: &Options| {
+        Plan::new(points, &robot, &quantities(names), options).map(|_| ()).unwrap_err()
+    };
+    let long = || Steps::range(0.0, 1.0, 10_000).unwrap();
+    let huge = Poses::grid(robot.clone(), &axes(&[("x", long()), ("y", long()), ("z", long())]), None).unwrap();
+    let message = plan(&huge, "energy", &Options::default()).to_string();
+    assert!(message.starts_with("1000000000000 points are more than the 100000000"), "{message}");
+    let small = grid(&robot, [2, 2, 2]);
+    assert!(matches!(plan(&small, "energy,pose,energy", &Options::default()), SweepError::RepeatedColumn { .. }));
+    let ideal = Options { static_model: StaticModel::Ideal, ..Options::default() };
+    assert!(matches!(plan(&small, "stiffness-min", &ideal), SweepError::NotWithModel { .. }));
+    assert_eq!(plan(&Poses::list(robot.clone(), Vec::new()), "energy", &Options::default()), SweepError::NoPoints);
+}
+
+#[test]
+fn columns_have_units_in_their_names() {
+    let robot = yuan();
+    let asked = quantities("first-frequency,tensions,stiffness,sag-max,energy,pose");
+    for column in asked.iter().flat_map(|quantity| quantity.columns(&robot)) {
+        let ending = match column.unit.as_ref() {
+            "Hz" => "_hz",
+            "N" => "_n",
+            "m" => "_m",
+            "J" => "_j",
+            "deg" => "_deg",
+            "N/m" => "_n_per_m",
+            "N m/rad" => "_n_m_per_rad",
+            _ => "",
+        };
+        assert!(column.kind == Kind::Real && column.name.ends_with(ending) && !column.about.is_empty(), "{column:?}");
+    }
+}
