@@ -506,13 +506,13 @@ pub(crate) struct ReportArgs {
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value = "20")]
     pub(crate) below_hz: f64,
 
-    /// Force or moment of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, as of `funicular frf`
-    #[arg(long, value_name = "INPUT", value_parser = values::input, default_value = "fz")]
-    pub(crate) input: Input,
+    /// Force or moment of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, as of `funicular frf` [default: fz; fx of a platform that cannot move along z]
+    #[arg(long, value_name = "INPUT", value_parser = values::input)]
+    pub(crate) input: Option<Input>,
 
-    /// Motion of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, as of `funicular frf`
-    #[arg(long, value_name = "OUTPUT", value_parser = values::output, default_value = "az")]
-    pub(crate) output: Output,
+    /// Motion of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, as of `funicular frf` [default: az; ax of a platform that cannot move along z]
+    #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
+    pub(crate) output: Option<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,
 

@@ -1,7 +1,7 @@
 //! `report`: the page of one robot.
 
 use crate::args::ReportArgs;
-use crate::args::values::{Input, Output};
+use crate::args::values::{self, Input, Output};
 use crate::commands::frf;
 use crate::errors;
 use crate::output::Target;
@@ -11,9 +11,10 @@ use crate::places;
 use crate::progress::Waiting;
 use crate::robot_file::{self, RobotFile};
 use crate::state;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, bail};
 use funicular::math::Vec3;
 use funicular::response::Quantity;
+use funicular::robot::Robot;
 use std::path::Path;
 
 pub(crate) fn run(args: &ReportArgs) -> Result<()> {
@@ -21,13 +22,14 @@ pub(crate) fn run(args: &ReportArgs) -> Result<()> {
     let RobotFile { robot, name, text } = robot_file::read(path, &args.changes)?;
     let target = Target::open(Some(&args.output_file), path)?;
     let waiting = Waiting::for_("the robot's figures and tables");
-    if let Some(name) = [(&args.input.on_cable, &args.input.name), (&args.output.on_cable, &args.output.name)]
+    let (from, to) = response(args, &robot)?;
+    if let Some(name) = [(&from.on_cable, &from.name), (&to.on_cable, &to.name)]
         .into_iter()
         .find_map(|(place, name)| place.is_some().then_some(name))
     {
         bail!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
     }
-    let (input, output) = places::directions(&robot, &args.input, &args.output, &args.points)?;
+    let (input, output) = places::directions(&robot, &from, &to, &args.points)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
     let pose = &at_rest.equilibrium.pose;
     let page = report(&ReportInput {
@@ -36,19 +38,25 @@ pub(crate) fn run(args: &ReportArgs) -> Result<()> {
         robot_text: &text,
         linearisation: state::linearisation(&args.model, at_rest.equilibrium.model),
         below_hz: args.below_hz,
-        frf_input: (input_in_words(&args.input, args.points.input_point_m), input.vector(pose)),
-        frf_output: (
-            output_in_words(&args.output, args.points.output_point_m),
-            output.vector(pose),
-            args.output.quantity,
-        ),
-        frf_unit: &frf::unit(&args.input, &args.output),
+        frf_input: (input_in_words(&from, args.points.input_point_m), input.vector(pose)),
+        frf_output: (output_in_words(&to, args.points.output_point_m), output.vector(pose), to.quantity),
+        frf_unit: &frf::unit(&from, &to),
         command_line: command_line()?,
     })?;
     drop(waiting);
     write(&target, &args.output_file, &page.html)?;
     page.warnings.iter().for_each(|warning| errors::warn(warning));
     Ok(())
+}
+
+/// Input and output of the response: those asked for, else along z, or along x where a guide holds z.
+fn response(args: &ReportArgs, robot: &Robot) -> Result<(Input, Output)> {
+    const Z: usize = 2;
+    let (force, acceleration) =
+        if robot.platform.freedoms.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };
+    let input = args.input.clone().map_or_else(|| values::input(force), Ok);
+    let output = args.output.clone().map_or_else(|| values::output(acceleration), Ok);
+    Ok((input.map_err(Error::msg)?, output.map_err(Error::msg)?))
 }
 
 /// Writes a page and says so, where it is a file.

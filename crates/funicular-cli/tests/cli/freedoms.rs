@@ -80,6 +80,13 @@ fn every_analysis_of_a_planar_robot_gives_six_components_with_zeros_out_of_the_p
 }
 
 #[test]
+fn a_robot_that_cannot_move_along_z_has_a_report_along_x() {
+    let output = run(&["report", &super::robot("kntu-planar.toml"), "-o", "-"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).contains("a force along x at the platform origin"));
+}
+
+#[test]
 fn what_a_planar_robot_cannot_do_is_refused() {
     for (line, said) in [
         ("frf - --from-hz 1 --to-hz 2 --points 9 --input fy --output z", "--input fy is out of the plane"),
