@@ -1,18 +1,17 @@
 //! `report`: the page of one robot.
 
 use crate::args::ReportArgs;
-use crate::args::values::{Input, Output};
 use crate::commands::frf;
 use crate::errors;
 use crate::output::Target;
 use crate::page::report::{ReportInput, report};
 use crate::page::table::listed;
-use crate::places;
 use crate::progress::Waiting;
 use crate::robot_file::{self, RobotFile};
 use crate::state;
 use anyhow::{Context, Result, bail};
 use funicular::math::Vec3;
+use funicular::ports::{Input, Output};
 use funicular::response::Quantity;
 use std::path::Path;
 
@@ -27,7 +26,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<()> {
     {
         bail!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
     }
-    let (input, output) = places::directions(&robot, &args.input, &args.output, &args.points)?;
+    let (input, output) = state::directions(&robot, &args.input, &args.output, &args.points)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
     let pose = &at_rest.equilibrium.pose;
     let page = report(&ReportInput {
