@@ -259,7 +259,7 @@ impl Input {
     /// [`PortError`] if the robot cannot be driven so.
     pub fn direction(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Direction, PortError> {
         let Self { name, on_cable, is_moment: turns, direction_w } = self;
-        Side { side: "input", name, turns: *turns, on_cable: on_cable.is_some(), direction_w: *direction_w }
+        End { side: "input", name, turns: *turns, on_cable: on_cable.is_some(), direction_w: *direction_w }
             .direction(robot, point_p)
     }
 }
@@ -333,13 +333,13 @@ impl Output {
     /// [`PortError`] if the robot does not move so.
     pub fn direction(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Direction, PortError> {
         let Self { name, on_cable, is_rotation: turns, direction_w, .. } = self;
-        Side { side: "output", name, turns: *turns, on_cable: on_cable.is_some(), direction_w: *direction_w }
+        End { side: "output", name, turns: *turns, on_cable: on_cable.is_some(), direction_w: *direction_w }
             .direction(robot, point_p)
     }
 }
 
 /// One end of a response.
-struct Side<'a> {
+struct End<'a> {
     side: &'static str,
     name: &'a str,
     /// A moment or a rotation.
@@ -348,7 +348,7 @@ struct Side<'a> {
     direction_w: Vec3,
 }
 
-impl Side<'_> {
+impl End<'_> {
     fn direction(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Direction, PortError> {
         let Self { side, name, turns, on_cable, direction_w } = *self;
         let name = name.to_owned();

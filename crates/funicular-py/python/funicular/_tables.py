@@ -57,7 +57,7 @@ def cables(of: "Equilibrium") -> Any:
 def modes(of: "Modes") -> dict[str, Any]:
     rows = []
     for i in range(len(of)):
-        row = {
+        row: dict[str, Any] = {
             "frequency_hz": float(of.frequency_hz[i]),
             "multiplicity": int(of.multiplicity[i]),
             "damping_ratio": float(of.damping_ratio[i]),
