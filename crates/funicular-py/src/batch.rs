@@ -5,7 +5,7 @@ use crate::equilibrium::least_stiffness;
 use crate::errors;
 use crate::pose;
 use crate::request::{Options, check_pose};
-use crate::waiting::LOOK;
+use crate::waiting::{LOOK, look};
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
@@ -18,6 +18,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
+use std::time::Instant;
 
 /// States that a thread takes at once: some milliseconds.
 const AT_ONCE: usize = 64;
@@ -174,7 +175,7 @@ pub(crate) fn equilibria(
     let work = Work { robot: &robot, states: &states, options, next, stop: AtomicBool::new(false) };
     let threads = threads.min(states.count().div_ceil(AT_ONCE)).max(1);
     py.detach(|| side_by_side(&work, threads, |rows, found| columns.put(rows, found)))?;
-    columns.to_python(py, options).map(Equilibria)
+    columns.into_python(py, options).map(Equilibria)
 }
 
 /// Threads of this call alone: a pool that outlives it would not survive a fork, and Python's process pools fork.
@@ -186,13 +187,18 @@ fn side_by_side(work: &Work<'_>, threads: usize, mut put: impl FnMut(Range<usize
             scope.spawn(move || work.run(&sender));
         }
         drop(sender);
+        let mut looked = Instant::now();
         loop {
             match receiver.recv_timeout(LOOK) {
                 Ok((rows, found)) => put(rows, found),
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
                 Err(RecvTimeoutError::Timeout) => {}
             }
-            if let Err(interrupt) = Python::attach(|py| py.check_signals()) {
+            if looked.elapsed() < LOOK {
+                continue;
+            }
+            looked = Instant::now();
+            if let Err(interrupt) = look() {
                 work.stop.store(true, Ordering::Relaxed);
                 return Err(interrupt);
             }
@@ -254,7 +260,7 @@ impl Columns {
         }
     }
 
-    fn to_python(self, py: Python<'_>, options: &Options) -> PyResult<Py<PyAny>> {
+    fn into_python(self, py: Python<'_>, options: &Options) -> PyResult<Py<PyAny>> {
         let fields = PyDict::new(py);
         let numpy = py.import("numpy")?;
         fields.set_item("status", numpy.call_method1("array", (self.status, "U18"))?)?;

@@ -5,6 +5,9 @@ use crate::errors;
 use funicular::catenary::{self, Rope};
 use pyo3::prelude::*;
 
+/// Span, rise, length, weight, stiffness.
+type Five = (f64, f64, f64, f64, f64);
+
 /// An elastic cable that hangs in its plane under its own weight; immutable.
 ///
 /// Parameters
@@ -86,7 +89,7 @@ impl Catenary {
         format!("<Catenary: tensions {start:.6} and {end:.6} N>")
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, (f64, f64, f64, f64, f64)>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, Five>> {
         let py = slf.py();
         let of = &slf.get().0;
         let Rope { unstrained_length, weight_per_length, axial_stiffness } = of.rope();

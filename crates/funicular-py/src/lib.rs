@@ -3,6 +3,8 @@
 //! Nothing is computed here. A method reads its arguments, calls the core without holding Python's lock, and hands over
 //! arrays that own what the core returned. What needs no core (tables, HTML, plots) is in `python/funicular`.
 
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
+
 mod arrays;
 mod batch;
 mod catenary;

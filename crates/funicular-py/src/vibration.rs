@@ -8,7 +8,7 @@ use crate::waiting::interruptible;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{CMat6, Vec3};
-use funicular::modes::damped::DampedModes;
+use funicular::modes::damped::{DampedMode, DampedModes};
 use funicular::modes::{self, Modes};
 use funicular::ports::{Input, Output, Places};
 use funicular::response;
@@ -164,12 +164,11 @@ pub(crate) fn modes(
     let found = interruptible(py, move || {
         let dynamics = Dynamics::about(&robot, &rest.equilibrium, linearisation, below_hz);
         let dynamics = dynamics.map_err(|error| errors::dynamics(&error))?;
-        modes::check_count(&dynamics, below_hz, if damped { modes::MOST_DAMPED } else { modes::MOST })
-            .map_err(|error| errors::too_many(&error))?;
+        modes::check_count(&dynamics, below_hz, modes::MOST).map_err(|error| errors::too_many(&error))?;
         let modes = modes::below(&dynamics, below_hz);
         warnings.extend(modes.doubt());
-        let damped = damped.then(|| modes::damped::of(&dynamics, &modes));
-        warnings.extend(damped.as_ref().and_then(|damped| damped.doubt(&modes)));
+        let (damped, doubt) = if damped { modes::damped_partners(&dynamics, &modes) } else { (None, None) };
+        warnings.extend(doubt);
         Ok::<_, PyErr>(Found { modes, damped, warnings })
     })??;
     to_python(py, of, linearisation, &found).map(ModesObject)
@@ -181,19 +180,17 @@ fn to_python(py: Python<'_>, of: &PyEquilibrium, linearisation: Linearisation, f
     let fields = PyDict::new(py);
     let column = |of: fn(&modes::Mode) -> f64| modes.iter().map(of).collect::<Vector>();
     fields.set_item("frequency_hz", column(|mode| mode.frequency_hz))?;
-    let multiplicity: Vector<i64> = modes.iter().map(|mode| mode.multiplicity as i64).collect();
+    let multiplicity: Vector<i64> =
+        modes.iter().map(|mode| i64::try_from(mode.multiplicity).unwrap_or(i64::MAX)).collect();
     fields.set_item("multiplicity", multiplicity)?;
-    match damped {
-        Some(damped) => {
-            fields
-                .set_item("damping_ratio", damped.modes.iter().map(|mode| mode.damping_ratio()).collect::<Vector>())?;
-            let eigenvalues: Vector<Complex64> = damped.modes.iter().map(|mode| mode.eigenvalue()).collect();
-            fields.set_item("eigenvalue_per_s", eigenvalues)?;
-        }
-        None => {
-            fields.set_item("damping_ratio", column(|mode| mode.damping_ratio))?;
-            fields.set_item("eigenvalue_per_s", py.None())?;
-        }
+    if let Some(damped) = damped {
+        let ratios: Vector = damped.modes.iter().map(DampedMode::damping_ratio).collect();
+        let eigenvalues: Vector<Complex64> = damped.modes.iter().map(DampedMode::eigenvalue).collect();
+        fields.set_item("damping_ratio", ratios)?;
+        fields.set_item("eigenvalue_per_s", eigenvalues)?;
+    } else {
+        fields.set_item("damping_ratio", column(|mode| mode.damping_ratio))?;
+        fields.set_item("eigenvalue_per_s", py.None())?;
     }
     let kinds: Vec<&str> = modes.iter().map(|mode| mode.kind.name()).collect();
     fields.set_item("kind", py.import("numpy")?.call_method1("array", (kinds, "U8"))?)?;

@@ -175,6 +175,17 @@ def test_changes_that_cannot_be_made_are_refused(changes: dict[str, Any], said: 
         robot.with_(changes)
 
 
+def test_what_holds_itself_is_refused(robot: funicular.Robot) -> None:
+    endless: list[Any] = []
+    endless.append(endless)
+    with pytest.raises(funicular.RobotFileError, match="deep"):
+        robot.with_({"platform.mass_kg": endless})
+    table: dict[str, Any] = {}
+    table["platform"] = table
+    with pytest.raises(funicular.RobotFileError, match="deep"):
+        funicular.Robot.from_dict(table)
+
+
 def test_text_in_a_change_stays_text(robot: funicular.Robot) -> None:
     name = 'a "quoted" = name, é # not a comment'
     assert robot.with_({"name": name}).name == name

@@ -7,7 +7,7 @@
 mod checks;
 pub mod damped;
 
-pub use checks::{MOST, MOST_DAMPED, TooMany, check_count};
+pub use checks::{MOST, TooMany, check_count, damped_partners};
 
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};

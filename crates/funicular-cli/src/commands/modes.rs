@@ -9,7 +9,7 @@ use crate::table::{self, Table, counted, decimals, significant};
 use anyhow::Result;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::Dynamics;
-use funicular::modes::{self, damped::DampedModes};
+use funicular::modes;
 use funicular::response::Quantity;
 use funicular::robot::Robot;
 use serde::Serialize;
@@ -114,7 +114,8 @@ pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
     let AtRest { robot, equilibrium, .. } = &at_rest;
 
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let damped = damped(&dynamics, &found, &mut warnings);
+    let (damped, doubt) = modes::damped_partners(&dynamics, &found);
+    warnings.extend(doubt);
     if let Some(damped) = &damped {
         for (row, mode) in rows.iter_mut().zip(&damped.modes) {
             let eigenvalue = mode.eigenvalue();
@@ -161,22 +162,6 @@ pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
         modes: rows,
         warnings,
     })
-}
-
-/// The damped partners, with what there is to say of them.
-fn damped(dynamics: &Dynamics, found: &modes::Modes, warnings: &mut Vec<String>) -> Option<DampedModes> {
-    if found.modes.len() > modes::MOST_DAMPED {
-        warnings.push(format!(
-            "damping ratios are of first order: {} modes are more than the {} whose complex frequencies are \
-             sought; lower --below-hz",
-            found.modes.len(),
-            modes::MOST_DAMPED
-        ));
-        return None;
-    }
-    let damped = modes::damped::of(dynamics, found);
-    warnings.extend(damped.doubt(found));
-    Some(damped)
 }
 
 /// Equal steps along every cable.

@@ -1,6 +1,6 @@
 //! What there is to say of a list of modes before it is computed and after.
 
-use super::damped::DampedModes;
+use super::damped::{self, DampedModes};
 use super::{Modes, RESIDUAL_LIMIT};
 use crate::dynamics::Dynamics;
 use std::f64::consts::TAU;
@@ -9,7 +9,7 @@ use thiserror::Error;
 /// Most modes of one list that anyone reads; a thousand take some 40 ms.
 pub const MOST: usize = 20_000;
 /// Most modes whose damped partners are sought; these take some 5 s.
-pub const MOST_DAMPED: usize = 2_000;
+const MOST_DAMPED: usize = 2_000;
 
 /// More modes than a list is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -68,9 +68,24 @@ impl Modes {
     }
 }
 
+/// The damped partners of a list, unless it is too long for them, and what there is to say of that.
+pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedModes>, Option<String>) {
+    let count = undamped.modes.len();
+    if count > MOST_DAMPED {
+        let said = format!(
+            "damping ratios are of first order: {count} modes are more than the {MOST_DAMPED} whose complex frequencies \
+             are sought; lower the limit"
+        );
+        return (None, Some(said));
+    }
+    let damped = damped::of(dynamics, undamped);
+    let doubt = damped.doubt(undamped);
+    (Some(damped), doubt)
+}
+
 impl DampedModes {
     /// What to say of the partners of an undamped list, beyond what there is to say of that list.
-    pub fn doubt(&self, undamped: &Modes) -> Option<String> {
+    fn doubt(&self, undamped: &Modes) -> Option<String> {
         match self.overdamped {
             0 if undamped.certified && !self.certified => Some(
                 "the damped list is not certified: one of its searches did not settle, or its count differs; damping \
