@@ -77,6 +77,14 @@ impl<T> Matrix<T> {
 }
 
 impl<T> Tensor<T> {
+    /// Of 6×6 matrices, each column by column, without a copy: the array has the rows and columns where they are.
+    pub(crate) fn of_six(matrices: Vec<[[T; 6]; 6]>) -> Self {
+        let count = matrices.len();
+        let flat = matrices.into_flattened().into_flattened();
+        let columns = Array::from_shape_vec((count, 6, 6), flat).expect("whole matrices");
+        Self(columns.permuted_axes([0, 2, 1]))
+    }
+
     /// Of its matrices one after the other, each row by row.
     pub(crate) fn of_rows(flat: Vec<T>, rows: usize, columns: usize) -> Self {
         let count = flat.len() / (rows * columns).max(1);

@@ -263,10 +263,13 @@ fn in_chunks<T: Send>(
     frequencies: &[f64],
     compute: impl Fn(&[f64]) -> Result<Vec<T>, response::ResponseError> + Sync + Send,
 ) -> PyResult<Vec<T>> {
-    let mut values = Vec::with_capacity(frequencies.len());
-    for chunk in frequencies.chunks(CHUNK) {
-        values.extend(py.detach(|| compute(chunk)).map_err(|error| errors::response(&error))?);
+    let (first, rest) = frequencies.split_at(frequencies.len().min(CHUNK));
+    // The values of the first are kept where they are: most calls have no more.
+    let mut values = py.detach(|| compute(first)).map_err(|error| errors::response(&error))?;
+    values.reserve_exact(rest.len());
+    for chunk in rest.chunks(CHUNK) {
         py.check_signals()?;
+        values.extend(py.detach(|| compute(chunk)).map_err(|error| errors::response(&error))?);
     }
     Ok(values)
 }
@@ -284,7 +287,8 @@ pub(crate) fn receptance(
     let dynamics = py.detach(|| linearised(of, linearisation, highest(&frequencies)));
     let dynamics = dynamics.map_err(|error| errors::dynamics(&error))?;
     let matrices = in_chunks(py, &frequencies, |chunk| response::receptances(&dynamics, chunk))?;
-    Ok(Tensor::of_rows(flat(&matrices), 6, 6))
+    // In place: a matrix of nalgebra is its columns.
+    Ok(Tensor::of_six(matrices.into_iter().map(|matrix| matrix.data.0).collect()))
 }
 
 /// Peaks of a response: frequencies [Hz], heights above the valleys beside them [dB], magnitudes.
