@@ -10,12 +10,13 @@ pub(crate) use export::{ExportArgs, ExportFormat};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
+use funicular::ports::{Input, Output};
 use funicular::statics::StaticModel;
 use funicular_files::edit::Assignment;
 pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
 pub(crate) use sweep::{MapArgs, MergeArgs, RunArgs, SweepArgs, WhatArgs};
-use values::{Input, Lengths, MassRange, Output, PoseNumbers, Tensions};
+use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
@@ -329,11 +330,11 @@ pub(crate) struct ModesArgs {
     pub(crate) below_hz: f64,
 
     /// Say how much each mode takes part in the response to this input: as of `frf`; needs --output
-    #[arg(long, value_name = "INPUT", value_parser = values::input, requires = "output")]
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse, requires = "output")]
     pub(crate) input: Option<Input>,
 
     /// The output of that response; needs --input
-    #[arg(long, value_name = "OUTPUT", value_parser = values::output, requires = "input")]
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, requires = "input")]
     pub(crate) output: Option<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,
@@ -358,11 +359,11 @@ pub(crate) struct FrfArgs {
     pub(crate) range: RangeArgs,
 
     /// Force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction; world axes; a force on a cable as in cable:3@0.5:fz
-    #[arg(long, value_name = "INPUT", value_parser = values::input)]
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
     pub(crate) input: Input,
 
     /// Displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…, a:… along a direction; world axes; a point of a cable (name, part of its length from the platform) as in cable:3@0.5:az
-    #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) points: PointArgs,
@@ -401,11 +402,11 @@ pub(crate) struct ReduceArgs {
     pub(crate) below_hz: f64,
 
     /// An input, as of `frf` (repeatable) [default: all forces and moments on the platform]
-    #[arg(long, value_name = "INPUT", value_parser = values::input)]
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
     pub(crate) input: Vec<Input>,
 
     /// An output, as of `frf` (repeatable) [default: all displacements and rotations of the platform]
-    #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
     pub(crate) output: Vec<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,
@@ -507,11 +508,11 @@ pub(crate) struct ReportArgs {
     pub(crate) below_hz: f64,
 
     /// Force or moment of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, as of `funicular frf` [default: fz; fx of a platform that cannot move along z]
-    #[arg(long, value_name = "INPUT", value_parser = values::input)]
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
     pub(crate) input: Option<Input>,
 
     /// Motion of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, as of `funicular frf` [default: az; ax of a platform that cannot move along z]
-    #[arg(long, value_name = "OUTPUT", value_parser = values::output)]
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
     pub(crate) output: Option<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,

@@ -77,14 +77,7 @@ fn code(error: &anyhow::Error) -> u8 {
         return INTERRUPTED;
     }
     let no_solution = match error.downcast_ref::<StaticsError>() {
-        Some(
-            StaticsError::Singular
-            | StaticsError::WouldPush { .. }
-            | StaticsError::BeyondLimits(_)
-            | StaticsError::NotNearest { .. }
-            | StaticsError::NotConverged { .. },
-        ) => true,
-        Some(_) => false,
+        Some(error) => error.is_no_solution(),
         None => {
             matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
                 || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))

@@ -5,7 +5,6 @@ pub(crate) mod moordyn;
 pub(crate) mod opensees;
 pub(crate) mod vtk;
 
-use crate::commands::modes::{check_count, uncertified};
 use crate::errors;
 use crate::state::AtRest;
 use anyhow::Result;
@@ -20,9 +19,9 @@ const MOST_MODES: usize = 500;
 fn modes_below(at_rest: &AtRest, below_hz: f64) -> Result<(Dynamics, Modes)> {
     let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
     let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, below_hz)?;
-    check_count(&dynamics, below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, below_hz);
-    if let Some(doubt) = uncertified(&found) {
+    if let Some(doubt) = found.doubt() {
         errors::warn(&doubt);
     }
     Ok((dynamics, found))

@@ -9,7 +9,6 @@ mod import;
 mod json;
 mod output;
 mod page;
-mod places;
 mod progress;
 mod robot_file;
 mod state;

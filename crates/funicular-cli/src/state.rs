@@ -1,12 +1,13 @@
 //! The static state that an analysis starts from: as the robot file says, or as the options say.
 
-use crate::args::{CableModelName, LoadArgs, ModelArgs, StateArgs, TensionArgs, TensionRuleName};
-use crate::table::short;
+use crate::args::{CableModelName, LoadArgs, ModelArgs, PointArgs, StateArgs, TensionArgs, TensionRuleName};
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
-use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::ports::{Input, OnCable, Output, PlaceError, Places, PortError};
+use funicular::response::Direction;
 use funicular::robot::{Freedoms, Load, Pose, Robot, State, TensionLimits, Wind};
-use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
+use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
 use funicular::validity;
 use serde::Serialize;
 
@@ -20,23 +21,20 @@ pub(crate) struct AtRest {
 
 /// Finds the equilibrium that the options ask for.
 pub(crate) fn equilibrium(robot: Robot, args: &StateArgs) -> Result<AtRest> {
-    let robot = with_options(robot, args)?;
-    let model = args.static_model.into();
-    let mut instead_of = None;
-    let equilibrium = match &robot.state {
-        State::Lengths(lengths) => statics::forward(&robot, lengths, model, None)?,
-        State::Pose(pose) if robot.cables.len() < robot.platform.freedoms.count() => {
-            let nearest = statics::nearest(&robot, pose, model)?;
-            instead_of = Some((*pose, nearest.distance));
-            nearest.equilibrium
-        }
-        State::Pose(pose) => statics::inverse(&robot, pose, model)?,
-        State::Unknown => bail!(
+    Ok(at_rest(with_options(robot, args)?, args, None)?.0)
+}
+
+/// The robot at its state.
+fn at_rest(robot: Robot, args: &StateArgs, rule: Option<TensionRule>) -> Result<(AtRest, Option<TensionRule>)> {
+    if robot.state == State::Unknown {
+        // The core does not know the options' names.
+        bail!(
             "the robot has no state: give --lengths-m or --pose, or give every cable of the robot file an \
              `unstrained_length_m`, or the file a [state] with `position_m`"
-        ),
-    };
-    Ok(AtRest { robot, equilibrium, instead_of })
+        );
+    }
+    let Rest { equilibrium, instead_of, rule } = statics::rest(&robot, args.static_model.into(), rule)?;
+    Ok((AtRest { robot, equilibrium, instead_of }, rule))
 }
 
 /// As [`equilibrium`], the tensions of a pose as these options ask; with the rule they were chosen by, if there was a
@@ -47,25 +45,7 @@ pub(crate) fn equilibrium_with(
     tensions: &TensionArgs,
 ) -> Result<(AtRest, Option<TensionRule>)> {
     let robot = with_limits(&with_options(robot, args)?, tensions)?;
-    let asked = rule(tensions)?;
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-    match &robot.state {
-        State::Pose(pose) if cables > freedoms => {
-            let rule = asked.unwrap_or_default();
-            let equilibrium = statics::distribute(&robot, pose, args.static_model.into(), &rule)?;
-            Ok((AtRest { robot, equilibrium, instead_of: None }, Some(rule)))
-        }
-        State::Pose(_) if asked.is_some() => bail!(
-            "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
-             pose; leave out --tension-rule and --wanted-tension-n"
-        ),
-        State::Lengths(_) if asked.is_some() => bail!(
-            "a tension rule has nothing to choose: the state is given by unstrained lengths, which determine the \
-             tensions; give --pose"
-        ),
-        // The limits are in the robot now, for warnings to compare with.
-        _ => Ok((equilibrium(robot, &StateArgs { lengths_m: None, pose: None, mass_kg: None, ..*args })?, None)),
-    }
+    at_rest(robot, args, rule(tensions)?)
 }
 
 /// The robot with the limits of tension that the options give.
@@ -139,14 +119,7 @@ pub(crate) fn with_options(mut robot: Robot, args: &StateArgs) -> Result<Robot> 
     if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
         bail!("--load-point-m is where a force acts, and there is none: give --force-n");
     }
-    if robot.platform.freedoms == Freedoms::PointMass {
-        if robot.load.moment_w.norm() > 0.0 {
-            bail!("a point mass does not turn: remove --moment-n-m");
-        }
-        if robot.load.point_p.norm() > 0.0 {
-            bail!("a point mass has no points but its origin: remove --load-point-m");
-        }
-    }
+    robot.load.check(&robot.platform.freedoms)?;
     Ok(robot)
 }
 
@@ -162,9 +135,9 @@ pub(crate) struct Models {
 impl Models {
     pub(crate) fn of(equilibrium: &Equilibrium, linearisation: Linearisation) -> Self {
         Self {
-            static_model: static_model_name(equilibrium.model),
+            static_model: equilibrium.model.name(),
             cable_model: linearisation.cable_model.name(),
-            assembly: assembly_name(linearisation.assembly),
+            assembly: linearisation.assembly.name(),
             in_plane_only: linearisation.in_plane_only,
         }
     }
@@ -218,7 +191,27 @@ pub(crate) fn linearisation(args: &ModelArgs, static_model: StaticModel) -> Line
     }
 }
 
+/// Input and output of a response, checked against what the robot can do.
+pub(crate) fn directions(
+    robot: &Robot,
+    input: &Input,
+    output: &Output,
+    points: &PointArgs,
+) -> Result<(Direction, Direction), PortError> {
+    Ok((input.direction(robot, points.input_point_m)?, output.direction(robot, points.output_point_m)?))
+}
+
 impl AtRest {
+    /// The points on cables where a response begins or ends.
+    pub(crate) fn places(
+        &self,
+        dynamics: &Dynamics,
+        input: Option<&OnCable>,
+        output: Option<&OnCable>,
+    ) -> Result<Places, PlaceError> {
+        Places::new(&self.robot, &self.equilibrium, dynamics, input, output)
+    }
+
     /// Linearises, with what there is to warn of for frequencies up to a limit [Hz].
     pub(crate) fn dynamics(&self, linearisation: Linearisation, up_to_hz: f64) -> Result<(Dynamics, Vec<String>)> {
         let dynamics = Dynamics::about(&self.robot, &self.equilibrium, linearisation, up_to_hz)?;
@@ -231,44 +224,9 @@ impl AtRest {
         if let Some((model, up_to_hz)) = dynamics {
             warnings.extend(validity::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }
-        self.instead().into_iter().chain(warnings.iter().map(ToString::to_string)).collect()
-    }
-
-    /// That the pose is not the one asked, and how far it is from it.
-    fn instead(&self) -> Option<String> {
-        let (asked, distance) = self.instead_of?;
-        let AtRest { robot, equilibrium, .. } = self;
-        if distance <= HELD * robot.platform_length() {
-            return None;
-        }
-        let found = &equilibrium.pose;
-        let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-        Some(format!(
-            "{cables} cables for {freedoms} freedoms cannot hold the pose asked by any lengths: this is the nearest that they \
-             can, {} mm and {}° away (nearest_pose_distance_m {})",
-            short(1e3 * (found.position_w - asked.position_w).norm(), 4),
-            short(found.rot_wp.angle_to(&asked.rot_wp).to_degrees(), 4),
-            short(distance, 4)
-        ))
-    }
-}
-
-/// Distance from the pose asked, over the size of the platform, up to which it is that pose: what forward statics leaves.
-const HELD: f64 = 1e-7;
-
-/// Name of a static model on the command line and in files.
-pub(crate) fn static_model_name(model: StaticModel) -> &'static str {
-    match model {
-        StaticModel::Ideal => "ideal",
-        StaticModel::Spring => "spring",
-        StaticModel::Catenary => "catenary",
-    }
-}
-
-/// Name of an assembly on the command line and in files.
-pub(crate) fn assembly_name(assembly: Assembly) -> &'static str {
-    match assembly {
-        Assembly::Consistent => "consistent",
-        Assembly::Paper => "paper",
+        let elsewhere = self
+            .instead_of
+            .and_then(|(asked, distance)| validity::of_pose(&self.robot, &self.equilibrium, &asked, distance));
+        elsewhere.iter().chain(&warnings).map(ToString::to_string).collect()
     }
 }

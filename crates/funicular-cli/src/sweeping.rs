@@ -70,13 +70,13 @@ pub(crate) fn described(
     let pose = state.pose.map(|pose| [pose.position, pose.roll_pitch_yaw_deg].concat());
     let value = json!({
         "quantities": quantities.iter().map(Quantity::name).collect::<Vec<_>>(),
-        "static_model": state::static_model_name(options.static_model),
+        "static_model": options.static_model.name(),
         "tension_rule": options.tension_rule.name(),
         "wanted_tension_n": tensions.wanted_tension_n.as_ref().map(|wanted| &wanted.0),
         "min_tension_n": tensions.min_tension_n,
         "max_tension_n": tensions.max_tension_n,
         "cable_model": options.linearisation.cable_model.name(),
-        "assembly": state::assembly_name(options.linearisation.assembly),
+        "assembly": options.linearisation.assembly.name(),
         "in_plane_only": options.linearisation.in_plane_only,
         "up_to_hz": options.highest_hz,
         "pose": pose,

@@ -21,6 +21,12 @@ impl Assignment {
     pub fn text(&self) -> &str {
         &self.text
     }
+
+    /// The same, which the user wrote after something else than `--set`: what errors and the changed line say.
+    #[must_use]
+    pub fn said_after(self, option: &'static str) -> Self {
+        Self { option, ..self }
+    }
 }
 
 /// Why a value cannot be set: which, and what there is instead.

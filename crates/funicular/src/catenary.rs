@@ -161,6 +161,12 @@ impl Catenary {
         self.span
     }
 
+    /// Vertical distance from start to end [m], up positive.
+    #[inline]
+    pub fn rise(&self) -> f64 {
+        self.rise
+    }
+
     /// Horizontal force H along the whole cable [N].
     #[inline]
     pub fn horizontal_force(&self) -> f64 {

@@ -28,6 +28,19 @@ pub enum Assembly {
     Paper,
 }
 
+impl Assembly {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Consistent, Self::Paper];
+
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Consistent => "consistent",
+            Self::Paper => "paper",
+        }
+    }
+}
+
 /// How a robot is linearised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Linearisation {

@@ -27,6 +27,9 @@ pub type CMat6 = nalgebra::Matrix6<Complex>;
 /// Rotation from the platform frame to the world frame.
 pub type Rotation = nalgebra::UnitQuaternion<f64>;
 
+/// Quaternion, not necessarily of a rotation.
+pub type Quaternion = nalgebra::Quaternion<f64>;
+
 /// Cross-product matrix `[v]×`: `skew(v) * u == v × u`.
 #[inline]
 pub fn skew(v: &Vec3) -> Mat3 {

@@ -4,7 +4,10 @@
 //! so the count J tells how many natural frequencies lie there, and bisection on J separates them. What J jumps by
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
+mod checks;
 pub mod damped;
+
+pub use checks::{MOST, TooMany, check_count, damped_partners};
 
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};

@@ -11,6 +11,7 @@ pub use freedoms::{Freedoms, OutOfPlane, Plane};
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};
+use thiserror::Error;
 
 /// A cable-driven parallel robot, as read from a robot file. SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,6 +63,31 @@ pub struct Load {
     pub moment_w: Vec3,
     /// Where the force acts, platform frame [m].
     pub point_p: Vec3,
+}
+
+/// A load that means nothing on a platform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum LoadError {
+    /// A moment on a point mass.
+    #[error("a point mass does not turn: leave out the moment of the load")]
+    MomentOnPointMass,
+    /// A point of a point mass.
+    #[error("a point mass has no points but its origin: leave out the point of the load")]
+    PointOfPointMass,
+}
+
+impl Load {
+    /// Refuses what means nothing on a platform with these freedoms.
+    ///
+    /// # Errors
+    /// [`LoadError`].
+    pub fn check(&self, freedoms: &Freedoms) -> Result<(), LoadError> {
+        match freedoms {
+            Freedoms::PointMass if self.moment_w.norm() > 0.0 => Err(LoadError::MomentOnPointMass),
+            Freedoms::PointMass if self.point_p.norm() > 0.0 => Err(LoadError::PointOfPointMass),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Material damping of a rope; enters the cable's frequency only (theory, section 4).

@@ -6,6 +6,7 @@ mod forward;
 mod inverse;
 mod limits;
 mod nearest;
+mod rest;
 mod start;
 mod tension;
 
@@ -15,6 +16,7 @@ pub use forward::forward;
 pub use inverse::inverse;
 pub use limits::{Limit, TensionMargin, TensionRange};
 pub use nearest::{Nearest, distance, nearest};
+pub use rest::{Rest, rest};
 pub use tension::{Miss, TensionRule, distribute};
 
 use crate::catenary::Rope;
@@ -33,6 +35,20 @@ pub enum StaticModel {
     /// Elastic catenary under its own weight.
     #[default]
     Catenary,
+}
+
+impl StaticModel {
+    /// All of them, simplest first.
+    pub const ALL: [Self; 3] = [Self::Ideal, Self::Spring, Self::Catenary];
+
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ideal => "ideal",
+            Self::Spring => "spring",
+            Self::Catenary => "catenary",
+        }
+    }
 }
 
 /// One cable at equilibrium.
@@ -118,6 +134,29 @@ pub enum Stability {
 /// Why there is no equilibrium to give.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StaticsError {
+    /// A robot of which neither lengths nor a pose are known.
+    #[error(
+        "the robot has no state: give unstrained lengths or a pose, or give every cable of the robot file an \
+         `unstrained_length_m`, or the file a [state] with `position_m`"
+    )]
+    NoState,
+    /// A tension rule for as many cables as freedoms, or fewer.
+    #[error(
+        "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
+         pose; leave out the tension rule and the wanted tensions"
+    )]
+    NothingToChoose {
+        /// Cables of the robot.
+        cables: usize,
+        /// Freedoms of the platform.
+        freedoms: usize,
+    },
+    /// A tension rule for given lengths.
+    #[error(
+        "a tension rule has nothing to choose: the state is given by unstrained lengths, which determine the \
+         tensions; give a pose"
+    )]
+    RuleOfLengths,
     /// A number of lengths that is not the number of cables.
     #[error("{given} unstrained lengths for {cables} cables: give one a cable, in file order")]
     LengthCount {
@@ -269,6 +308,44 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
+}
+
+impl StaticsError {
+    /// A short name that does not change, for columns of tables.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoState => "no-state",
+            Self::NothingToChoose { .. } | Self::RuleOfLengths => "nothing-to-choose",
+            Self::LengthCount { .. } => "length-count",
+            Self::Length { .. } => "length",
+            Self::CableCount { .. } | Self::InverseCableCount { .. } => "cable-count",
+            Self::OutOfPlane(_) => "out-of-plane",
+            Self::CoincidingEnds { .. } => "coinciding-ends",
+            Self::Singular => "singular",
+            Self::WouldPush { .. } => "would-push",
+            Self::BeyondLimits(_) => "beyond-limits",
+            Self::LimitsExclude { .. } => "limits-exclude",
+            Self::NeedsMaximum { .. } => "needs-maximum",
+            Self::WantedCount { .. } => "wanted-count",
+            Self::Wanted { .. } => "wanted",
+            Self::NothingToStiffen => "nothing-to-stiffen",
+            Self::OneIdeal => "one-ideal",
+            Self::NotNearest { .. } => "not-nearest",
+            Self::NotConverged { .. } => "not-converged",
+        }
+    }
+
+    /// Whether nothing is wrong with what was asked: the robot has no such equilibrium, or none was found.
+    pub fn is_no_solution(&self) -> bool {
+        matches!(
+            self,
+            Self::Singular
+                | Self::WouldPush { .. }
+                | Self::BeyondLimits(_)
+                | Self::NotNearest { .. }
+                | Self::NotConverged { .. }
+        )
+    }
 }
 
 /// Scaled residual below which an equilibrium counts as found; rounding leaves 1e-15 to 1e-12.

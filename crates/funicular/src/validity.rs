@@ -3,7 +3,7 @@
 use crate::cable::closed_form::ClosedForm;
 use crate::cable::exact::Exact;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, static_sag};
-use crate::robot::Robot;
+use crate::robot::{Pose, Robot};
 use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -59,6 +59,19 @@ pub enum Warning {
         directions: usize,
         /// Least eigenvalue of the scaled stiffness [N/m].
         least_stiffness: f64,
+    },
+    /// A pose asked that fewer cables than freedoms cannot hold.
+    Elsewhere {
+        /// Cables of the robot.
+        cables: usize,
+        /// Freedoms of the platform.
+        freedoms: usize,
+        /// How far the platform is from where it was asked to be [m].
+        translation: f64,
+        /// How far it is turned from what was asked [degrees].
+        turn_deg: f64,
+        /// Both together [m], [`crate::statics::distance`].
+        distance: f64,
     },
     /// A shallow-sag model on cables that sag deeper.
     DeepSag {
@@ -183,6 +196,12 @@ impl fmt::Display for Warning {
                  {least_stiffness:.3e} N/m); the robot would leave it",
                 if *directions == 1 { "is" } else { "are" }
             ),
+            Self::Elsewhere { cables, freedoms, translation, turn_deg, distance } => write!(
+                f,
+                "{cables} cables for {freedoms} freedoms cannot hold the pose asked by any lengths: this is the nearest \
+                 that they can, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
+                1e3 * translation
+            ),
             Self::DeepSag { cables, model } => {
                 let what =
                     if *model == CableModel::StaticSag { "stiffness along the chord" } else { "first frequency" };
@@ -220,6 +239,22 @@ fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning
     }
     let value = limits.minimum.filter(|least| margin.least < *least * (1.0 - 1e-6))?;
     Some(Warning::BeyondLimit { cable: name, tension: margin.least, limit: Limit::Minimum, value })
+}
+
+/// Distance from the pose asked, over the size of the platform, up to which it is that pose: what forward statics leaves.
+const HELD: f64 = 1e-7;
+
+/// That an equilibrium is not at the pose asked, where it is the nearest that the cables hold
+/// ([`Rest::instead_of`](crate::statics::Rest::instead_of)).
+pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, asked: &Pose, distance: f64) -> Option<Warning> {
+    let found = &equilibrium.pose;
+    (distance > HELD * robot.platform_length()).then(|| Warning::Elsewhere {
+        cables: robot.cables.len(),
+        freedoms: robot.platform.freedoms.count(),
+        translation: (found.position_w - asked.position_w).norm(),
+        turn_deg: found.rot_wp.angle_to(&asked.rot_wp).to_degrees(),
+        distance,
+    })
 }
 
 /// Warnings about a static state.

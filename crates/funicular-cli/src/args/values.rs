@@ -1,26 +1,17 @@
 //! Values on the command line: text in, checked numbers out, each error with the value and what it must be.
 
 use funicular::math::{Mat3, Vec3};
-use funicular::response::Quantity;
+use funicular::ports;
 use funicular::sweep::{self, Steps};
 use funicular_files::{Variation, edit};
 use std::num::NonZeroUsize;
 
-/// Largest magnitude of a number, as in robot files: no product of the analyses overflows within it.
-const LARGEST: f64 = 1e12;
 /// Smallest quantity that has to be positive, as in robot files.
 const SMALLEST: f64 = 1e-12;
 
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value.abs() <= LARGEST => Ok(value),
-        Ok(value) if value.is_finite() => Err(format!("{text} is beyond {LARGEST:e} in magnitude")),
-        Ok(_) => Err(format!("{text} is not a finite number")),
-        Err(_) if text.is_empty() => Err("a number is missing".to_owned()),
-        Err(_) => Err(format!("`{text}` is not a number (write it without its unit, with a point for decimals)")),
-    }
+    ports::number(text).map_err(|error| error.to_string())
 }
 
 /// A positive number.
@@ -99,138 +90,6 @@ pub(crate) fn point(text: &str) -> Result<Vec3, String> {
         [x, y, z] => Ok(Vec3::new(x, y, z)),
         ref other => Err(format!("{} numbers where x,y,z are needed", other.len())),
     }
-}
-
-/// `x,y,z`, of any length but zero.
-fn direction(text: &str) -> Result<Vec3, String> {
-    let vector = point(text)?;
-    if vector.norm() >= SMALLEST { Ok(vector) } else { Err("a direction cannot be zero".to_owned()) }
-}
-
-/// The unit vector of a world axis.
-fn axis(name: &str) -> Option<Vec3> {
-    match name {
-        "x" => Some(Vec3::x()),
-        "y" => Some(Vec3::y()),
-        "z" => Some(Vec3::z()),
-        _ => None,
-    }
-}
-
-/// A point on a cable.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct OnCable {
-    /// Name of the cable.
-    pub(crate) name: String,
-    /// Part of the unstrained length from the platform.
-    pub(crate) fraction: f64,
-}
-
-/// `cable:NAME@FRACTION:WHAT`: the point, and WHAT. `None` if it does not begin so. The name may hold any character; the
-/// last `@` ends it.
-fn on_cable(text: &str) -> Result<Option<(OnCable, &str)>, String> {
-    let Some(rest) = text.strip_prefix("cable:") else { return Ok(None) };
-    let form = "a point on a cable is cable:NAME@FRACTION:DIRECTION, as in cable:3@0.5:z";
-    let (name, rest) = rest.rsplit_once('@').ok_or(format!("`@` is missing: {form}"))?;
-    let (fraction, what) = rest.split_once(':').ok_or(format!("the direction is missing: {form}"))?;
-    let fraction = finite(fraction)?;
-    if !(0.0..=1.0).contains(&fraction) {
-        return Err(format!("{fraction} is not a part of the cable's length: 0 is the platform, 1 the anchor"));
-    }
-    Ok(Some((OnCable { name: name.to_owned(), fraction }, what)))
-}
-
-/// What drives the platform or a cable.
-#[derive(Debug, Clone)]
-pub(crate) struct Input {
-    /// As the user wrote it.
-    pub(crate) name: String,
-    /// Where, if not on the platform.
-    pub(crate) on_cable: Option<OnCable>,
-    /// A moment, not a force.
-    pub(crate) is_moment: bool,
-    /// Direction in world axes.
-    pub(crate) direction_w: Vec3,
-}
-
-/// `fx` … `mz`, `f:ux,uy,uz`, `m:ux,uy,uz`; forces also after `cable:NAME@FRACTION:`
-pub(crate) fn input(text: &str) -> Result<Input, String> {
-    let name = text.trim().to_owned();
-    if let Some((place, what)) = on_cable(&name)? {
-        let force = input(what)?;
-        if force.is_moment || force.on_cable.is_some() {
-            return Err(format!("{what} is not a force, and only forces act on a cable"));
-        }
-        return Ok(Input { name, on_cable: Some(place), ..force });
-    }
-    let of = |is_moment, direction_w| Ok(Input { name: name.clone(), on_cable: None, is_moment, direction_w });
-    if let Some(rest) = name.strip_prefix("f:") {
-        return of(false, direction(rest)?);
-    }
-    if let Some(rest) = name.strip_prefix("m:") {
-        return of(true, direction(rest)?);
-    }
-    if let Some(along) = name.strip_prefix('f').and_then(axis) {
-        return of(false, along);
-    }
-    if let Some(about) = name.strip_prefix('m').and_then(axis) {
-        return of(true, about);
-    }
-    Err("not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
-         axes), or a force on a cable as in cable:3@0.5:fz"
-        .to_owned())
-}
-
-/// What is measured of the platform or a cable.
-#[derive(Debug, Clone)]
-pub(crate) struct Output {
-    /// As the user wrote it.
-    pub(crate) name: String,
-    /// Where, if not on the platform.
-    pub(crate) on_cable: Option<OnCable>,
-    /// A rotation, not a translation.
-    pub(crate) is_rotation: bool,
-    /// Displacement, velocity or acceleration.
-    pub(crate) quantity: Quantity,
-    /// Direction in world axes.
-    pub(crate) direction_w: Vec3,
-}
-
-/// `x` … `rz`, with `v` or `a` before it, or `x:ux,uy,uz`, `v:…`, `a:…`; translations also after `cable:NAME@FRACTION:`
-pub(crate) fn output(text: &str) -> Result<Output, String> {
-    let name = text.trim().to_owned();
-    if let Some((place, what)) = on_cable(&name)? {
-        let motion = output(what)?;
-        if motion.is_rotation || motion.on_cable.is_some() {
-            return Err(format!("{what} is not a translation, and the points of a cable do not turn"));
-        }
-        return Ok(Output { name, on_cable: Some(place), ..motion });
-    }
-    let of = |quantity, is_rotation, direction_w| {
-        Ok(Output { name: name.clone(), on_cable: None, is_rotation, quantity, direction_w })
-    };
-    for (prefix, quantity) in
-        [("x:", Quantity::Displacement), ("v:", Quantity::Velocity), ("a:", Quantity::Acceleration)]
-    {
-        if let Some(rest) = name.strip_prefix(prefix) {
-            return of(quantity, false, direction(rest)?);
-        }
-    }
-    let (quantity, rest) = match name.as_bytes().first() {
-        Some(b'v') => (Quantity::Velocity, &name[1..]),
-        Some(b'a') => (Quantity::Acceleration, &name[1..]),
-        _ => (Quantity::Displacement, name.as_str()),
-    };
-    if let Some(along) = axis(rest) {
-        return of(quantity, false, along);
-    }
-    if let Some(about) = rest.strip_prefix('r').and_then(axis) {
-        return of(quantity, true, about);
-    }
-    Err("not an output: x, y, z, rx, ry, rz (displacement, rotation), with v (velocity) or a (acceleration) before it \
-         as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), or a point \
-         of a cable as in cable:3@0.5:az"
-        .to_owned())
 }
 
 /// Points along a cable, both ends included.
@@ -346,42 +205,6 @@ mod tests {
         assert!(written("-1,2,3").contains("[-1.0, 2.0, 3.0]"));
         assert!(written("1,2,3,4,5,-6").contains("[4.0, 5.0, -6.0]"));
         assert!(pose("1,2").is_err() && pose("1,2,3,4").is_err() && pose("1,,3").is_err());
-    }
-
-    #[test]
-    fn inputs_and_outputs_have_the_names_of_the_field() {
-        for (text, is_moment) in [("fx", false), ("mz", true), ("f:0,-1,1", false), ("m:1,0,0", true)] {
-            assert_eq!(input(text).unwrap().is_moment, is_moment, "{text}");
-        }
-        for bad in ["", "f", "fw", "fxy", "f:0,0,0", "f:1,2", "x", "Fx"] {
-            assert!(input(bad).is_err(), "{bad}");
-        }
-        for (text, quantity, is_rotation) in [
-            ("x", Quantity::Displacement, false),
-            ("rz", Quantity::Displacement, true),
-            ("vy", Quantity::Velocity, false),
-            ("ary", Quantity::Acceleration, true),
-            ("a:0,1,1", Quantity::Acceleration, false),
-            ("x:0,1,1", Quantity::Displacement, false),
-        ] {
-            let found = output(text).unwrap();
-            assert!(found.quantity == quantity && found.is_rotation == is_rotation, "{text}");
-        }
-        for bad in ["", "a", "v", "r", "rw", "fz", "a:0,0,0", "é"] {
-            assert!(output(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn a_point_on_a_cable_is_its_name_and_a_part_of_its_length() {
-        let found = output("cable:left @ rope:2@0.25:a:0,1,1").unwrap();
-        assert_eq!(found.on_cable, Some(OnCable { name: "left @ rope:2".to_owned(), fraction: 0.25 }));
-        assert!(found.quantity == Quantity::Acceleration && found.direction_w == Vec3::new(0.0, 1.0, 1.0));
-        assert_eq!(input("cable:3@1:fz").unwrap().on_cable.unwrap().fraction.to_bits(), 1.0_f64.to_bits());
-        for bad in ["cable:3", "cable:3@0.5", "cable:3@1.5:z", "cable:3@-0.1:z", "cable:3@x:z", "cable:3@0.5:rz"] {
-            assert!(output(bad).is_err(), "{bad}");
-        }
-        assert!(input("cable:3@0.5:mz").is_err());
     }
 
     #[test]

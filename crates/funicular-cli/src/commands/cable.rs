@@ -4,7 +4,7 @@ use crate::args::CableArgs;
 use crate::errors::NoSolution;
 use crate::grid;
 use crate::output::Results;
-use crate::state::{self, SagNumbers, static_model_name};
+use crate::state::{self, SagNumbers};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};
@@ -103,7 +103,7 @@ pub(crate) fn run(robot: Robot, args: &CableArgs) -> Result<CableResult> {
     Ok(CableResult {
         robot: robot.name.clone(),
         name: args.name.clone(),
-        static_model: static_model_name(at_rest.equilibrium.model),
+        static_model: at_rest.equilibrium.model.name(),
         cable_model: model.name(),
         in_plane_only: args.in_plane_only,
         chord_m: sag.chord,

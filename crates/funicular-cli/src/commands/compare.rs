@@ -1,7 +1,7 @@
 //! `compare`: every cable model side by side.
 
 use crate::args::CompareArgs;
-use crate::commands::modes::{MOST_MODES, ModeRow, check_count, uncertified};
+use crate::commands::modes::ModeRow;
 use crate::output::Results;
 use crate::state;
 use crate::table::{self, Table, decimals};
@@ -9,6 +9,7 @@ use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::compare::{self, Comparison, ModelResult, TOLERANCE};
 use funicular::dynamics::Linearisation;
+use funicular::modes;
 use funicular::robot::Robot;
 use serde::Serialize;
 
@@ -67,19 +68,19 @@ pub(crate) fn run(robot: Robot, args: &CompareArgs) -> Result<Compared> {
         in_plane_only: args.terms.in_plane_only,
     };
     let (reference, mut warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
-    check_count(&reference, args.below_hz, MOST_MODES)?;
+    modes::check_count(&reference, args.below_hz, modes::MOST)?;
     let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, args.below_hz, linearisation)?;
     let Comparison { below_hz, reference, models, advice } = found;
     for model in &models {
-        if let Some(warning) = model.modes.as_ref().ok().and_then(uncertified) {
+        if let Some(warning) = model.modes.as_ref().ok().and_then(modes::Modes::doubt) {
             warnings.push(format!("{}: {warning}", model.model));
         }
     }
     Ok(Compared {
         robot: at_rest.robot.name.clone(),
         below_hz,
-        static_model: state::static_model_name(at_rest.equilibrium.model),
-        assembly: state::assembly_name(linearisation.assembly),
+        static_model: at_rest.equilibrium.model.name(),
+        assembly: linearisation.assembly.name(),
         in_plane_only: linearisation.in_plane_only,
         reference: reference.name(),
         tolerance: TOLERANCE,

@@ -1,15 +1,14 @@
 //! `frf`: one frequency response and its peaks.
 
 use crate::args::FrfArgs;
-use crate::args::values::{Input, Output};
 use crate::grid;
 use crate::output::Results;
-use crate::places::{Places, directions};
 use crate::progress::Progress;
-use crate::state::{self, Models};
+use crate::state::{self, Models, directions};
 use crate::table::{Table, counted, decimals, significant, vector};
 use anyhow::Result;
 use funicular::math::{Complex, Vec3};
+use funicular::ports::{Input, Output, Places};
 use funicular::response::{self, Peak, Quantity};
 use funicular::robot::Robot;
 use serde::ser::SerializeMap;
@@ -62,7 +61,7 @@ pub(crate) fn run(robot: Robot, args: &FrfArgs) -> Result<Frf> {
     let linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, args.range.to_hz)?;
 
-    let places = Places::new(&at_rest, &dynamics, args.input.on_cable.as_ref(), args.output.on_cable.as_ref())?;
+    let places = at_rest.places(&dynamics, args.input.on_cable.as_ref(), args.output.on_cable.as_ref())?;
     let pose = &at_rest.equilibrium.pose;
     let input = places.port(places.input, input.vector(pose), args.input.direction_w);
     let output = places.port(places.output, output.vector(pose), args.output.direction_w);

@@ -4,20 +4,16 @@ use crate::args::ModesArgs;
 use crate::commands::cable::Axes;
 use crate::commands::frf;
 use crate::output::Results;
-use crate::places::{self, Places};
 use crate::state::{self, AtRest, Models};
 use crate::table::{self, Table, counted, decimals, significant};
-use anyhow::{Result, bail};
+use anyhow::Result;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::Dynamics;
-use funicular::modes::{self, damped::DampedModes};
+use funicular::modes;
 use funicular::response::Quantity;
 use funicular::robot::Robot;
 use serde::Serialize;
 use std::f64::consts::TAU;
-
-/// Most modes of one list; a thousand take some 40 ms.
-pub(crate) const MOST_MODES: usize = 20_000;
 
 #[derive(Serialize)]
 #[expect(clippy::struct_field_names, reason = "`modes` is a key of the JSON")]
@@ -106,58 +102,20 @@ impl From<modes::Mode> for ModeRow {
     }
 }
 
-/// Refuses a limit below which there are more modes than anyone reads.
-pub(crate) fn check_count(dynamics: &Dynamics, below_hz: f64, most: usize) -> Result<()> {
-    let count = dynamics.modes_below(below_hz * TAU);
-    if count > most {
-        bail!(
-            "{count} natural frequencies lie below {below_hz} Hz, at most {most} are listed: lower --below-hz, or \
-             use --cable-model spring, which has none of the cables' own"
-        );
-    }
-    Ok(())
-}
-
-/// What to say of a list that is not certified.
-pub(crate) fn uncertified(found: &modes::Modes) -> Option<String> {
-    if found.certified {
-        return None;
-    }
-    let modes::Modes { modes, count_below, unstable_directions, below_hz, .. } = found;
-    let listed = counted(modes.len(), "mode");
-    let inexact = modes.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));
-    Some(match inexact {
-        Some(mode) if modes.len() + unstable_directions == *count_below && mode.residual <= modes::RESIDUAL_LIMIT => {
-            format!(
-                "the list of {listed} is not certified, though the count confirms its number: the exact cables are not \
-             resolved up to {below_hz} Hz; lower the limit"
-            )
-        }
-        Some(mode) if modes.len() + unstable_directions == *count_below => format!(
-            "the list of {listed} is not certified, though the count confirms its number: the largest residual is \
-             {:.1e}, of the mode at {:.4} Hz",
-            mode.residual, mode.frequency_hz
-        ),
-        _ => format!(
-            "the list of {listed} is not certified: the count says {count_below} below {below_hz} Hz \
-             ({unstable_directions} of them unstable directions); modes may be missing or listed twice"
-        ),
-    })
-}
-
 pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
     let pair = args.input.as_ref().zip(args.output.as_ref());
-    let directions = pair.map(|(input, output)| places::directions(&robot, input, output, &args.points)).transpose()?;
+    let directions = pair.map(|(input, output)| state::directions(&robot, input, output, &args.points)).transpose()?;
     let at_rest = state::equilibrium(robot, &args.state)?;
     let linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
-    check_count(&dynamics, args.below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, args.below_hz, modes::MOST)?;
     let found = modes::below(&dynamics, args.below_hz);
-    warnings.extend(uncertified(&found));
+    warnings.extend(found.doubt());
     let AtRest { robot, equilibrium, .. } = &at_rest;
 
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let damped = damped(&dynamics, &found, &mut warnings);
+    let (damped, doubt) = modes::damped_partners(&dynamics, &found);
+    warnings.extend(doubt);
     if let Some(damped) = &damped {
         for (row, mode) in rows.iter_mut().zip(&damped.modes) {
             let eigenvalue = mode.eigenvalue();
@@ -167,7 +125,7 @@ pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
     }
     let mut participation = None;
     if let (Some((input, output)), Some((from, to))) = (pair, directions) {
-        let places = Places::new(&at_rest, &dynamics, input.on_cable.as_ref(), output.on_cable.as_ref())?;
+        let places = at_rest.places(&dynamics, input.on_cable.as_ref(), output.on_cable.as_ref())?;
         let pose = &equilibrium.pose;
         let from = places.port(places.input, from.vector(pose), input.direction_w);
         let to = places.port(places.output, to.vector(pose), output.direction_w);
@@ -204,39 +162,6 @@ pub(crate) fn run(robot: Robot, args: &ModesArgs) -> Result<Modes> {
         modes: rows,
         warnings,
     })
-}
-
-/// Most modes whose damped partners are sought; these take some 5 s.
-const MOST_DAMPED: usize = 2_000;
-
-/// The damped partners, with what there is to say of them.
-fn damped(dynamics: &Dynamics, found: &modes::Modes, warnings: &mut Vec<String>) -> Option<DampedModes> {
-    if found.modes.len() > MOST_DAMPED {
-        warnings.push(format!(
-            "damping ratios are of first order: {} modes are more than the {MOST_DAMPED} whose complex frequencies are \
-             sought; lower --below-hz",
-            found.modes.len()
-        ));
-        return None;
-    }
-    let damped = modes::damped::of(dynamics, found);
-    if damped.overdamped > 0 {
-        warnings.push(format!(
-            "{} so strongly damped that they do not ring: their damping ratio is 1 and their frequency one of two decay \
-             rates",
-            match damped.overdamped {
-                1 => "one mode is".to_owned(),
-                n => format!("{n} modes are"),
-            }
-        ));
-    } else if found.certified && !damped.certified {
-        warnings.push(
-            "the damped list is not certified: one of its searches did not settle, or its count differs; damping ratios \
-             may be wrong"
-                .to_owned(),
-        );
-    }
-    Some(damped)
 }
 
 /// Equal steps along every cable.

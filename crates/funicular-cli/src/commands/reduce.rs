@@ -1,15 +1,14 @@
 //! `reduce`: a small second-order model of the robot for control design.
 
 use crate::args::ReduceArgs;
-use crate::args::values::{Input, OnCable, Output};
-use crate::commands::modes::check_count;
 use crate::output::{self, Results, Target};
-use crate::places::{self, cable_of};
 use crate::progress::Waiting;
 use crate::state::{self, Models};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::{Context, Result, bail};
 use funicular::math::{DMat, Vec3};
+use funicular::modes;
+use funicular::ports::{Input, OnCable, Output, cable_of};
 use funicular::reduction::{Coordinate, DampingAt, Place, SecondOrder, StateSpace, Wanted, reduce};
 use funicular::response::Quantity;
 use funicular::robot::Robot;
@@ -66,7 +65,7 @@ pub(crate) fn run(robot: Robot, args: &ReduceArgs) -> Result<Reduced> {
     let at_rest = state::equilibrium(robot, &args.state)?;
     let linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
-    check_count(&dynamics, args.below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, args.below_hz, MOST_MODES)?;
     let damping_at = args.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
     let wanted = Wanted { below_hz: args.below_hz, tolerance: args.tolerance, damping_at };
     let waiting = Waiting::for_("the model, and what it leaves out");
@@ -120,16 +119,16 @@ fn inputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Input, Place)>> {
     let all = ["fx", "fy", "fz", "mx", "my", "mz"];
     let asked = if args.input.is_empty() {
         let possible = robot.platform.freedoms.components();
-        possible.iter().map(|&i| crate::args::values::input(all[i]).map_err(anyhow::Error::msg)).collect()
+        possible.iter().map(|&i| Input::parse(all[i])).collect::<Result<Vec<_>, _>>()?
     } else {
-        Ok(args.input.clone())
+        args.input.clone()
     };
     let place = |input: Input| {
-        let direction = places::input_direction(robot, &input, args.points.input_point_m)?;
+        let direction = input.direction(robot, args.points.input_point_m)?;
         let place = place(robot, input.on_cable.as_ref(), input.direction_w, direction)?;
         Ok((input, place))
     };
-    asked?.into_iter().map(place).collect()
+    asked.into_iter().map(place).collect()
 }
 
 /// The outputs asked, or every displacement and rotation of the platform.
@@ -137,16 +136,16 @@ fn outputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Output, Place)>> {
     let all = ["x", "y", "z", "rx", "ry", "rz"];
     let asked = if args.output.is_empty() {
         let possible = robot.platform.freedoms.components();
-        possible.iter().map(|&i| crate::args::values::output(all[i]).map_err(anyhow::Error::msg)).collect()
+        possible.iter().map(|&i| Output::parse(all[i])).collect::<Result<Vec<_>, _>>()?
     } else {
-        Ok(args.output.clone())
+        args.output.clone()
     };
     let place = |output: Output| {
-        let direction = places::output_direction(robot, &output, args.points.output_point_m)?;
+        let direction = output.direction(robot, args.points.output_point_m)?;
         let place = place(robot, output.on_cable.as_ref(), output.direction_w, direction)?;
         Ok((output, place))
     };
-    asked?.into_iter().map(place).collect()
+    asked.into_iter().map(place).collect()
 }
 
 fn place(

@@ -1,18 +1,17 @@
 //! `report`: the page of one robot.
 
 use crate::args::ReportArgs;
-use crate::args::values::{self, Input, Output};
 use crate::commands::frf;
 use crate::errors;
 use crate::output::Target;
 use crate::page::report::{ReportInput, report};
 use crate::page::table::listed;
-use crate::places;
 use crate::progress::Waiting;
 use crate::robot_file::{self, RobotFile};
 use crate::state;
 use anyhow::{Context, Error, Result, bail};
 use funicular::math::Vec3;
+use funicular::ports::{Input, Output};
 use funicular::response::Quantity;
 use funicular::robot::Robot;
 use std::path::Path;
@@ -29,7 +28,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<()> {
     {
         bail!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
     }
-    let (input, output) = places::directions(&robot, &from, &to, &args.points)?;
+    let (input, output) = state::directions(&robot, &from, &to, &args.points)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
     let pose = &at_rest.equilibrium.pose;
     let page = report(&ReportInput {
@@ -54,8 +53,8 @@ fn response(args: &ReportArgs, robot: &Robot) -> Result<(Input, Output)> {
     const Z: usize = 2;
     let (force, acceleration) =
         if robot.platform.freedoms.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };
-    let input = args.input.clone().map_or_else(|| values::input(force), Ok);
-    let output = args.output.clone().map_or_else(|| values::output(acceleration), Ok);
+    let input = args.input.clone().map_or_else(|| Input::parse(force), Ok);
+    let output = args.output.clone().map_or_else(|| Output::parse(acceleration), Ok);
     Ok((input.map_err(Error::msg)?, output.map_err(Error::msg)?))
 }
 

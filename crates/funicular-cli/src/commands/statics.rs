@@ -3,7 +3,7 @@
 use crate::args::StaticsArgs;
 use crate::commands::check::{LoadRow, WindRow};
 use crate::output::Results;
-use crate::state::{self, AtRest, SagNumbers, static_model_name};
+use crate::state::{self, AtRest, SagNumbers};
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use anyhow::Result;
 use funicular::cable::Sag;
@@ -243,7 +243,7 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
     Ok(Statics {
         warnings,
         robot: robot.name.clone(),
-        static_model: static_model_name(equilibrium.model),
+        static_model: equilibrium.model.name(),
         mass_kg: robot.platform.mass,
         load: LoadRow::of(&robot.load),
         wind: WindRow::of(&robot.wind),

@@ -8,7 +8,6 @@ use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_name, model_style, response, robot as drawing};
 use super::table::{Table, fixed, significant};
 use crate::commands::check::{LoadRow, WindRow};
-use crate::commands::modes::{check_count, uncertified};
 use crate::state::AtRest;
 use anyhow::Context as _;
 use askama::Template;
@@ -104,9 +103,9 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
-    check_count(&dynamics, below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, below_hz, MOST_MODES)?;
     let found = modes::below(&dynamics, below_hz);
-    warnings.extend(uncertified(&found));
+    warnings.extend(found.doubt());
     let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),

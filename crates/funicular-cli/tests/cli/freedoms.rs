@@ -89,8 +89,8 @@ fn a_robot_that_cannot_move_along_z_has_a_report_along_x() {
 #[test]
 fn what_a_planar_robot_cannot_do_is_refused() {
     for (line, said) in [
-        ("frf - --from-hz 1 --to-hz 2 --points 9 --input fy --output z", "--input fy is out of the plane"),
-        ("frf - --from-hz 1 --to-hz 2 --points 9 --input fx --output rz", "--output rz is out of the plane"),
+        ("frf - --from-hz 1 --to-hz 2 --points 9 --input fy --output z", "the input fy is out of the plane"),
+        ("frf - --from-hz 1 --to-hz 2 --points 9 --input fx --output rz", "the output rz is out of the plane"),
         ("statics - --pose 0,0.5,0.4", "0.5 m off the plane"),
         ("statics - --pose 0,0,0.4,0,0,7", "tilted out of its plane by 7"),
     ] {

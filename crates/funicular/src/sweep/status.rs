@@ -37,22 +37,11 @@ impl Status {
     }
 
     pub(super) fn of_error(error: &StaticsError) -> Self {
-        let code = match error {
-            StaticsError::OutOfPlane(_) => "out-of-plane",
-            StaticsError::CoincidingEnds { .. } => "coinciding-ends",
-            StaticsError::Singular => "singular",
-            StaticsError::WouldPush { .. } => "would-push",
-            StaticsError::BeyondLimits(_) | StaticsError::LimitsExclude { .. } => "beyond-limits",
-            StaticsError::NotNearest { .. } | StaticsError::NotConverged { .. } => "not-converged",
-            StaticsError::LengthCount { .. }
-            | StaticsError::Length { .. }
-            | StaticsError::CableCount { .. }
-            | StaticsError::InverseCableCount { .. }
-            | StaticsError::NeedsMaximum { .. }
-            | StaticsError::WantedCount { .. }
-            | StaticsError::Wanted { .. }
-            | StaticsError::OneIdeal
-            | StaticsError::NothingToStiffen => "bad-input",
+        let code = match error.code() {
+            "limits-exclude" => "beyond-limits",
+            "not-nearest" => "not-converged",
+            code if CODES.iter().any(|known| known.0 == code) => code,
+            _ => "bad-input",
         };
         Self::new(code, error)
     }

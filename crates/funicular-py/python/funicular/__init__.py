@@ -1,0 +1,34 @@
+"""Statics and vibration of cable-driven parallel robots whose cables sag.
+
+A `Robot` is read from a file; `Robot.equilibrium` is where it rests, and everything else is asked of that: stiffness,
+natural frequencies, frequency responses. SI units, the unit of a value in its name; angles in degrees,
+R = Rz(yaw) Ry(pitch) Rx(roll); forces, motion and 6×6 matrices about the platform origin, in world axes.
+
+>>> import funicular
+>>> rest = funicular.Robot.example().equilibrium()
+>>> rest.tensions.round(3)
+array([17.685, 36.926, 39.89 , 15.636, 50.443, 52.549])
+>>> rest.modes(below_hz=2).frequency_hz.round(4)
+array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
+"""
+
+from funicular._errors import DynamicsError, Error, InputError, ResponseError, RobotFileError, StaticsError
+from funicular._funicular import Catenary, Equilibrium, Pose, Robot, __version__, peaks
+from funicular._results import Equilibria, Modes
+
+__all__ = [
+    "Catenary",
+    "DynamicsError",
+    "Equilibria",
+    "Equilibrium",
+    "Error",
+    "InputError",
+    "Modes",
+    "Pose",
+    "ResponseError",
+    "Robot",
+    "RobotFileError",
+    "StaticsError",
+    "__version__",
+    "peaks",
+]

@@ -1,0 +1,22 @@
+"""What pickles are made of: results are computed again from what they were asked with, which is less and exact."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from funicular._funicular import Catenary, Equilibrium, Pose, Robot
+
+
+def pose(position_m: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) -> Pose:
+    return Pose(position_m, quaternion_wxyz=quaternion_wxyz)
+
+
+def equilibrium(robot: Robot, arguments: dict[str, Any]) -> Equilibrium:
+    return robot.equilibrium(**arguments)
+
+
+def catenary(span: float, rise: float, length: float, weight: float, stiffness: float) -> Catenary:
+    return Catenary(
+        span, rise, unstrained_length_m=length, weight_n_per_m=weight, axial_stiffness_n=stiffness
+    )

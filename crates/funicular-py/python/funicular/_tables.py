@@ -1,0 +1,132 @@
+"""Results as dictionaries with the keys of the program's JSON, and as tables of pandas."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from funicular._funicular import Equilibrium
+    from funicular._results import Equilibria, Modes
+
+_MOTIONS = ("x", "y", "z", "rx_per_m", "ry_per_m", "rz_per_m")
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ImportError as error:
+        raise ImportError("tables need pandas: pip install 'funicular[pandas]'") from error
+    return pandas
+
+
+def _present(values: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value is not None}
+
+
+def statics(of: "Equilibrium") -> dict[str, Any]:
+    pose = of.pose
+    return _present(
+        {
+            "static_model": of.model,
+            "mass_kg": of.robot.mass_kg,
+            "pose": {
+                "position_m": pose.position_m.tolist(),
+                "quaternion_wxyz": pose.quaternion_wxyz.tolist(),
+                "roll_pitch_yaw_deg": pose.roll_pitch_yaw_deg.tolist(),
+            },
+            "nearest_pose_distance_m": of.nearest_pose_distance_m,
+            "tension_rule": of.tension_rule,
+            "cables": of.cables,
+            "residual": of.residual,
+            "iterations": of.iterations,
+            "stable": of.stable,
+            "least_stiffness_n_per_m": of.least_stiffness_n_per_m,
+            "warnings": of.warnings,
+        }
+    )
+
+
+def cables(of: "Equilibrium") -> Any:
+    rows = []
+    for cable in of.cables:
+        force = cable.pop("force_on_platform_n")
+        rows.append(cable | {f"force_on_platform_{axis}_n": part for axis, part in zip("xyz", force, strict=True)})
+    return _pandas().DataFrame(rows).set_index("name")
+
+
+def modes(of: "Modes") -> dict[str, Any]:
+    rows = []
+    for i in range(len(of)):
+        row: dict[str, Any] = {
+            "frequency_hz": float(of.frequency_hz[i]),
+            "multiplicity": int(of.multiplicity[i]),
+            "damping_ratio": float(of.damping_ratio[i]),
+        }
+        if of.eigenvalue_per_s is not None:
+            eigenvalue = complex(of.eigenvalue_per_s[i])
+            row["eigenvalue_per_s"] = [eigenvalue.real, eigenvalue.imag]
+        rows.append(
+            row
+            | {
+                "kind": str(of.kind[i]),
+                "platform_energy_fraction": float(of.platform_energy_fraction[i]),
+                "cable_energy_fractions": of.cable_energy_fractions[i].tolist(),
+                "shape": of.shape[i].tolist(),
+                "modal_mass_kg": float(of.modal_mass_kg[i]),
+                "residual": float(of.residual[i]),
+            }
+        )
+    return _present(
+        {
+            "robot": of.robot,
+            "below_hz": of.below_hz,
+            "static_model": of.static_model,
+            "cable_model": of.cable_model,
+            "assembly": of.assembly,
+            "in_plane_only": of.in_plane_only,
+            "count_below": of.count_below,
+            "certified": of.certified,
+            "unstable_directions": of.unstable_directions,
+            "damped_certified": of.damped_certified,
+            "cable_names": list(of.cable_names),
+            "modes": rows,
+            "warnings": list(of.warnings),
+        }
+    )
+
+
+def modes_table(of: "Modes") -> Any:
+    columns: dict[str, Any] = {
+        "frequency_hz": of.frequency_hz,
+        "multiplicity": of.multiplicity,
+        "damping_ratio": of.damping_ratio,
+    }
+    if of.eigenvalue_per_s is not None:
+        columns["eigenvalue_per_s"] = of.eigenvalue_per_s
+    columns |= {"kind": of.kind, "platform_energy_fraction": of.platform_energy_fraction}
+    columns |= {f"shape_{motion}": of.shape[:, i] for i, motion in enumerate(_MOTIONS)}
+    columns |= {"modal_mass_kg": of.modal_mass_kg, "residual": of.residual}
+    columns |= {
+        f"energy_fraction_cable_{name}": of.cable_energy_fractions[:, i] for i, name in enumerate(of.cable_names)
+    }
+    return _pandas().DataFrame(columns)
+
+
+def equilibria_table(of: "Equilibria") -> Any:
+    columns: dict[str, Any] = {"status": of.status, "reason": np.asarray(of.reason, dtype=object)}
+    columns |= {f"position_{axis}_m": of.position_m[:, i] for i, axis in enumerate("xyz")}
+    columns |= {f"{angle}_deg": of.roll_pitch_yaw_deg[:, i] for i, angle in enumerate(("roll", "pitch", "yaw"))}
+    for name, values in (
+        ("length", of.lengths),
+        ("tension", of.tensions),
+        ("anchor_tension", of.anchor_tensions),
+        ("sag_ratio", of.sag_ratio),
+    ):
+        unit = {"length": "_m", "sag_ratio": ""}.get(name, "_n")
+        columns |= {f"{name}_{i + 1}{unit}": values[:, i] for i in range(values.shape[1])}
+    columns |= {
+        "residual": of.residual,
+        "stable": of.stable,
+        "least_stiffness_n_per_m": of.least_stiffness_n_per_m,
+    }
+    return _pandas().DataFrame(columns)

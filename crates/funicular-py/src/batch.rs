@@ -1,0 +1,284 @@
+//! Many states of one robot, side by side.
+
+use crate::arrays::{Matrix, Numbers, Vector, finite};
+use crate::equilibrium::least_stiffness;
+use crate::errors;
+use crate::pose;
+use crate::request::{Options, check_pose};
+use crate::waiting::{LOOK, look};
+use funicular::cable::Sag;
+use funicular::math::rotation;
+use funicular::robot::{Robot, State};
+use funicular::statics::{self, Rest, Stability};
+use pyo3::inspect::PyStaticExpr;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::convert::Infallible;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Instant;
+
+/// States that a thread takes at once: some milliseconds.
+const AT_ONCE: usize = 64;
+
+/// `funicular.Equilibria`.
+pub(crate) struct Equilibria(Py<PyAny>);
+
+impl<'py> IntoPyObject<'py> for Equilibria {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = Infallible;
+
+    const OUTPUT_TYPE: PyStaticExpr =
+        PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "funicular._results" }, attr: "Equilibria" };
+
+    fn into_pyobject(self, py: Python<'py>) -> Result<Self::Output, Self::Error> {
+        Ok(self.0.into_bound(py))
+    }
+}
+
+/// Rows of poses or of lengths.
+pub(crate) struct States {
+    poses: bool,
+    flat: Vec<f64>,
+    columns: usize,
+}
+
+impl States {
+    pub(crate) fn read(poses: Option<Numbers>, lengths: Option<Numbers>) -> PyResult<Self> {
+        match (poses, lengths) {
+            (Some(poses), None) => {
+                let (flat, columns) = poses.rows("poses")?;
+                if ![3, 6, 7].contains(&columns) {
+                    return Err(errors::input(format!(
+                        "`poses` has rows of {columns} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or \
+                         these and a quaternion w, x, y, z"
+                    )));
+                }
+                Ok(Self { poses: true, flat, columns })
+            }
+            (None, Some(lengths)) => {
+                let (flat, columns) = lengths.rows("lengths")?;
+                Ok(Self { poses: false, flat, columns })
+            }
+            _ => Err(errors::input("give `poses` or `lengths`, one of them".to_owned())),
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.flat.len() / self.columns.max(1)
+    }
+
+    /// The state of a row, or why it is none.
+    fn state(&self, robot: &Robot, row: usize) -> Result<State, String> {
+        let row = &self.flat[row * self.columns..(row + 1) * self.columns];
+        if self.poses {
+            let pose = pose::of_row(row)?;
+            check_pose(robot, &pose)?;
+            return Ok(State::Pose(pose));
+        }
+        match row.iter().find(|length| finite("lengths", **length).is_err()) {
+            Some(bad) => Err(format!("an unstrained length is {bad}: it must be positive and finite")),
+            None => Ok(State::Lengths(row.to_vec())),
+        }
+    }
+}
+
+/// A row: what was found, or a code and a reason.
+type Row = Result<Found, (&'static str, String)>;
+
+/// The numbers of an equilibrium that go into columns.
+struct Found {
+    pose: [f64; 10],
+    /// Of every cable: length, tensions at platform and anchor, sag ratio.
+    cables: Vec<[f64; 4]>,
+    residual: f64,
+    stable: bool,
+    least_stiffness: f64,
+    distance: f64,
+}
+
+impl Found {
+    fn of(robot: &Robot, rest: &Rest) -> Self {
+        let Rest { equilibrium, instead_of, .. } = rest;
+        let (p, rot_wp) = (&equilibrium.pose.position_w, &equilibrium.pose.rot_wp);
+        let [w, i, j, k] = rotation::quaternion_wxyz(rot_wp);
+        let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&pose::PyPose::of(&equilibrium.pose).0.rot_wp);
+        let cables = equilibrium.cables.iter().enumerate().map(|(at, cable)| {
+            let sag = Sag::of(robot, at, cable);
+            let ratio = if sag.tension > 0.0 { sag.ratio() } else { f64::NAN };
+            [cable.unstrained_length, cable.tension_platform, cable.tension_anchor, ratio]
+        });
+        Self {
+            pose: [p.x, p.y, p.z, w, i, j, k, roll, pitch, yaw],
+            cables: cables.collect(),
+            residual: equilibrium.residual,
+            stable: matches!(equilibrium.stability, Stability::Stable { .. }),
+            least_stiffness: least_stiffness(&equilibrium.stability).unwrap_or(f64::NAN),
+            distance: instead_of.map_or(f64::NAN, |(_, distance)| distance),
+        }
+    }
+}
+
+/// What the threads share.
+struct Work<'a> {
+    robot: &'a Robot,
+    states: &'a States,
+    options: &'a Options,
+    next: AtomicUsize,
+    stop: AtomicBool,
+}
+
+impl Work<'_> {
+    fn row(&self, robot: &mut Robot, row: usize) -> Row {
+        robot.state = self.states.state(robot, row).map_err(|reason| ("input", reason))?;
+        match statics::rest(robot, self.options.model, self.options.rule.clone()) {
+            Ok(rest) => Ok(Found::of(robot, &rest)),
+            Err(error) => Err((error.code(), error.to_string())),
+        }
+    }
+
+    /// Takes rows until there are none, or nobody wants them.
+    fn run(&self, sender: &Sender<(Range<usize>, Vec<Row>)>) {
+        let mut robot = self.robot.clone();
+        while !self.stop.load(Ordering::Relaxed) {
+            let from = self.next.fetch_add(AT_ONCE, Ordering::Relaxed);
+            let rows = from..(from + AT_ONCE).min(self.states.count());
+            if from >= rows.end {
+                return;
+            }
+            let found = rows.clone().map(|row| self.row(&mut robot, row)).collect();
+            if sender.send((rows, found)).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+pub(crate) fn equilibria(
+    py: Python<'_>,
+    robot: &Robot,
+    states: States,
+    options: &Options,
+    threads: Option<usize>,
+) -> PyResult<Equilibria> {
+    let robot = options.robot(robot)?;
+    let threads = match threads {
+        Some(0) => return Err(errors::input("`threads` is 0: give at least one".to_owned())),
+        Some(threads) => threads,
+        None => thread::available_parallelism().map_or(1, usize::from),
+    };
+    let mut columns = Columns::new(robot.cables.len(), states.count());
+    let next = AtomicUsize::new(0);
+    let work = Work { robot: &robot, states: &states, options, next, stop: AtomicBool::new(false) };
+    let threads = threads.min(states.count().div_ceil(AT_ONCE)).max(1);
+    py.detach(|| side_by_side(&work, threads, |rows, found| columns.put(rows, found)))?;
+    columns.into_python(py, options).map(Equilibria)
+}
+
+/// Threads of this call alone: a pool that outlives it would not survive a fork, and Python's process pools fork.
+fn side_by_side(work: &Work<'_>, threads: usize, mut put: impl FnMut(Range<usize>, Vec<Row>)) -> PyResult<()> {
+    thread::scope(|scope| {
+        let (sender, receiver) = channel();
+        for _ in 0..threads {
+            let sender = sender.clone();
+            scope.spawn(move || work.run(&sender));
+        }
+        drop(sender);
+        let mut looked = Instant::now();
+        loop {
+            match receiver.recv_timeout(LOOK) {
+                Ok((rows, found)) => put(rows, found),
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if looked.elapsed() < LOOK {
+                continue;
+            }
+            looked = Instant::now();
+            if let Err(interrupt) = look() {
+                work.stop.store(true, Ordering::Relaxed);
+                return Err(interrupt);
+            }
+        }
+    })
+}
+
+/// The columns of the result; NaN where a row has nothing.
+struct Columns {
+    cables: usize,
+    pose: [Vec<f64>; 3],
+    of_cables: [Vec<f64>; 4],
+    residual: Vec<f64>,
+    stable: Vec<bool>,
+    least_stiffness: Vec<f64>,
+    distance: Vec<f64>,
+    status: Vec<&'static str>,
+    reason: Vec<String>,
+}
+
+/// Numbers of a pose in its columns: position, quaternion, angles.
+const POSE: [Range<usize>; 3] = [0..3, 3..7, 7..10];
+
+impl Columns {
+    fn new(cables: usize, count: usize) -> Self {
+        let nan = |width: usize| vec![f64::NAN; count * width];
+        Self {
+            cables,
+            pose: POSE.map(|part| nan(part.len())),
+            of_cables: [(); 4].map(|()| nan(cables)),
+            residual: nan(1),
+            stable: vec![false; count],
+            least_stiffness: nan(1),
+            distance: nan(1),
+            status: vec!["ok"; count],
+            reason: vec![String::new(); count],
+        }
+    }
+
+    fn put(&mut self, rows: Range<usize>, found: Vec<Row>) {
+        for (row, found) in rows.zip(found) {
+            match found {
+                Err((code, reason)) => (self.status[row], self.reason[row]) = (code, reason),
+                Ok(found) => {
+                    for (column, part) in self.pose.iter_mut().zip(POSE) {
+                        let width = part.len();
+                        column[row * width..(row + 1) * width].copy_from_slice(&found.pose[part]);
+                    }
+                    for (i, column) in self.of_cables.iter_mut().enumerate() {
+                        let here = &mut column[row * self.cables..(row + 1) * self.cables];
+                        here.iter_mut().zip(&found.cables).for_each(|(to, from)| *to = from[i]);
+                    }
+                    self.residual[row] = found.residual;
+                    self.stable[row] = found.stable;
+                    self.least_stiffness[row] = found.least_stiffness;
+                    self.distance[row] = found.distance;
+                }
+            }
+        }
+    }
+
+    fn into_python(self, py: Python<'_>, options: &Options) -> PyResult<Py<PyAny>> {
+        let fields = PyDict::new(py);
+        let numpy = py.import("numpy")?;
+        fields.set_item("status", numpy.call_method1("array", (self.status, "U18"))?)?;
+        fields.set_item("reason", pyo3::types::PyTuple::new(py, self.reason)?)?;
+        let [position, quaternion, angles] = self.pose;
+        fields.set_item("position_m", Matrix::of_rows(position, 3))?;
+        fields.set_item("quaternion_wxyz", Matrix::of_rows(quaternion, 4))?;
+        fields.set_item("roll_pitch_yaw_deg", Matrix::of_rows(angles, 3))?;
+        let [lengths, tensions, anchor_tensions, sag_ratio] = self.of_cables;
+        fields.set_item("lengths", Matrix::of_rows(lengths, self.cables))?;
+        fields.set_item("tensions", Matrix::of_rows(tensions, self.cables))?;
+        fields.set_item("anchor_tensions", Matrix::of_rows(anchor_tensions, self.cables))?;
+        fields.set_item("sag_ratio", Matrix::of_rows(sag_ratio, self.cables))?;
+        fields.set_item("residual", Vector::<f64>::from_iter(self.residual))?;
+        fields.set_item("stable", Vector::<bool>::from_iter(self.stable))?;
+        fields.set_item("least_stiffness_n_per_m", Vector::<f64>::from_iter(self.least_stiffness))?;
+        fields.set_item("nearest_pose_distance_m", Vector::<f64>::from_iter(self.distance))?;
+        fields.set_item("model", options.model.name())?;
+        Ok(py.import("funicular._results")?.getattr("Equilibria")?.call((), Some(&fields))?.unbind())
+    }
+}

@@ -1,0 +1,40 @@
+//! The Python package `funicular`: the core's robots, equilibria, modes and responses as Python classes over NumPy arrays.
+//!
+//! Nothing is computed here. A method reads its arguments, calls the core without holding Python's lock, and hands over
+//! arrays that own what the core returned. What needs no core (tables, HTML, plots) is in `python/funicular`.
+
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
+
+mod arrays;
+mod batch;
+mod catenary;
+mod edit;
+mod equilibrium;
+mod errors;
+mod names;
+mod pose;
+mod request;
+mod robot;
+mod vibration;
+mod waiting;
+
+use pyo3::prelude::*;
+
+/// The compiled half of `funicular`; import `funicular` instead.
+#[pymodule]
+mod _funicular {
+    #[pymodule_export]
+    use crate::catenary::Catenary;
+    #[pymodule_export]
+    use crate::equilibrium::PyEquilibrium;
+    #[pymodule_export]
+    use crate::pose::PyPose;
+    #[pymodule_export]
+    use crate::robot::PyRobot;
+    #[pymodule_export]
+    use crate::vibration::peaks;
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "the name that Python gives a version")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

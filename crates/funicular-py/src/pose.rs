@@ -1,0 +1,190 @@
+//! Position and orientation of the platform.
+
+use crate::arrays::{ARRAY_LIKE, Matrix, Numbers, Reduced, Vector, finite};
+use crate::errors;
+use funicular::math::{Rotation, rotation};
+use funicular::robot::Pose;
+use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
+use pyo3::prelude::*;
+use pyo3::type_object::PyTypeCheck;
+
+/// Largest difference of a quaternion's length from 1 that is rounding of printed digits.
+const UNIT: f64 = 1e-3;
+
+/// Position and orientation of the platform; immutable.
+///
+/// Parameters
+/// ----------
+/// position_m
+///     Origin of the platform frame in the world [m], three numbers.
+/// roll_pitch_yaw_deg
+///     Angles [degrees], R = Rz(yaw) Ry(pitch) Rx(roll); zero if not given.
+/// quaternion_wxyz
+///     Instead of angles: w, x, y, z; normalised.
+#[pyclass(frozen, name = "Pose", module = "funicular")]
+pub(crate) struct PyPose(pub(crate) Pose);
+
+#[pymethods]
+impl PyPose {
+    #[new]
+    #[pyo3(signature = (position_m, roll_pitch_yaw_deg=None, *, quaternion_wxyz=None))]
+    fn new(
+        position_m: Numbers,
+        roll_pitch_yaw_deg: Option<Numbers>,
+        quaternion_wxyz: Option<Numbers>,
+    ) -> PyResult<Self> {
+        let mut row = position_m.three("position_m")?.to_vec();
+        match (roll_pitch_yaw_deg, quaternion_wxyz) {
+            (Some(_), Some(_)) => {
+                return Err(errors::input("give angles or a quaternion, not both".to_owned()));
+            }
+            (Some(angles), None) => row.extend(angles.three("roll_pitch_yaw_deg")?),
+            (None, Some(quaternion)) => {
+                let quaternion = quaternion.row("quaternion_wxyz")?;
+                if quaternion.len() != 4 {
+                    return Err(errors::input(format!("a quaternion has 4 numbers, not {}", quaternion.len())));
+                }
+                row.extend(quaternion);
+            }
+            (None, None) => {}
+        }
+        of_row(&row).map(Self).map_err(errors::input)
+    }
+
+    /// Origin of the platform frame in the world, x, y, z [m].
+    #[getter]
+    fn position_m(&self) -> Vector {
+        self.0.position_w.iter().copied().collect()
+    }
+
+    /// Orientation as w, x, y, z with w ≥ 0.
+    #[getter]
+    fn quaternion_wxyz(&self) -> Vector {
+        rotation::quaternion_wxyz(&self.0.rot_wp).into_iter().collect()
+    }
+
+    /// Roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
+    #[getter]
+    fn roll_pitch_yaw_deg(&self) -> Vector {
+        rotation::to_roll_pitch_yaw_deg(&self.0.rot_wp).into_iter().collect()
+    }
+
+    /// Rotation from platform to world axes, 3×3.
+    #[getter]
+    fn rotation(&self) -> Matrix {
+        let rotation = self.0.rot_wp.to_rotation_matrix();
+        Matrix::of_rows(rotation.matrix().transpose().iter().copied().collect(), 3)
+    }
+
+    /// Homogeneous transformation from platform to world, 4×4.
+    #[getter]
+    fn matrix(&self) -> Matrix {
+        let homogeneous = self.0.rot_wp.to_homogeneous();
+        let mut rows: Vec<f64> = homogeneous.transpose().iter().copied().collect();
+        for i in 0..3 {
+            rows[4 * i + 3] = self.0.position_w[i];
+        }
+        Matrix::of_rows(rows, 4)
+    }
+
+    /// Position and angles in one row, x, y, z, roll, pitch, yaw [m, degrees]: a row of `poses`.
+    fn to_array(&self) -> Vector {
+        self.0.position_w.iter().copied().chain(rotation::to_roll_pitch_yaw_deg(&self.0.rot_wp)).collect()
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+
+    fn __hash__(&self) -> u64 {
+        // + 0.0: zero has one hash.
+        self.0.position_w.iter().fold(0, |hash, x| hash.rotate_left(21) ^ (x + 0.0).to_bits())
+    }
+
+    fn __repr__(&self) -> String {
+        let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&self.0.rot_wp);
+        let p = &self.0.position_w;
+        format!("Pose([{:.6}, {:.6}, {:.6}], [{roll:.4}, {pitch:.4}, {yaw:.4}])", p.x, p.y, p.z)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, (Vector, Vector)>> {
+        let py = slf.py();
+        let rebuild = py.import("funicular._rebuild")?.getattr("pose")?;
+        let pose = slf.get();
+        Ok((rebuild, (pose.position_m(), pose.quaternion_wxyz())))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, memo: &Bound<'_, PyAny>) -> Py<Self> {
+        let _ = memo;
+        slf
+    }
+}
+
+impl PyPose {
+    /// With the sign of its quaternion that it would be printed with, so that what is printed is equal.
+    pub(crate) fn of(pose: &Pose) -> Self {
+        Self(Pose { rot_wp: signed(pose.rot_wp), ..*pose })
+    }
+}
+
+fn signed(rotation: Rotation) -> Rotation {
+    if rotation.quaternion().w < 0.0 { Rotation::new_unchecked(-rotation.into_inner()) } else { rotation }
+}
+
+/// A pose of x, y, z, of these and roll, pitch, yaw [degrees], or of these and a quaternion w, x, y, z.
+pub(crate) fn of_row(row: &[f64]) -> Result<Pose, String> {
+    if let Some(bad) = row.iter().find(|value| finite("pose", **value).is_err()) {
+        return Err(format!("a pose has the number {bad}: it must be finite, at most 1e12 in magnitude"));
+    }
+    match *row {
+        [x, y, z] => Ok(Pose::new([x, y, z], [0.0; 3])),
+        [x, y, z, roll, pitch, yaw] => Ok(Pose::new([x, y, z], [roll, pitch, yaw])),
+        [x, y, z, w, i, j, k] => {
+            let quaternion = funicular::math::Quaternion::new(w, i, j, k);
+            let off = quaternion.norm() - 1.0;
+            if off.abs() > UNIT {
+                return Err(format!(
+                    "the quaternion ({w}, {i}, {j}, {k}) has the length {}: it must be 1",
+                    quaternion.norm()
+                ));
+            }
+            // One that is unit but for rounding keeps its bits.
+            let rotation = if off.abs() < 1e-15 {
+                Rotation::new_unchecked(quaternion)
+            } else {
+                Rotation::from_quaternion(quaternion)
+            };
+            Ok(Pose { position_w: [x, y, z].into(), rot_wp: signed(rotation) })
+        }
+        _ => Err(format!(
+            "a pose has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion w, x, \
+             y, z",
+            row.len()
+        )),
+    }
+}
+
+/// A pose, or a row of its numbers.
+pub(crate) struct PoseLike(pub(crate) Pose);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for PoseLike {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = PyStaticExpr::BinOp {
+        left: &<PyPose as PyTypeCheck>::TYPE_HINT,
+        op: PyStaticOperator::BitOr,
+        right: &ARRAY_LIKE,
+    };
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(pose) = object.cast::<PyPose>() {
+            return Ok(Self(pose.get().0));
+        }
+        let row = object.extract::<Numbers>()?.row("pose")?;
+        of_row(&row).map(Self).map_err(errors::input)
+    }
+}

@@ -1,0 +1,40 @@
+//! Long work without Python's lock, given up at Ctrl-C.
+
+use pyo3::prelude::*;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+/// Time between two looks for Ctrl-C.
+pub(crate) const LOOK: Duration = Duration::from_millis(50);
+
+/// Looks for Ctrl-C, from where Python's lock is not held.
+#[expect(clippy::redundant_closure_for_method_calls, reason = "the method is of one lifetime, the closure of any")]
+pub(crate) fn look() -> PyResult<()> {
+    Python::attach(|py| py.check_signals())
+}
+
+/// Does work on a thread of its own while this one looks for signals. At Ctrl-C the caller has its lock and its exception
+/// at once; the thread ends when its work is done, and nobody sees the result.
+pub(crate) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    py.detach(|| {
+        let (sender, receiver) = channel();
+        let worker = thread::Builder::new().spawn(move || {
+            // Nobody listens after Ctrl-C.
+            let _ = sender.send(work());
+        })?;
+        loop {
+            match receiver.recv_timeout(LOOK) {
+                Ok(result) => return Ok(result),
+                Err(RecvTimeoutError::Timeout) => look()?,
+                Err(RecvTimeoutError::Disconnected) => match worker.join() {
+                    Err(panic) => std::panic::resume_unwind(panic),
+                    Ok(()) => unreachable!("a worker that ends has sent its result"),
+                },
+            }
+        }
+    })
+}

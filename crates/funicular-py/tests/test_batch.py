@@ -1,0 +1,88 @@
+"""Many states at once are the same states one by one."""
+
+import funicular
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+SINGLE = ("lengths", "tensions", "anchor_tensions", "sag_ratio")
+
+
+def poses(count: int, seed: int, spread: tuple[float, ...] = (2, 1, 1.5, 20, 20, 40)) -> NDArray[np.float64]:
+    """Poses in and around the workspace of the example."""
+    return np.random.default_rng(seed).uniform(-1, 1, (count, 6)) * spread + [0, 0, 1.2, 0, 0, 0]
+
+
+def assert_equals_loop(robot: funicular.Robot, rows: NDArray[np.float64], many: funicular.Equilibria, **keywords: str) -> None:
+    for i, row in enumerate(rows):
+        try:
+            one = robot.equilibrium(pose=row, **keywords)  # type: ignore[arg-type]
+        except funicular.StaticsError as error:
+            assert (many.status[i], many.reason[i]) == (error.code, str(error))
+            assert np.isnan(many.tensions[i]).all() and np.isnan(many.position_m[i]).all() and np.isnan(many.residual[i])
+            continue
+        assert many.status[i] == "ok" and many.reason[i] == ""
+        for name in SINGLE:
+            assert getattr(many, name)[i].tobytes() == getattr(one, name).tobytes(), name
+        assert many.position_m[i].tobytes() == one.pose.position_m.tobytes()
+        assert many.quaternion_wxyz[i].tobytes() == one.pose.quaternion_wxyz.tobytes()
+        assert many.roll_pitch_yaw_deg[i].tobytes() == one.pose.roll_pitch_yaw_deg.tobytes()
+        assert (many.residual[i], bool(many.stable[i])) == (one.residual, one.stable)
+        assert many.least_stiffness_n_per_m[i] == one.least_stiffness_n_per_m
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("threads", [1, 3])
+def test_a_batch_is_the_loop_bit_for_bit(seed: int, threads: int, robot: funicular.Robot) -> None:
+    rows = poses(200, seed)
+    many = robot.equilibria(poses=rows, threads=threads)
+    assert 0 < many.ok.sum() < len(many), "some are possible, some are not"
+    assert_equals_loop(robot, rows, many)
+
+
+def test_so_is_one_of_a_robot_with_a_choice_of_tensions(cogiro: funicular.Robot) -> None:
+    rows = poses(60, 7, (4, 3, 1, 5, 5, 5))
+    assert_equals_loop(cogiro, rows, cogiro.equilibria(poses=rows, tension_rule="lowest"), tension_rule="lowest")
+
+
+def test_so_is_one_of_lengths(robot: funicular.Robot) -> None:
+    assert robot.lengths is not None
+    rows = robot.lengths + np.random.default_rng(1).uniform(-0.05, 0.05, (80, 6))
+    many = robot.equilibria(lengths=rows)
+    for i, row in enumerate(rows):
+        assert many.tensions[i].tobytes() == robot.equilibrium(lengths=row).tensions.tobytes()
+
+
+def test_quaternions_are_the_angles(robot: funicular.Robot) -> None:
+    rows = poses(50, 3)
+    turned = [np.r_[row[:3], funicular.Pose(row[:3], row[3:]).quaternion_wxyz] for row in rows]
+    by_angles, by_quaternion = robot.equilibria(poses=rows), robot.equilibria(poses=turned)
+    assert (by_angles.status == by_quaternion.status).all()
+    assert np.allclose(by_angles.tensions, by_quaternion.tensions, rtol=1e-9, equal_nan=True)
+
+
+def test_what_is_no_state_is_a_row_with_its_reason(robot: funicular.Robot) -> None:
+    many = robot.equilibria(poses=[[0, 0, 0.5], [np.nan, 0, 0.5], [0, 0, 1e300], [0, 0, 50]])
+    assert many.status.tolist() == ["ok", "input", "input", "would-push"]
+    assert "finite" in many.reason[1] and "tension" in many.reason[3]
+    assert robot.equilibria(lengths=[[6.8] * 5]).status.tolist() == ["length-count"]
+    assert robot.equilibria(lengths=[[6.8] * 5 + [-1.0]]).status.tolist() == ["length"]
+    assert len(robot.equilibria(poses=np.empty((0, 6)))) == 0
+
+
+def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular.Robot) -> None:
+    for keywords, said in [
+        ({}, "one of them"),
+        ({"poses": [[0, 0]]}, "rows of 2 numbers"),
+        ({"poses": [0, 0, 0]}, "1 dimensions"),
+        ({"poses": [[0, 0, 0.5]], "threads": 0}, "at least one"),
+        ({"poses": [[0, 0, 0.5]], "model": "springs"}, 'did you mean "spring"'),
+    ]:
+        with pytest.raises(funicular.InputError, match=said):
+            robot.equilibria(**keywords)  # type: ignore[arg-type]
+
+
+def test_a_table_has_a_row_a_state(robot: funicular.Robot) -> None:
+    pytest.importorskip("pandas")
+    table = robot.equilibria(poses=[[0, 0, 0.5], [0, 0, 50]]).to_pandas()
+    assert table["status"].tolist() == ["ok", "would-push"] and table["tension_6_n"].isna().tolist() == [False, True]

@@ -1,0 +1,227 @@
+"""Robots, poses and results as Python objects: errors, equality, copies, pickles, tables."""
+
+import copy
+import pickle
+from pathlib import Path
+from typing import Any
+
+import funicular
+import numpy as np
+import pytest
+from conftest import ROBOTS
+
+ALL = sorted(path.name for path in ROBOTS.glob("*.toml"))
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_robot_comes_back_from_its_text_its_dictionary_and_its_pickle(name: str) -> None:
+    robot = funicular.Robot.from_file(ROBOTS / name)
+    assert robot.to_toml() == (ROBOTS / name).read_text()
+    for again in (
+        funicular.Robot.from_toml(robot.to_toml()),
+        funicular.Robot.from_dict(robot.to_dict()),
+        pickle.loads(pickle.dumps(robot)),
+        copy.copy(robot),
+        copy.deepcopy(robot),
+    ):
+        assert again == robot and hash(again) == hash(robot)
+        assert again.equilibrium() == robot.equilibrium()
+    assert robot.with_(mass_kg=robot.mass_kg * 2) != robot and robot != robot.name
+
+
+@pytest.mark.parametrize(
+    "keywords",
+    [
+        {},
+        {"pose": [1, 2, 1.5, 0, 3, 10]},
+        {"pose": funicular.Pose([1, 2, 1.5], quaternion_wxyz=[0.6, 0, 0, 0.8]), "tension_rule": "middle", "max_tension_n": 4000},
+        {"pose": [1, 2, 1.5], "wanted_tension_n": 900.0, "min_tension_n": 10, "model": "spring"},
+        {"pose": [1, 2, 1.5], "force_n": [10, 0, -20], "moment_n_m": [0, 1, 0], "load_point_m": [0, 0, 0.1]},
+    ],
+)
+def test_an_equilibrium_comes_back_from_its_pickle_and_its_copy(keywords: dict[str, Any], cogiro: funicular.Robot) -> None:
+    try:
+        rest = cogiro.equilibrium(**keywords)
+    except funicular.StaticsError:
+        pytest.fail("the case has to have an equilibrium")
+    for again in (pickle.loads(pickle.dumps(rest)), copy.copy(rest), copy.deepcopy(rest)):
+        assert again == rest and hash(again) == hash(rest)
+        assert again.tensions.tobytes() == rest.tensions.tobytes() and again.robot == cogiro
+        assert again.to_dict() == rest.to_dict()
+    assert rest != cogiro.equilibrium(pose=[1, 2, 1.4])
+
+
+def test_results_of_columns_come_back_too(robot: funicular.Robot) -> None:
+    modes, states = robot.modes(5, damped=True), robot.equilibria(poses=[[0, 0, 0.5], [0, 0, 50]])
+    for result in (modes, states):
+        for again in (pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result)):
+            assert again == result
+    assert modes != robot.modes(5) and modes != robot.modes(4, damped=True) and states != modes
+    assert len(modes) == modes.count_below == len(modes.to_pandas())
+
+
+def test_the_cable_and_the_pose_come_back_bit_for_bit() -> None:
+    cable = funicular.Catenary(4, -1, unstrained_length_m=4.5, weight_n_per_m=0.6, axial_stiffness_n=1e5)
+    assert pickle.loads(pickle.dumps(cable)) == cable == copy.deepcopy(cable)
+    for angles in np.random.default_rng(0).uniform(-180, 180, (200, 3)):
+        pose = funicular.Pose([1, 2, 3], angles)
+        again = pickle.loads(pickle.dumps(pose))
+        assert again == pose and hash(again) == hash(pose)
+        assert again.quaternion_wxyz.tobytes() == pose.quaternion_wxyz.tobytes()
+
+
+def test_a_pose_is_the_same_in_all_its_forms() -> None:
+    pose = funicular.Pose([1, 2, 3], [10, 20, 30])
+    roll, pitch, yaw = np.radians([10, 20, 30])
+    x = np.array([[1, 0, 0], [0, np.cos(roll), -np.sin(roll)], [0, np.sin(roll), np.cos(roll)]])
+    y = np.array([[np.cos(pitch), 0, np.sin(pitch)], [0, 1, 0], [-np.sin(pitch), 0, np.cos(pitch)]])
+    z = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+    assert np.allclose(pose.rotation, z @ y @ x, atol=1e-15)
+    assert np.allclose(pose.matrix, np.vstack([np.c_[z @ y @ x, [1, 2, 3]], [0, 0, 0, 1]]), atol=1e-15)
+    assert np.allclose(pose.to_array(), [1, 2, 3, 10, 20, 30], atol=1e-13)
+    assert funicular.Pose([1, 2, 3], quaternion_wxyz=pose.quaternion_wxyz) == pose
+
+
+def test_forces_of_the_cables_carry_the_platform(rest: funicular.Equilibrium) -> None:
+    assert np.allclose(rest.forces.sum(axis=0), [0, 0, 10.55 * 9.81], atol=1e-9)
+    assert np.allclose(np.linalg.norm(rest.forces, axis=1), rest.tensions, rtol=1e-13)
+    ends = rest.cable_points(2)
+    assert np.allclose(ends[:, 1], rest.robot.anchors_m, atol=1e-12)
+    assert np.allclose(ends[:, 0], rest.pose.position_m + rest.robot.attachments_m @ rest.pose.rotation.T, atol=1e-12)
+
+
+def test_stiffness_is_the_slope_of_the_force(robot: funicular.Robot, rest: funicular.Equilibrium) -> None:
+    step, push = 1e-5, 1e-2
+    stiffness = rest.stiffness()
+    moved = robot.equilibrium(lengths=rest.lengths, force_n=[0, 0, push])
+    expected = np.linalg.solve(stiffness, [0, 0, push, 0, 0, 0])[:3]
+    assert np.allclose(moved.pose.position_m - rest.pose.position_m, expected, rtol=1e-3, atol=step * 1e-4)
+
+
+def test_the_hanging_cable_is_a_catenary() -> None:
+    """Stiff enough not to stretch: H cosh(w x/H) from the lowest point, with the sag that the length gives."""
+    weight, half, horizontal = 2.0, 5.0, 7.0
+    length = 2 * horizontal / weight * np.sinh(weight * half / horizontal)
+    cable = funicular.Catenary(2 * half, 0, unstrained_length_m=length, weight_n_per_m=weight, axial_stiffness_n=1e11)
+    assert cable.horizontal_force_n == pytest.approx(horizontal, rel=1e-9)
+    assert cable.tension_start_n == pytest.approx(horizontal * np.cosh(weight * half / horizontal), rel=1e-9)
+    lowest = cable.points_m([length / 2])[0]
+    assert lowest[1] == pytest.approx(horizontal / weight * (1 - np.cosh(weight * half / horizontal)), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("of", "arguments", "keywords", "said"),
+    [
+        ("equilibrium", (), {"pose": [0, 0]}, "2 numbers"),
+        ("equilibrium", (), {"pose": [0, 0, np.nan]}, "finite"),
+        ("equilibrium", (), {"pose": [0, 0, 1, 2, 0, 0, 0]}, "length 2"),
+        ("equilibrium", (), {"pose": [0, 0, 1], "lengths": [1] * 6}, "not both"),
+        ("equilibrium", (), {"model": "katenary"}, 'did you mean "catenary"'),
+        ("equilibrium", (), {"pose": [0, 0, 1], "tension_rule": "closest"}, "wanted_tension_n"),
+        ("equilibrium", (), {"min_tension_n": 5, "max_tension_n": 4}, "below max_tension_n"),
+        ("equilibrium", (), {"load_point_m": [0, 0, 1]}, "force_n"),
+        ("equilibrium", (), {"force_n": [0, 1]}, "x, y, z"),
+        ("modes", (0,), {}, "positive"),
+        ("modes", (1e9,), {"cable_model": "closed-form"}, "lower the limit"),
+        ("modes", (5,), {"cable_model": "exakt"}, 'did you mean "exact"'),
+        ("modes", (5,), {"assembly": "whole"}, "consistent, paper"),
+        ("frf", ([1, 2], "fz", "fz"), {}, "not an output"),
+        ("frf", ([1, 2], "z", "z"), {}, "not an input"),
+        ("frf", ([1, 2], "cable:9@0.5:fz", "z"), {}, 'no cable "9"'),
+        ("frf", ([1, 2], "mz", "z"), {"input_point_m": [0, 0, 1]}, "same at every point"),
+        ("frf", ([-1, 2], "fz", "z"), {}, "not be negative"),
+        ("frf", ([[1, 2]], "fz", "z"), {}, "2 dimensions"),
+        ("stiffness", (np.inf,), {}, "finite"),
+    ],
+)
+def test_arguments_that_mean_nothing_are_refused(
+    of: str, arguments: tuple[Any, ...], keywords: dict[str, Any], said: str, robot: funicular.Robot
+) -> None:
+    with pytest.raises(funicular.InputError, match=said) as error:
+        getattr(robot, of)(*arguments, **keywords)
+    assert isinstance(error.value, (funicular.Error, ValueError))
+    assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+def test_what_has_no_answer_has_its_own_error(robot: funicular.Robot) -> None:
+    with pytest.raises(funicular.StaticsError) as statics:
+        robot.equilibrium(pose=[0, 0, 5])
+    again = pickle.loads(pickle.dumps(statics.value))
+    assert again.code == statics.value.code == "would-push" and str(again) == str(statics.value)
+    with pytest.raises(funicular.StaticsError, match="nothing to choose"):
+        robot.equilibrium(pose=[0, 0, 0.5], tension_rule="lowest")
+    with pytest.raises(funicular.DynamicsError, match="rigid"):
+        robot.equilibrium(pose=[0, 0, 0.5], model="ideal").stiffness()
+    undamped = robot.with_({"materials.rope-4mm.damping_ratio": 0.0})
+    with pytest.raises(funicular.DynamicsError, match="end of a cable only"):
+        undamped.frf([1.0], "fz", "cable:1@0.5:z", cable_model="closed-form")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"platfrom.mass_kg": 3}, "did you mean `platform`"),
+        ({"platform.mass_kg": -3}, "must be positive"),
+        ({"platform.mass_kg": [1, 2]}, "mass_kg"),
+        ({"platform": 3}, "names a table"),
+        ({"cables.9.anchor_m": [0, 0, 1]}, 'no cable "9"'),
+        ({"platform.mass_kg": object()}, "of type object"),
+        ({"platform.mass_kg": float("nan")}, "nan"),
+        ({"platform.mass_kg": 1 << 80}, "so large"),
+    ],
+)
+def test_changes_that_cannot_be_made_are_refused(changes: dict[str, Any], said: str, robot: funicular.Robot) -> None:
+    with pytest.raises(funicular.RobotFileError, match=said):
+        robot.with_(changes)
+
+
+def test_what_holds_itself_is_refused(robot: funicular.Robot) -> None:
+    endless: list[Any] = []
+    endless.append(endless)
+    with pytest.raises(funicular.RobotFileError, match="deep"):
+        robot.with_({"platform.mass_kg": endless})
+    table: dict[str, Any] = {}
+    table["platform"] = table
+    with pytest.raises(funicular.RobotFileError, match="deep"):
+        funicular.Robot.from_dict(table)
+
+
+def test_text_in_a_change_stays_text(robot: funicular.Robot) -> None:
+    name = 'a "quoted" = name, é # not a comment'
+    assert robot.with_({"name": name}).name == name
+
+
+def test_files_that_cannot_be_read_say_so(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="none.toml"):
+        funicular.Robot.from_file(tmp_path / "none.toml")
+    with pytest.raises(IsADirectoryError):
+        funicular.Robot.from_file(tmp_path)
+    (tmp_path / "binary.toml").write_bytes(b"name = '\xff'")
+    with pytest.raises(funicular.RobotFileError, match="byte 9 is not UTF-8"):
+        funicular.Robot.from_file(tmp_path / "binary.toml")
+    with pytest.raises(funicular.RobotFileError, match="line|<dict>"):
+        funicular.Robot.from_dict({"name": "r", "platform": {"mass_kg": -1}})
+
+
+def test_notebooks_show_tables_and_texts_are_short(robot: funicular.Robot, rest: funicular.Equilibrium) -> None:
+    named = robot.with_({"name": "<script>alert(1)</script>"})
+    shown: list[Any] = [named, named.equilibrium(), named.modes(20), robot.equilibria(poses=[[0, 0, 0.5], [0, 0, 9]])]
+    for result in shown:
+        html = result._repr_html_()
+        assert html.count("<table>") == html.count("</table>") == 1 and "<script>" not in html
+        assert len(repr(result)) < 200 and "\n" not in repr(result)
+    assert "17.685" in rest._repr_html_() and "52.549" in repr(rest)
+
+
+def test_arrays_own_what_the_core_computed(rest: funicular.Equilibrium) -> None:
+    tensions = rest.tensions
+    tensions[:] = 0
+    assert rest.tensions.min() > 15, "an array is the caller's own"
+    for array in (rest.frf([1.0, 2.0], "fz", "z"), rest.receptance([1.0, 2.0]), rest.stiffness(1.0)):
+        assert array.flags.writeable
+
+
+def test_warnings_come_with_the_result(robot: funicular.Robot) -> None:
+    heavy = robot.with_({"materials.rope-4mm.breaking_load_n": 40.0})
+    assert any("breaks at 40" in warning for warning in heavy.equilibrium().warnings)
+    assert any("breaks at 40" in warning for warning in heavy.modes(1).warnings)

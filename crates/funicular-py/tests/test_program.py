@@ -1,0 +1,123 @@
+"""Values are those of the program, bit for bit: it is the same core."""
+
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import funicular
+import numpy as np
+import pytest
+from conftest import ROBOTS, ROOT, Program
+
+ALL = sorted(path.name for path in ROBOTS.glob("*.toml"))
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_statics_of_every_robot_are_those_of_the_program(name: str, program: Program) -> None:
+    theirs = program("statics", ROBOTS / name)
+    ours = funicular.Robot.from_file(ROBOTS / name).equilibrium().to_dict()
+    assert theirs["pose"] == ours["pose"]
+    assert theirs["warnings"] == ours["warnings"]
+    for key in ("static_model", "mass_kg", "residual", "iterations", "stable", "least_stiffness_n_per_m"):
+        assert theirs[key] == ours[key], key
+    for key in ("tension_rule", "nearest_pose_distance_m"):
+        assert theirs.get(key) == ours.get(key), key
+    for their, our in zip(theirs["cables"], ours["cables"], strict=True):
+        assert {key: their[key] for key in our} == our
+
+
+def test_a_pose_with_a_rule_and_limits_is_that_of_the_program(cogiro: funicular.Robot, program: Program) -> None:
+    options = ["--pose", "1,2,1.5,0,3,0", "--tension-rule", "middle", "--max-tension-n", "2500", "--force-n", "0,0,-50"]
+    theirs = program("statics", "robots/cogiro.toml", *options)
+    ours = cogiro.equilibrium(
+        pose=[1, 2, 1.5, 0, 3, 0], tension_rule="middle", max_tension_n=2500, force_n=[0, 0, -50]
+    )
+    assert [cable["tension_platform_n"] for cable in theirs["cables"]] == ours.tensions.tolist()
+    assert theirs["tension_rule"] == ours.tension_rule == "middle"
+
+
+@pytest.mark.parametrize("hz", [0.0, 3.5])
+def test_stiffness_is_that_of_the_program(hz: float, robot: funicular.Robot, program: Program) -> None:
+    theirs = program("stiffness", "robots/yuan2014-4mm.toml", "--at-hz", hz)
+    ours = robot.stiffness(hz)
+    assert theirs["real"] == ours.real.tolist() and theirs["imag"] == ours.imag.tolist()
+    assert (ours.dtype == float) == (hz == 0.0)
+    # An exact cable is resolved as finely as the highest frequency asks for.
+    assert np.allclose(robot.stiffness([hz, 5.0])[0], ours, rtol=1e-9, atol=1e-6)
+
+
+@pytest.mark.parametrize("model", ["exact", "closed-form", "static-sag", "catenary-tangent", "spring"])
+def test_modes_of_every_cable_model_are_those_of_the_program(model: str, robot: funicular.Robot, program: Program) -> None:
+    theirs = program("modes", "robots/yuan2014-4mm.toml", "--below-hz", 8, "--cable-model", model)
+    ours = robot.modes(8, cable_model=model, damped=True).to_dict()
+    for key in ours:
+        assert theirs[key] == ours[key], key
+    for key in theirs:
+        assert key in ours or key in ("schema", "command"), key
+
+
+def test_damping_is_of_first_order_unless_asked_for(robot: funicular.Robot) -> None:
+    first, exact = robot.modes(5), robot.modes(5, damped=True)
+    assert first.eigenvalue_per_s is None and first.damped_certified is None
+    assert exact.eigenvalue_per_s is not None and exact.damped_certified
+    assert np.allclose(first.damping_ratio, exact.damping_ratio, rtol=0.05)
+    assert np.array_equal(first.frequency_hz, exact.frequency_hz)
+
+
+@pytest.mark.parametrize(
+    ("options", "keywords"),
+    [
+        (["--input", "fz", "--output", "az"], {}),
+        (["--input", "f:1,0,1", "--output", "ry", "--input-point-m", "0.1,0,-0.2"], {"input_point_m": [0.1, 0, -0.2]}),
+        (["--input", "cable:3@0.5:fz", "--output", "cable:3@0.25:vx"], {}),
+        (["--input", "mx", "--output", "z", "--cable-model", "closed-form"], {"cable_model": "closed-form"}),
+    ],
+)
+def test_responses_and_their_peaks_are_those_of_the_program(
+    options: list[str], keywords: dict[str, Any], robot: funicular.Robot, program: Program
+) -> None:
+    grid = ["--from-hz", 0.1, "--to-hz", 10, "--points", 777]
+    theirs = program("frf", "robots/yuan2014-4mm.toml", *grid, *options)
+    hz = np.array(theirs["frequency_hz"])
+    ours = robot.frf(hz, options[1], options[3], **keywords)
+    assert np.array_equal(ours.real, theirs["real"]) and np.array_equal(ours.imag, theirs["imag"])
+    found, prominence, magnitude = funicular.peaks(hz, ours)
+    assert [peak["frequency_hz"] for peak in theirs["peaks"]] == found.tolist()
+    assert [peak["prominence_db"] for peak in theirs["peaks"]] == prominence.tolist()
+    assert [peak["magnitude"] for peak in theirs["peaks"]] == magnitude.tolist()
+
+
+def test_a_receptance_holds_every_response(rest: funicular.Equilibrium) -> None:
+    hz = np.linspace(0.2, 9, 50)
+    receptance = rest.receptance(hz)
+    assert receptance.shape == (50, 6, 6)
+    for i, motion in enumerate(["x", "y", "z", "rx", "ry", "rz"]):
+        for j, wrench in enumerate(["fx", "fy", "fz", "mx", "my", "mz"]):
+            assert np.allclose(receptance[:, i, j], rest.frf(hz, wrench, motion), rtol=1e-9, atol=1e-18), (motion, wrench)
+
+
+def test_a_broken_robot_file_is_explained_as_the_program_explains_it(executable: str, tmp_path: Path) -> None:
+    path = tmp_path / "broken.toml"
+    path.write_text((ROBOTS / "yuan2014-4mm.toml").read_text().replace("mass_kg = 10.55", "mas_kg = -1").replace("20e9", "'stiff'"))
+    with pytest.raises(funicular.RobotFileError) as error:
+        funicular.Robot.from_file(path)
+    told = subprocess.run([executable, "check", str(path)], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert told.returncode == 2 and told.stderr.strip() == str(error.value).strip()
+    assert "^" in str(error.value) and len(error.value.issues) >= 2 and error.value.issues[0].line > 0
+
+
+def test_no_equilibrium_is_explained_as_the_program_explains_it(executable: str, robot: funicular.Robot) -> None:
+    with pytest.raises(funicular.StaticsError) as error:
+        robot.equilibrium(pose=[0, 0, 5])
+    line = [executable, "statics", "robots/yuan2014-4mm.toml", "--pose", "0,0,5"]
+    told = subprocess.run(line, capture_output=True, text=True, cwd=ROOT, check=False)
+    assert told.returncode == 1 and told.stderr.strip() == f"error: {error.value}"
+    assert error.value.code == "would-push"
+
+
+def test_a_value_by_its_path_is_that_of_set(robot: funicular.Robot, program: Program) -> None:
+    changed = robot.with_({"materials.rope-4mm.diameter_m": np.float64(0.008), "cables.3.anchor_m": (5.3, 2.2, 4.2)}, mass_kg=20)
+    options = ["--set", "materials.rope-4mm.diameter_m=0.008", "--set", "cables.3.anchor_m=[5.3, 2.2, 4.2]"]
+    theirs = program("statics", "robots/yuan2014-4mm.toml", *options, "--set", "platform.mass_kg=20")
+    assert theirs["pose"]["position_m"] == changed.equilibrium().pose.position_m.tolist()
+    assert (robot.mass_kg, changed.mass_kg) == (10.55, 20)
