@@ -5,6 +5,9 @@
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
 pub mod damped;
+pub mod first;
+
+pub use first::{First, FirstError, first, first_of_all};
 
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};
