@@ -5,7 +5,7 @@
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
 pub mod damped;
-pub mod first;
+mod first;
 
 pub use first::{First, FirstError, first, first_of_all};
 

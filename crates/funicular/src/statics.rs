@@ -450,7 +450,7 @@ fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)
 fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let n = robot.platform.freedoms.count();
     let scaled = scaled(&((stiffness + stiffness.transpose()) * 0.5), robot.platform_length());
-    let (values, _) = inertia::eigen(&robot.platform.freedoms.reduced_matrix(&scaled), n);
+    let values = inertia::eigenvalues(&robot.platform.freedoms.reduced_matrix(&scaled), n);
     // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();

@@ -6,7 +6,7 @@
 //! cables side by side (docs/theory.md, section 9).
 
 mod factor;
-pub mod pencil;
+mod pencil;
 
 use super::{Kind, Mode, below};
 use crate::cable::Sag;
@@ -79,9 +79,8 @@ pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstErr
     if let Some(found) = Pencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
         return Ok(found);
     }
-    SLOW.fetch_add(1, std::sync::atomic::Ordering::Relaxed);first_of_all(robot, equilibrium)
+    first_of_all(robot, equilibrium)
 }
-pub static SLOW: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
 
 /// As [`first`], by counting and separating all natural frequencies below a limit that is raised until there is one: the
 /// slow way, which knows every robot.

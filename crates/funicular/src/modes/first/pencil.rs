@@ -98,7 +98,6 @@ trait Cables {
 }
 
 /// Matrices of each group about x = 0, the eliminated unknowns following the kept ones as at rest.
-pub static EV: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
 struct Reduced {
     stiffness: Vec<Kept>,
     mass: Vec<Kept>,
@@ -193,10 +192,8 @@ impl Pencil {
         let (mut low, mut high) = (0.0_f64, f64::INFINITY);
         let mut kept = Vec::with_capacity(self.arms.len().div_ceil(LANES));
         let mut patience = 1;
-        EV.fetch_add(0, std::sync::atomic::Ordering::Relaxed);
         for evaluation in 0..MOST_EVALUATIONS {
             cables.kept(x, &mut kept);
- EV.fetch_add(if width < 1e-3 { 1 } else { 1 << 32 }, std::sync::atomic::Ordering::Relaxed);
             let factor = Factor::of(self, &kept, x);
             if factor.negative == 0 {
                 low = x;
@@ -207,7 +204,6 @@ impl Pencil {
             }
             let found = self.improved(cables, metric, &factor, x, motion, aim);
             let quotient = found.square;
-            if std::env::var("TRACE").is_ok() { eprintln!("  x {x:.9e} neg {} rq-x {:.2e}", factor.negative, quotient/x-1.); }
             if !quotient.is_finite() {
                 return None;
             }
