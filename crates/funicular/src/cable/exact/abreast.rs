@@ -499,3 +499,95 @@ static RULES: LazyLock<Vec<Vec<(f64, Vec<f64>)>>> = LazyLock::new(|| {
         })
         .collect()
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cable::exact::Exact;
+    use crate::catenary::Rope;
+    use proptest::prelude::*;
+
+    /// Slope, length over chord, elasticity.
+    fn cable((slope, slack, stiffness): (f64, f64, f64)) -> Catenary {
+        let (span, rise) = (6.0 * (1.0 - slope * slope).sqrt(), 6.0 * slope);
+        let rope = Rope {
+            unstrained_length: 6.0 * slack,
+            weight_per_length: 0.657_27,
+            axial_stiffness: 10f64.powf(stiffness),
+        };
+        Catenary::between(span, rise, rope).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..Default::default() })]
+
+        /// Up to the first clamped frequency, taut cables and such that sag by a sixth; at a degree that resolves all.
+        #[test]
+        fn cables_side_by_side_have_the_stiffness_of_each_by_its_poles(
+            shapes in prop::collection::vec((-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), 1..=LANES), part in 0.0f64..0.98,
+        ) {
+            const MASS: f64 = 0.067;
+            let cables: Vec<Catenary> = shapes.into_iter().map(cable).collect();
+            let oracles: Vec<Exact> = cables.iter().map(|c| Exact::new(c, MASS, 60.0).unwrap()).collect();
+            let first = |e: &Exact| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
+            let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
+            let pairs: Vec<_> = cables.iter().map(|c| (c, MASS)).collect();
+            let mut abreast = Abreast::new(&pairs).unwrap();
+            let kept = abreast.kept(x, 30);
+            for (i, (catenary, exact)) in cables.iter().zip(&oracles).enumerate() {
+                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = kept.of(i);
+                prop_assert!(kept.least_pivot[i] > 0.0 && qq > 0.0 && bb > 0.0);
+                let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
+                let k = exact.undamped(x.sqrt());
+                let [c, s] = catenary.chord_direction();
+                let theirs = [
+                    k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
+                    (k.normal - k.axial) * c * s + k.coupling * (c * c - s * s),
+                    k.axial * s * s - 2.0 * k.coupling * c * s + k.normal * c * c,
+                    k.out_of_plane,
+                ];
+                let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
+                for (ours, theirs) in ours.into_iter().zip(theirs) {
+                    prop_assert!((ours - theirs).abs() < 1e-8 * size, "{ours} for {theirs}, largest {size}");
+                }
+            }
+        }
+
+        /// Unit motions of the end, bubbles following.
+        #[test]
+        fn the_mass_of_a_motion_is_minus_the_change_of_stiffness(
+            shape in (-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), part in 0.1f64..0.5, n in -1.0f64..1.0, e in -1.0f64..1.0,
+        ) {
+            const MASS: f64 = 0.067;
+            let catenary = cable(shape);
+            let exact = Exact::new(&catenary, MASS, 20.0).unwrap();
+            let x = part * exact.in_plane.poles[0].min(exact.out_of_plane.poles[0]);
+            let mut abreast = Abreast::new(&[(&catenary, MASS)]).unwrap();
+            let mut work = |x: f64| {
+                let ([nn, en, ee, ..], [oo, ..]) = abreast.kept(x, 24).of(0);
+                [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
+            };
+            let step = 1e-3 * x;
+            let change = {
+                let (more, less) = (work(x + step), work(x - step));
+                [0, 1].map(|k| (less[k] - more[k]) / (2.0 * step))
+            };
+            abreast.kept(x, 24);
+            let lanes = |value: f64| [value; LANES];
+            let motion = abreast.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
+            let mass = abreast.mass(&motion, &motion).map(|lane| lane[0]);
+            for (mass, change) in mass.into_iter().zip(change) {
+                prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_loop_without_tension_and_one_too_slack_for_one_element_are_left_to_others() {
+        let rope = Rope { unstrained_length: 8.0, weight_per_length: 0.6, axial_stiffness: 1e5 };
+        for span in [0.0, 1e-3] {
+            let slack = Catenary::between(span, 6.0, rope).unwrap();
+            assert!(Abreast::new(&[(&slack, 0.06)]).is_none(), "{span}");
+        }
+    }
+}
