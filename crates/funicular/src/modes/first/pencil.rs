@@ -3,6 +3,7 @@
 use super::factor::Factor;
 use super::{First, Kind, TAU};
 use crate::cable::exact::abreast::{ACROSS, Abreast, IN_PLANE, Kept, LANES, Lane, MOST_DEGREES, place};
+use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, Still};
 use crate::math::{Mat6, Vec6};
 use crate::robot::{Freedoms, Robot};
@@ -124,7 +125,7 @@ impl Pencil {
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let Still { mut constant, mass, ell } = dynamics::still(robot, equilibrium);
         let motions = robot.platform.freedoms;
-        let mut arms = Vec::with_capacity(equilibrium.cables.len());
+        let mut massive = Vec::with_capacity(equilibrium.cables.len());
         let mut curves = Vec::with_capacity(equilibrium.cables.len());
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let hanging = state.hanging.as_ref()?;
@@ -136,14 +137,19 @@ impl Pencil {
                 constant += dynamics::constant_cable(robot, state, &hanging.tangent_w());
                 continue;
             }
-            let (level_w, up_w) = hanging.axes_w();
-            let [cos, sin] = hanging.catenary.chord_direction();
-            let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
-            let along = |u| motions.reduced(&wrench_of(&u, &(state.lever_w / ell)));
-            arms.push(Arm { cable: i, normal: along(n), along: along(e), out: along(e.cross(&n)) });
+            massive.push((i, hanging));
             curves.push((&hanging.catenary, mass_per_length));
         }
         let groups = curves.chunks(LANES).map(Abreast::new).collect::<Option<Vec<_>>>()?;
+        let arm = |(at, (cable, hanging)): (usize, (usize, &HangingCable))| {
+            let (level_w, up_w) = hanging.axes_w();
+            let [cos, sin] = groups[at / LANES].axis(at % LANES);
+            let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
+            let lever = equilibrium.cables[cable].lever_w / ell;
+            let along = |u| motions.reduced(&wrench_of(&u, &lever));
+            Arm { cable, normal: along(n), along: along(e), out: along(e.cross(&n)) }
+        };
+        let arms = massive.into_iter().enumerate().map(arm).collect();
         let (freedoms, cable_count) = (motions.count(), robot.cables.len());
         Some(Self { freedoms, motions, ell, constant, mass, arms, groups, cable_count })
     }
