@@ -5,8 +5,10 @@
 //! one element a cable serves, and its unknowns but the lowest bubbles go out by one factorisation at a frequency, all
 //! cables side by side (docs/theory.md, section 9).
 
+mod cables;
 mod factor;
 mod pencil;
+mod search;
 
 use super::{Kind, Mode, below};
 use crate::cable::Sag;

@@ -133,6 +133,11 @@ impl Abreast {
         })
     }
 
+    /// In several elements.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.elements.len() > 1
+    }
+
     /// Number of Legendre terms that C takes.
     pub(crate) fn terms(&self) -> usize {
         self.terms

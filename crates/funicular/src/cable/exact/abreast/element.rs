@@ -8,6 +8,9 @@ use std::array::from_fn;
 /// Components of C in the plane, and out of it: (nn, en, ee, oo).
 const PARTS: usize = 4;
 
+/// As many functions as usual searches end with; room for them saves copies.
+const LIKELY_FUNCTIONS: usize = 12;
+
 /// Place in a lower triangle by rows.
 #[inline(always)]
 pub(crate) const fn place(row: usize, column: usize) -> usize {
@@ -88,16 +91,20 @@ impl Element {
             }
             for (sums, weight) in coefficients.iter_mut().zip(weighted) {
                 for (sum, part) in sums.iter_mut().zip(&parts) {
-                    for i in 0..LANES {
-                        sum[i] += part[i] * weight;
-                    }
+                    add_scaled(sum, *weight, part);
                 }
             }
         }
-        let none = Vec::new;
-        let (plane, across, plane_factor, across_factor) = (none(), none(), none(), none());
-        let half_mass = s.half_mass;
-        Self { degree: 0, coefficients, plane, across, half_mass, plane_factor, across_factor, functions: 0 }
+        Self {
+            degree: 0,
+            coefficients,
+            plane: Vec::with_capacity(place(2 * LIKELY_FUNCTIONS, 0)),
+            across: Vec::with_capacity(place(LIKELY_FUNCTIONS, 0)),
+            half_mass: s.half_mass,
+            plane_factor: Vec::new(),
+            across_factor: Vec::new(),
+            functions: 0,
+        }
     }
 
     /// Adds rows of the stiffness up to a degree: `∫ C N_a′ N_b′` over products of slopes. H hats; the slope of the second
@@ -116,9 +123,7 @@ impl Element {
                 let mut sums = [ZERO; PARTS];
                 for (factor, c) in TRIPLES.of(high, low).iter().zip(coefficients.iter().skip(high - low).step_by(2)) {
                     for (sum, c) in sums.iter_mut().zip(c) {
-                        for i in 0..LANES {
-                            sum[i] += factor * c[i];
-                        }
+                        add_scaled(sum, *factor, c);
                     }
                 }
                 if H == 2 && (f == 1) != (j == 1) {
@@ -174,9 +179,7 @@ impl Element {
     pub(super) fn weigh<const H: usize>(&self, a: &[Vec<Lane>; 2], b: &[Vec<Lane>; 2], sums: &mut [Lane; 2]) {
         let parts = [weigh::<2, H>(&a[0], &b[0]), weigh::<1, H>(&a[1], &b[1])];
         for (sum, part) in sums.iter_mut().zip(&parts) {
-            for i in 0..LANES {
-                sum[i] += part[i] * self.half_mass[i];
-            }
+            *sum = from_fn(|i| sum[i] + part[i] * self.half_mass[i]);
         }
     }
 }
@@ -187,10 +190,7 @@ fn take_inertia<const D: usize, const H: usize>(matrix: &mut [Lane], functions: 
     for k in 0..functions {
         for (j, mass) in MASSES.row::<H>(k) {
             for d in 0..D {
-                let entry = &mut matrix[place(D * k + d, D * j + d)];
-                for i in 0..LANES {
-                    entry[i] -= mass * inertia[i];
-                }
+                add_scaled(&mut matrix[place(D * k + d, D * j + d)], -mass, inertia);
             }
         }
     }
@@ -258,9 +258,7 @@ pub(super) fn substitute(factor: &[Lane], n: usize, kept: &[Lane]) -> Vec<Lane> 
         let row = &factor[place(t, 0)..=place(t, t)];
         let mut sum = ZERO;
         for (a, u) in row[..t].iter().zip(&all) {
-            for i in 0..LANES {
-                sum[i] += a[i] * u[i];
-            }
+            sum = from_fn(|i| sum[i] + a[i] * u[i]);
         }
         all[t] = from_fn(|i| -sum[i] * row[t][i]);
     }
@@ -273,13 +271,24 @@ fn weigh<const D: usize, const H: usize>(a: &[Lane], b: &[Lane]) -> Lane {
     for k in 0..a.len() / D {
         for (j, mass) in MASSES.row::<H>(k) {
             for d in 0..D {
-                let (ak, aj, bk, bj) = (&a[D * k + d], &a[D * j + d], &b[D * k + d], &b[D * j + d]);
-                for i in 0..LANES {
-                    let product = if j == k { ak[i] * bk[i] } else { ak[i] * bj[i] + aj[i] * bk[i] };
-                    sum[i] += mass * product;
+                add_product(&mut sum, mass, &a[D * k + d], &b[D * j + d]);
+                if j != k {
+                    add_product(&mut sum, mass, &a[D * j + d], &b[D * k + d]);
                 }
             }
         }
     }
     sum
+}
+
+// Read whole, then written whole: what may alias between lanes would be worked on one by one.
+
+#[inline(always)]
+fn add_scaled(sum: &mut Lane, factor: f64, a: &Lane) {
+    *sum = from_fn(|i| sum[i] + factor * a[i]);
+}
+
+#[inline(always)]
+fn add_product(sum: &mut Lane, factor: f64, a: &Lane, b: &Lane) {
+    *sum = from_fn(|i| sum[i] + factor * a[i] * b[i]);
 }
