@@ -83,14 +83,15 @@ proptest! {
     }
 }
 
-/// A plate in the xz plane on three cables, the third from below, at rest.
+/// A plate in the xz plane on four cables that cross each other, two of them from below, at rest.
 fn plate(rope_mass: f64) -> (Robot, Equilibrium) {
     let robot = Robot::from_toml(&format!(
         "name = \"plate\"\n[platform]\nfreedoms = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
          [materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = {rope_mass}\n\
-         [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 3.0]\nattachment_m = [-0.3, 0.0, 0.1]\n\
-         [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, 3.2]\nattachment_m = [0.3, 0.0, 0.1]\n\
-         [[cables]]\nname = \"3\"\nmaterial = \"rope\"\nanchor_m = [0.4, 0.0, -2.0]\nattachment_m = [0.05, 0.0, -0.1]\n"
+         [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 3.0]\nattachment_m = [-0.3, 0.0, -0.2]\n\
+         [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, 3.2]\nattachment_m = [0.3, 0.0, -0.2]\n\
+         [[cables]]\nname = \"3\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, -2.0]\nattachment_m = [-0.3, 0.0, 0.2]\n\
+         [[cables]]\nname = \"4\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, -2.0]\nattachment_m = [0.3, 0.0, 0.2]\n"
     ))
     .unwrap();
     let pose = Pose::new([0.1, 0.0, 0.4], [0.0; 3]);
@@ -102,11 +103,11 @@ fn plate(rope_mass: f64) -> (Robot, Equilibrium) {
 
 #[test]
 fn a_planar_platform_may_have_its_first_frequency_in_a_cable_that_swings_out_of_the_plane() {
-    let (robot, rest) = plate(0.05);
+    let (robot, rest) = plate(0.3);
     let first = modes::first(&robot, &rest).unwrap();
     assert_eq!(fault(&robot, &rest, &first), None);
-    assert_eq!(first.shape, [0.0; 6]);
-    assert!(first.platform_energy_fraction < 1e-12);
+    assert!(first.platform_energy_fraction < 1e-12, "{first:?}");
+    assert!(first.shape.iter().all(|part| *part == 0.0), "{first:?}");
 }
 
 #[test]
@@ -137,10 +138,14 @@ fn a_cable_without_tension_is_named() {
     let robot = Robot::from_toml(&YUAN.replacen("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.0", 1)).unwrap();
     let pose = Pose::new([0.3, -0.2, 0.7], [0.0; 3]);
     let mut rest = statics::inverse(&robot, &pose, StaticModel::Spring).unwrap();
-    let lengths: Vec<f64> = rest.cables.iter().enumerate().map(|(i, c)| c.unstrained_length + if i == 2 { 2.0 } else { 0.0 }).collect();
+    let lengths: Vec<f64> =
+        rest.cables.iter().enumerate().map(|(i, c)| c.unstrained_length + if i == 2 { 2.0 } else { 0.0 }).collect();
     rest = statics::forward(&robot, &lengths, StaticModel::Spring, Some(&pose)).unwrap();
     let refused = modes::first(&robot, &rest).unwrap_err();
-    assert!(matches!(refused, FirstError::Dynamics(DynamicsError::NoTension { ref cable, .. }) if cable == "3"), "{refused}");
+    assert!(
+        matches!(refused, FirstError::Dynamics(DynamicsError::NoTension { ref cable, .. }) if cable == "3"),
+        "{refused}"
+    );
 }
 
 #[test]

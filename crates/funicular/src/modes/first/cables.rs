@@ -45,11 +45,8 @@ impl Reduced {
                 group.moved(from_fn(one), from_fn(one))
             };
             let units = [unit(0), unit(1), unit(2)];
-            let mut masses = Kept {
-                plane: [[0.0; LANES]; 6],
-                across: [[0.0; LANES]; 3],
-                least_pivot: [f64::INFINITY; LANES],
-            };
+            let mut masses =
+                Kept { plane: [[0.0; LANES]; 6], across: [[0.0; LANES]; 3], least_pivot: [f64::INFINITY; LANES] };
             for row in 0..IN_PLANE {
                 for column in 0..=row {
                     let [plane, across] = group.mass(&units[row], &units[column]);

@@ -176,7 +176,7 @@ impl Pencil {
         let motion_w = self.motions.expanded(platform);
         let largest = motion_w[motion_w.iamax()];
         // What moves a platform at rest is rounding.
-        let at_rest = platform_energy_fraction < 1e-20;
+        let at_rest = platform_energy_fraction < 1e-15;
         let shape = from_fn(|i| match i {
             _ if at_rest => 0.0,
             0..3 => motion_w[i] / largest,

@@ -12,12 +12,14 @@ pub(super) struct Aim {
     width: f64,
     /// Most steps of inverse iteration at one shift; they end when the quotient stands still.
     steps: usize,
+    /// The last step has to be finer than the one before.
+    checked: bool,
 }
 
 /// Rounding, which is the stiffest spring's over the softest motion's, comes to 1e-13 in usual robots.
-pub(super) const EXACT: Aim = Aim { width: 1e-9, steps: 6 };
+pub(super) const EXACT: Aim = Aim { width: 1e-9, steps: 6, checked: true };
 /// Where a step costs little.
-pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10 };
+pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
 
 /// Evaluations after which the slow way is faster.
 const MOST_EVALUATIONS: usize = 40;
@@ -52,7 +54,8 @@ pub(super) fn lowest(
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut kept = Vec::with_capacity(pencil.arms.len().div_ceil(LANES));
     let mut before = f64::INFINITY;
-    for evaluation in 0..MOST_EVALUATIONS {
+    let mut refined = false;
+    for _ in 0..MOST_EVALUATIONS {
         cables.kept(x, &mut kept);
         let factor = Factor::of(pencil, &kept, x);
         if factor.negative == 0 {
@@ -70,25 +73,27 @@ pub(super) fn lowest(
         if !quotient.is_finite() {
             return None;
         }
-        if factor.negative == 0 && quotient - x <= aim.width * quotient && evaluation > 0 {
+        if factor.negative == 0 && quotient - x <= aim.width * quotient && (refined || !aim.checked) {
             return Some(found);
         }
         motions = found.motions;
         let next = quotient * (1.0 - 0.5 * aim.width);
         // A quotient that does not fall belongs to another mode.
         let leads = quotient > 0.0 && quotient <= high && quotient < before;
+        // Only a shift that a coarser discretisation led to checks this one.
+        refined = leads && (quotient - x).abs() < CLOSE * quotient;
+        if refined {
+            cables.refine();
+        }
         if leads {
             (before, high) = (quotient, quotient);
-            if factor.negative < 2 && (quotient - x).abs() < CLOSE * quotient {
-                cables.refine();
-            }
         } else {
             motions.extend((motions.len()..BLOCK).map(|number| pencil.any_motion(metric, number)));
         }
         // A lower bound of a coarser discretisation may lie above.
         low = if low < high { low } else { 0.9 * high };
         x = match () {
-            () if leads && next > low => next,
+            () if leads => next,
             () if low > 0.0 => 0.5 * (low + high),
             () => 0.5 * high,
         };
@@ -97,7 +102,7 @@ pub(super) fn lowest(
 }
 
 /// Relative distance of a shift from its quotient below which a coarse discretisation would be felt.
-const CLOSE: f64 = 0.02;
+const CLOSE: f64 = 0.1;
 
 /// Inverse iteration at a shift, and what is best of several motions.
 fn improved(

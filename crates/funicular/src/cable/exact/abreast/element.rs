@@ -75,20 +75,20 @@ impl Element {
         let mut coefficients = vec![[ZERO; PARTS]; terms];
         // With as many points as terms, what is left out comes back in the last term at most.
         for (xi, weighted) in &RULES[terms - 1] {
-            let mut parts = [ZERO; PARTS];
-            for i in 0..LANES {
-                let (along, normal) = (s.along[i] + xi * s.along_change[i], s.normal[i] + xi * s.normal_change[i]);
-                let square = along * along + normal * normal;
-                let tension = square.sqrt();
-                let ea = s.axial_stiffness[i];
-                let part = s.inverse_half[i] * ea / (ea + tension);
-                let across = part * tension;
-                let extra = part * ea / square;
-                parts[0][i] = across + extra * normal * normal;
-                parts[1][i] = extra * along * normal;
-                parts[2][i] = across + extra * along * along;
-                parts[3][i] = across;
-            }
+            let along: Lane = from_fn(|i| s.along[i] + xi * s.along_change[i]);
+            let normal: Lane = from_fn(|i| s.normal[i] + xi * s.normal_change[i]);
+            let square: Lane = from_fn(|i| along[i] * along[i] + normal[i] * normal[i]);
+            let tension = square.map(f64::sqrt);
+            let ea = &s.axial_stiffness;
+            let part: Lane = from_fn(|i| s.inverse_half[i] * ea[i] / (ea[i] + tension[i]));
+            let across: Lane = from_fn(|i| part[i] * tension[i]);
+            let extra: Lane = from_fn(|i| part[i] * ea[i] / square[i]);
+            let parts: [Lane; PARTS] = [
+                from_fn(|i| across[i] + extra[i] * normal[i] * normal[i]),
+                from_fn(|i| extra[i] * along[i] * normal[i]),
+                from_fn(|i| across[i] + extra[i] * along[i] * along[i]),
+                across,
+            ];
             for (sums, weight) in coefficients.iter_mut().zip(weighted) {
                 for (sum, part) in sums.iter_mut().zip(&parts) {
                     add_scaled(sum, *weight, part);

@@ -84,8 +84,11 @@ pub(super) static TRIPLES: LazyLock<Triples> = LazyLock::new(|| {
     Triples { starts, values }
 });
 
-/// Gauss's rules of 1, 2, … points: ξ, and its weight times (2l + 1)/2 P_l(ξ).
-pub(super) static RULES: LazyLock<Vec<Vec<(f64, Vec<f64>)>>> = LazyLock::new(|| {
+/// A Gauss rule: points ξ, and their weights times (2l + 1)/2 P_l(ξ).
+pub(super) type Rule = Vec<(f64, Vec<f64>)>;
+
+/// Gauss's rules of 1, 2, … points.
+pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
     (1..=MOST_TERMS)
         .map(|points| {
             let expanded = |(xi, weight): (f64, f64)| {
