@@ -13,9 +13,8 @@ mod tables;
 
 pub(crate) use element::place;
 
-use super::mesh::{ellipse, has_tension};
 use crate::catenary::Catenary;
-use cuts::{Cut, SMOOTH_ENOUGH};
+use cuts::Mesh;
 use element::{Element, Shapes, eliminate, substitute};
 use std::array::from_fn;
 
@@ -81,36 +80,9 @@ impl Abreast {
     /// Cables of mass m per unstrained length [kg/m], at least one and at most [`LANES`]. None if one has no tension
     /// somewhere.
     pub(crate) fn new(cables: &[(&Catenary, f64)]) -> Option<Self> {
-        if !cables.iter().all(|(catenary, _)| has_tension(catenary)) {
-            return None;
-        }
-        let whole = |catenary: &Catenary| {
-            let half = 0.5 * catenary.rope().unstrained_length;
-            ellipse(catenary, half, half)
-        };
-        let mut size = cables.iter().map(|(catenary, _)| whole(catenary)).fold(f64::INFINITY, f64::min);
-        let ends = |catenary: &Catenary| vec![0.0, catenary.rope().unstrained_length];
-        let mut nodes: Vec<Vec<f64>> = cables.iter().map(|(catenary, _)| ends(catenary)).collect();
-        let mut axes: Vec<[f64; 2]> = cables.iter().map(|(catenary, _)| catenary.chord_direction()).collect();
-        let mut node = 0;
-        if size < SMOOTH_ENOUGH {
-            let cuts: Vec<Cut> = cables.iter().map(|(catenary, _)| Cut::of(catenary)).collect();
-            let counts = cuts.iter().map(Cut::counts).fold([0; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
-            node = counts[0];
-            // The lowest point of a slack cable swings level.
-            for (axis, _) in axes.iter_mut().zip(&cuts).filter(|(_, cut)| cut.slack) {
-                *axis = [0.0, 1.0];
-            }
-            nodes = cuts.into_iter().map(|cut| cut.refined(counts).nodes()).collect();
-            let element = |catenary: &Catenary, pair: &[f64]| {
-                ellipse(catenary, 0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]))
-            };
-            let of_cable = |(nodes, (catenary, _)): (&Vec<f64>, &(&Catenary, f64))| {
-                nodes.windows(2).map(|pair| element(catenary, pair)).fold(f64::INFINITY, f64::min)
-            };
-            size = nodes.iter().zip(cables).map(of_cable).fold(f64::INFINITY, f64::min);
-        }
+        let Mesh { nodes, axes, kept, size } = Mesh::of(cables)?;
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
+        let terms = terms.min(MOST_TERMS);
         let lane = |i: usize| i.min(cables.len() - 1);
         let shapes: Vec<Shapes> = (1..nodes[0].len())
             .map(|end| {
@@ -122,11 +94,10 @@ impl Abreast {
                 shapes
             })
             .collect();
-        let terms = terms.min(MOST_TERMS);
         Some(Self {
             elements: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
             terms,
-            node,
+            node: kept,
             plane_factor: Vec::new(),
             across_factor: Vec::new(),
             axes: from_fn(|i| axes[lane(i)]),

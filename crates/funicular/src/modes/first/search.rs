@@ -116,47 +116,36 @@ fn improved(
 ) -> Found {
     let count = motions.len();
     let mut forces: Vec<Motion> = motions.iter().map(|motion| pencil.inertia(metric, motion)).collect();
-    let mut before = f64::INFINITY;
     // A z = B y, so zᵀ A z without another product.
-    let mut work = DMat::zeros(count, count);
+    let mut images = Vec::new();
+    let mut before = f64::INFINITY;
     for _ in 0..aim.steps {
-        for k in 0..count {
-            motions[k] = factor.solve(pencil, &forces[k]);
-        }
-        work = DMat::from_fn(count, count, |i, j| motions[i].dot(&forces[j]));
+        images = std::mem::take(&mut forces);
         let mut least = f64::INFINITY;
         for k in 0..count {
-            let mut force = pencil.inertia(metric, &motions[k]);
+            motions[k] = factor.solve(pencil, &images[k]);
             // Apart from each other, or all become the first.
-            for other in 0..k {
-                let part = forces[other].dot(&motions[k]);
-                let (of_motion, of_force) = (motions[other].clone(), forces[other].clone());
-                motions[k].add(-part, &of_motion);
-                force.add(-part, &of_force);
-                for j in 0..count {
-                    work[(k, j)] -= part * work[(other, j)];
-                }
-                for i in 0..count {
-                    work[(i, k)] -= part * work[(i, other)];
-                }
+            let (done, rest) = motions.split_at_mut(k);
+            let (images_done, images_rest) = images.split_at_mut(k);
+            for ((motion, image), force) in done.iter().zip(&*images_done).zip(&forces) {
+                let part = force.dot(&rest[0]);
+                rest[0].add(-part, motion);
+                images_rest[0].add(-part, image);
             }
-            let size = 1.0 / force.dot(&motions[k]).sqrt();
-            motions[k].scale(size);
-            force.scale(size);
-            for j in 0..count {
-                work[(k, j)] *= size;
+            let mut force = pencil.inertia(metric, &rest[0]);
+            let size = 1.0 / force.dot(&rest[0]).sqrt();
+            for vector in [&mut force, &mut rest[0], &mut images_rest[0]] {
+                vector.scale(size);
             }
-            for i in 0..count {
-                work[(i, k)] *= size;
-            }
-            forces[k] = force;
-            least = least.min(work[(k, k)]);
+            least = least.min(rest[0].dot(&images_rest[0]));
+            forces.push(force);
         }
         if (least - before).abs() <= 0.01 * least.abs() + 0.1 * aim.width * (x + least).abs() {
             break;
         }
         before = least;
     }
+    let work = |i: usize, j: usize| motions[i].dot(&images[j]);
     let mut arms = vec![Vec::with_capacity(pencil.arms.len()); place(count, 0)];
     for group in 0..pencil.arms.len().div_ceil(LANES) {
         let ends: Vec<_> = motions.iter().map(|motion| motion.lanes(&pencil.arms, group)).collect();
@@ -171,9 +160,9 @@ fn improved(
     };
     if count == 1 {
         let mass = mass(0, 0);
-        return Found { square: x + work[(0, 0)] / mass, mass, motions, arms: arms.swap_remove(0) };
+        return Found { square: x + work(0, 0) / mass, mass, motions, arms: arms.swap_remove(0) };
     }
-    combined(x, &work, &DMat::from_fn(count, count, mass), &motions, &arms)
+    combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), &motions, &arms)
 }
 
 /// The motions in which stiffness and mass are diagonal, ascending by their quotient.

@@ -1,27 +1,77 @@
 //! Where cables are cut into elements, so that C is smooth on each.
 
-use crate::cable::exact::mesh::ellipse;
+use crate::cable::exact::mesh::{ellipse, has_tension};
 use crate::catenary::Catenary;
 
 /// Smallest Bernstein ellipse of an element: see [`ellipse`]. What [`GROWTH`] leaves is larger.
-pub(super) const SMOOTH_ENOUGH: f64 = 2.4;
+const SMOOTH_ENOUGH: f64 = 2.4;
 
 /// Length of an element over the distance of its nearer end from where C is singular.
 const GROWTH: f64 = 2.5;
 
+/// Elements of cables side by side, as many of each.
+pub(super) struct Mesh {
+    /// Of each cable: ends of its elements from start to end [m].
+    pub(super) nodes: Vec<Vec<f64>>,
+    /// Components of its axis e along the horizontal and up.
+    pub(super) axes: Vec<[f64; 2]>,
+    /// Number of the node at which cables are slackest; 0 with one element.
+    pub(super) kept: usize,
+    /// The smallest Bernstein ellipse.
+    pub(super) size: f64,
+}
+
+impl Mesh {
+    /// None if a cable has no tension somewhere.
+    pub(super) fn of(cables: &[(&Catenary, f64)]) -> Option<Self> {
+        if !cables.iter().all(|(catenary, _)| has_tension(catenary)) {
+            return None;
+        }
+        let ends = |catenary: &Catenary| vec![0.0, catenary.rope().unstrained_length];
+        let mut mesh = Self {
+            nodes: cables.iter().map(|(catenary, _)| ends(catenary)).collect(),
+            axes: cables.iter().map(|(catenary, _)| catenary.chord_direction()).collect(),
+            kept: 0,
+            size: f64::INFINITY,
+        };
+        mesh.measure(cables);
+        if mesh.size < SMOOTH_ENOUGH {
+            let cuts: Vec<Cut> = cables.iter().map(|(catenary, _)| Cut::of(catenary)).collect();
+            let counts = cuts.iter().map(Cut::counts).fold([0; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+            // The lowest point of a slack cable swings level.
+            for (axis, _) in mesh.axes.iter_mut().zip(&cuts).filter(|(_, cut)| cut.slack) {
+                *axis = [0.0, 1.0];
+            }
+            mesh.nodes = cuts.into_iter().map(|cut| cut.refined(counts).nodes()).collect();
+            mesh.kept = counts[0];
+            mesh.measure(cables);
+        }
+        Some(mesh)
+    }
+
+    fn measure(&mut self, cables: &[(&Catenary, f64)]) {
+        let of_element =
+            |catenary: &Catenary, pair: &[f64]| ellipse(catenary, 0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+        let of_cable = |(nodes, (catenary, _)): (&Vec<f64>, &(&Catenary, f64))| {
+            nodes.windows(2).map(|pair| of_element(catenary, pair)).fold(f64::INFINITY, f64::min)
+        };
+        self.size = self.nodes.iter().zip(cables).map(of_cable).fold(f64::INFINITY, f64::min);
+    }
+}
+
 /// Two sides of a point at which the cable is slackest, each cut from there on.
 #[derive(Debug, Clone)]
-pub(super) struct Cut {
+struct Cut {
     /// That point [m].
     middle: f64,
     /// Distances from it to the ends of elements on the side of the start and of the end, ascending [m].
     sides: [Vec<f64>; 2],
     /// Cut as its shape asks for; otherwise one element would do.
-    pub(super) slack: bool,
+    slack: bool,
 }
 
 impl Cut {
-    pub(super) fn of(catenary: &Catenary) -> Self {
+    fn of(catenary: &Catenary) -> Self {
         let rope = catenary.rope();
         let (length, w) = (rope.unstrained_length, rope.weight_per_length);
         if ellipse(catenary, 0.5 * length, 0.5 * length) >= SMOOTH_ENOUGH {
@@ -53,12 +103,12 @@ impl Cut {
     }
 
     /// Elements on each side.
-    pub(super) fn counts(&self) -> [usize; 2] {
+    fn counts(&self) -> [usize; 2] {
         self.sides.each_ref().map(Vec::len)
     }
 
     /// With so many elements on each side, the longest being halved.
-    pub(super) fn refined(mut self, counts: [usize; 2]) -> Self {
+    fn refined(mut self, counts: [usize; 2]) -> Self {
         for (ends, count) in self.sides.iter_mut().zip(counts) {
             while ends.len() < count {
                 let from = |k: usize| if k == 0 { 0.0 } else { ends[k - 1] };
@@ -71,7 +121,7 @@ impl Cut {
     }
 
     /// All nodes from start to end [m].
-    pub(super) fn nodes(&self) -> Vec<f64> {
+    fn nodes(&self) -> Vec<f64> {
         let [before, after] = &self.sides;
         let before = before.iter().rev().map(|distance| self.middle - distance);
         before.chain([self.middle]).chain(after.iter().map(|distance| self.middle + distance)).collect()
