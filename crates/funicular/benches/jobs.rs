@@ -80,6 +80,43 @@ fn tension_distribution(c: &mut Criterion) {
     }
 }
 
+/// A thousand poses of the paper's robot, level or nearly, at which no cable sags by more than a quarter of its chord; and a
+/// thousand all over a box, more than half of which a cable without much tension holds.
+fn first_frequencies(c: &mut Criterion) {
+    let (robot, _) = robot();
+    let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
+    let held = |size: [f64; 3], turn: f64, steepest: f64| -> Vec<Pose> {
+        let pose = |i: u32| {
+            let along = [2f64, 3.0, 5.0].map(|square| part(i, square.sqrt()));
+            let turns = [7f64, 11.0, 13.0].map(|square| turn * part(i, square.sqrt()));
+            Pose::new([size[0] * along[0], size[1] * along[1], 1.0 + size[2] * along[2]], turns)
+        };
+        let taut = |state: &statics::CableState| {
+            let catenary = &state.hanging.as_ref().expect("it hangs").catenary;
+            catenary.weight() < steepest * catenary.horizontal_force()
+        };
+        let possible = |pose: &Pose| {
+            let held = statics::inverse(&robot, pose, StaticModel::Catenary);
+            held.is_ok_and(|rest| rest.cables.iter().all(taut) && modes::first(&robot, &rest).is_ok())
+        };
+        (0..8000).map(pose).filter(possible).take(1000).collect()
+    };
+    let sets =
+        [("", held([2.0, 1.0, 0.8], 1.0, 2.0)), (", slack cables too", held([3.0, 1.2, 1.0], 3.0, f64::INFINITY))];
+    for (name, poses) in sets {
+        assert_eq!(poses.len(), 1000);
+        c.bench_function(&format!("1,000 poses: statics, tensions, exact first frequency{name}"), |b| {
+            b.iter(|| {
+                let first = |pose: &Pose| {
+                    let rest = statics::inverse(&robot, pose, StaticModel::Catenary).expect("possible");
+                    modes::first(&robot, &rest).expect("possible").frequency_hz
+                };
+                black_box(&poses).iter().map(first).sum::<f64>()
+            });
+        });
+    }
+}
+
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
     let closed_form = Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() };
@@ -167,6 +204,6 @@ fn sweeps(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, responses, natural_frequencies, exact_cables, sweeps
+    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, responses, natural_frequencies, exact_cables, sweeps
 }
 criterion_main!(jobs);

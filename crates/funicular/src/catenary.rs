@@ -167,6 +167,12 @@ impl Catenary {
         self.rise
     }
 
+    /// Cosine and sine of the chord's inclination.
+    pub(crate) fn chord_direction(&self) -> [f64; 2] {
+        let chord = hypot(self.span, self.rise);
+        [self.span / chord, self.rise / chord]
+    }
+
     /// Horizontal force H along the whole cable [N].
     #[inline]
     pub fn horizontal_force(&self) -> f64 {

@@ -11,7 +11,7 @@ use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, skew};
 use crate::robot::{Damping, Freedoms, Robot};
-use crate::statics::{Equilibrium, add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
+use crate::statics::{CableState, Equilibrium, add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
 use thiserror::Error;
 
 /// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown
@@ -165,12 +165,9 @@ impl Dynamics {
                     terms.push(Term { cable: i, form, along, normal, out });
                 }
             }
-            if assembly == Assembly::Consistent {
-                add_lever_term(&mut constant, &state.force_on_platform_w, &state.lever_w);
-            }
         }
         if assembly == Assembly::Consistent {
-            add_load_terms(&mut constant, robot, &equilibrium.pose);
+            constant += static_terms(robot, equilibrium);
         }
         // Symmetric to rounding at an equilibrium; exactly so for what follows.
         let coordinates = |matrix: &Mat6| motions.reduced_matrix(&scaled(matrix, ell));
@@ -327,6 +324,41 @@ fn add_local<T: Copy + std::ops::AddAssign + nalgebra::Scalar>(
             *entry += times(k.out_of_plane, b[i] * b[j]);
         }
     }
+}
+
+/// Stiffness by the turning of static forces, those of the cables and the loads, on their lever arms; not scaled.
+fn static_terms(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
+    let mut terms = Mat6::zeros();
+    for state in &equilibrium.cables {
+        add_lever_term(&mut terms, &state.force_on_platform_w, &state.lever_w);
+    }
+    add_load_terms(&mut terms, robot, &equilibrium.pose);
+    terms
+}
+
+/// A robot without the end stiffness of its cables; scaled, in the platform's coordinates.
+pub(crate) struct Still {
+    /// Stiffness by the turning of static forces [N/m].
+    pub(crate) constant: Mat6,
+    /// Mass of the platform [kg].
+    pub(crate) mass: Mat6,
+    pub(crate) ell: f64,
+}
+
+/// What a robot has at an equilibrium whatever its cables' stiffness.
+pub(crate) fn still(robot: &Robot, equilibrium: &Equilibrium) -> Still {
+    let ell = robot.platform_length();
+    let terms = static_terms(robot, equilibrium);
+    let coordinates = |matrix: &Mat6| robot.platform.freedoms.reduced_matrix(&scaled(matrix, ell));
+    let constant = coordinates(&((terms + terms.transpose()) * 0.5));
+    Still { constant, mass: coordinates(&mass_matrix(robot, equilibrium)), ell }
+}
+
+/// Stiffness of a cable whose end stiffness [N/m] does not depend on frequency; scaled, in the platform's coordinates.
+pub(crate) fn constant_cable(robot: &Robot, state: &CableState, stiffness: &Mat3) -> Mat6 {
+    let mut total = Mat6::zeros();
+    add_congruent(&mut total, stiffness, &state.lever_w);
+    robot.platform.freedoms.reduced_matrix(&scaled(&total, robot.platform_length()))
 }
 
 /// Mass matrix about the platform origin, world axes.

@@ -6,6 +6,9 @@
 
 mod checks;
 pub mod damped;
+mod first;
+
+pub use first::{First, FirstError, first, first_of_all};
 
 pub use checks::{MOST, TooMany, check_count, damped_partners};
 

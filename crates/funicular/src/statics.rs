@@ -384,6 +384,18 @@ impl LoadedCable {
         let rope = Rope { unstrained_length, weight_per_length, axial_stiffness };
         HangingCable::between(pose.point_w(&self.attachment_p), self.anchor_w, self.load.up_w, rope)
     }
+
+    /// Hung so that the tension parallel to its chord is this [N]; not far slacker than its weight has it.
+    fn hang_with_tension(&self, pose: &Pose, tension: f64) -> HangingCable {
+        let start_w = pose.point_w(&self.attachment_p);
+        let rope = Rope {
+            // The tension fixes the length; this one is where the search for it begins.
+            unstrained_length: (self.anchor_w - start_w).norm(),
+            weight_per_length: self.load.size,
+            axial_stiffness: self.axial_stiffness,
+        };
+        HangingCable::with_parallel_tension(start_w, self.anchor_w, self.load.up_w, rope, tension)
+    }
 }
 
 /// Wrench (force, moment about the platform origin) of a force at a lever arm.
@@ -595,7 +607,7 @@ fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)
 fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let n = robot.platform.freedoms.count();
     let scaled = scaled(&((stiffness + stiffness.transpose()) * 0.5), robot.platform_length());
-    let (values, _) = inertia::eigen(&robot.platform.freedoms.reduced_matrix(&scaled), n);
+    let values = inertia::eigenvalues(&robot.platform.freedoms.reduced_matrix(&scaled), n);
     // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();

@@ -13,6 +13,7 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations a pole.
 //! Derivation: docs/theory.md, section 9.
 
+pub(crate) mod abreast;
 mod mesh;
 mod poles;
 mod shape;

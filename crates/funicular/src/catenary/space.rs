@@ -37,12 +37,26 @@ impl HangingCable {
     /// As [`HangingCable::new`] for numbers that a [`crate::robot::Robot`] has already checked; `up_w` is a unit vector.
     #[inline]
     pub(crate) fn between(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope) -> Self {
-        let chord = end_w - start_w;
-        let rise = chord.dot(&up_w);
-        let across = chord - up_w * rise;
-        let span = across.norm();
-        let along_w = if span > 0.0 { across / span } else { any_normal(&up_w) };
+        let (span, rise, along_w) = plane(&start_w, &end_w, &up_w);
         Self { catenary: Catenary::solve(span, rise, rope), start_w, end_w, up_w, along_w }
+    }
+
+    /// The same with a parallel tension [N] instead of a length: see [`Catenary::with_parallel_tension`].
+    pub(crate) fn with_parallel_tension(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope, tension: f64) -> Self {
+        let (span, rise, along_w) = plane(&start_w, &end_w, &up_w);
+        Self { catenary: Catenary::with_parallel_tension(span, rise, rope, tension), start_w, end_w, up_w, along_w }
+    }
+
+    /// The cable between the same points with another parallel tension [N].
+    pub(crate) fn at_parallel_tension(&self, tension: f64) -> Self {
+        let Catenary { span, rise, rope, .. } = self.catenary;
+        Self { catenary: Catenary::with_parallel_tension(span, rise, rope, tension), ..*self }
+    }
+
+    /// The cable between the same points with another unstrained length [m].
+    pub(crate) fn at_length(&self, unstrained_length: f64) -> Self {
+        let Catenary { span, rise, rope, .. } = self.catenary;
+        Self { catenary: Catenary::solve(span, rise, Rope { unstrained_length, ..rope }), ..*self }
     }
 
     /// Vector from start to end [m].
@@ -102,4 +116,13 @@ pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
         Vec3::z()
     };
     v.cross(&least).normalize()
+}
+/// Span, rise and horizontal direction from one point to another.
+#[inline]
+fn plane(start_w: &Vec3, end_w: &Vec3, up_w: &Vec3) -> (f64, f64, Vec3) {
+    let chord = end_w - start_w;
+    let rise = chord.dot(up_w);
+    let across = chord - up_w * rise;
+    let span = across.norm();
+    (span, rise, if span > 0.0 { across / span } else { any_normal(up_w) })
 }

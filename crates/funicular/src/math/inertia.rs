@@ -95,6 +95,17 @@ fn swap_both(a: &mut [f64], n: usize, i: usize, j: usize) {
     a.swap(i * n + i, j * n + j);
 }
 
+/// Eigenvalues, ascending, of the leading `n`×`n` block of a symmetric matrix.
+pub fn eigenvalues(matrix: &Mat6, n: usize) -> Vec<f64> {
+    let mut values: Vec<f64> = if n == 6 {
+        matrix.symmetric_eigenvalues().iter().copied().collect()
+    } else {
+        matrix.view((0, 0), (n, n)).clone_owned().symmetric_eigenvalues().iter().copied().collect()
+    };
+    values.sort_by(f64::total_cmp);
+    values
+}
+
 /// Eigenvalues (ascending) and eigenvectors (columns) of the leading `n`×`n` block of a symmetric matrix; the other
 /// entries of the vectors are zero.
 pub fn eigen(matrix: &Mat6, n: usize) -> (Vec<f64>, Vec<Vec6>) {

@@ -82,16 +82,14 @@ fn hang_all(loaded: &[LoadedCable], pose: &Pose, lengths: &[f64]) -> Vec<Hanging
 
 fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64]) -> Result<Equilibrium, StaticsError> {
     let ell = robot.platform_length();
-    let count = robot.cables.len();
-    let chords: Vec<f64> = robot.cables.iter().map(|c| (c.anchor_w - pose.point_w(&c.attachment_p)).norm()).collect();
-    let weights: Vec<f64> = loaded.iter().zip(&chords).map(|(cable, chord)| chord * cable.load.size).collect();
-    let mut lengths = chords.clone();
-    for i in 0..count {
-        // A cable that straight statics finds pushing starts as a deeply sagging one.
-        let tension = straight[i].max(0.25 * weights[i]).max(1e-9 * robot.cables[i].material.axial_stiffness);
-        lengths[i] = length_for_tension(&loaded[i], pose, lengths[i], tension);
-    }
-    let mut hanging = hang_all(loaded, pose, &lengths);
+    let mut hanging: Vec<HangingCable> = (loaded.iter().zip(straight))
+        .map(|(cable, tension)| {
+            let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+            // A cable that straight statics finds pushing starts as a deeply sagging one.
+            let least = (0.25 * cable.load.size * chord).max(1e-9 * cable.axial_stiffness);
+            cable.hang_with_tension(pose, tension.max(least))
+        })
+        .collect();
     let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
     let mut iterations = 0;
     let mut damping = 1.0;
@@ -104,18 +102,16 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
         }
         let right = -robot.platform.freedoms.reduced(&scaled_wrench(&wrench, ell));
         let Some(change) = columns.lu().solve(&right) else { break };
-        let trial: Vec<f64> = (0..count)
-            .map(|i| {
-                let cable = &hanging[i];
+        let next: Vec<HangingCable> = (hanging.iter().zip(&change))
+            .map(|(cable, change)| {
                 let tension = cable.catenary.parallel_tension();
-                let wanted = tension + damping * change[i] * cable.catenary.parallel_tension_by_length();
-                length_for_tension(&loaded[i], pose, lengths[i], wanted.max(0.2 * tension))
+                let wanted = tension + damping * change * cable.catenary.parallel_tension_by_length();
+                at_tension(cable, wanted.max(0.2 * tension))
             })
             .collect();
-        let next = hang_all(loaded, pose, &trial);
         let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
         if next_residual < residual {
-            (hanging, wrench, residual, lengths) = (next, next_wrench, next_residual, trial);
+            (hanging, wrench, residual) = (next, next_wrench, next_residual);
             damping = (2.0 * damping).min(1.0);
         } else if residual < RESIDUAL_LIMIT {
             break;
@@ -134,6 +130,7 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
         && strongest(&mut hanging.iter().map(|c| c.catenary.tension_at_start()))
             > OUT_OF_PROPORTION * strongest(&mut straight.iter().copied());
     if residual <= RESIDUAL_LIMIT && !far_fetched {
+        let lengths: Vec<f64> = hanging.iter().map(|cable| cable.catenary.rope().unstrained_length).collect();
         return Ok(collect(robot, *pose, StaticModel::Catenary, hanging, &lengths, iterations));
     }
     if let Some(i) = pushing {
@@ -150,32 +147,39 @@ fn unbalanced(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f6
     (wrench, scaled_residual(robot, &wrench, scale))
 }
 
-/// The unstrained length [m] at which a cable has the parallel tension `wanted` > 0 [N], which falls as it grows.
-fn length_for_tension(cable: &LoadedCable, pose: &Pose, from: f64, wanted: f64) -> f64 {
+/// The cable between the same points whose parallel tension is `wanted` > 0 [N].
+fn at_tension(cable: &HangingCable, wanted: f64) -> HangingCable {
+    let rope = cable.catenary.rope();
+    // Slacker cables need a search that knows no bound from the tension.
+    if wanted >= 0.01 * rope.weight_per_length * cable.chord_w().norm() {
+        return cable.at_parallel_tension(wanted);
+    }
     let (mut low, mut high) = (0.0, f64::INFINITY);
-    let mut length = from;
+    let mut cable = cable.clone();
     for _ in 0..80 {
-        let hung = cable.hang(pose, length).catenary;
-        let tension = hung.parallel_tension();
+        let length = cable.catenary.rope().unstrained_length;
+        let tension = cable.catenary.parallel_tension();
         if tension > wanted {
             low = length;
         } else {
             high = length;
         }
         // Taut, τ grows like c − L; sagging, like 1/√(L − c): its logarithm is between both.
-        let step = (tension / wanted).ln() * tension / hung.parallel_tension_by_length();
-        // Newton squares the error, and only a step on the way is wanted: what counts is the balance afterwards.
-        if step.abs() <= 1e-9 * length {
-            return length - step;
-        }
+        let step = (tension / wanted).ln() * tension / cable.catenary.parallel_tension_by_length();
         let next = length - step;
-        length = if next > low && next < high {
+        // Newton squares the error, and only a step on the way is wanted: what counts is the balance afterwards.
+        let last = step.abs() <= 1e-9 * length;
+        let next = if last || (next > low && next < high) {
             next
         } else if high.is_finite() {
             0.5 * (low + high)
         } else {
             2.0 * low
         };
+        cable = cable.at_length(next);
+        if last {
+            break;
+        }
     }
-    length
+    cable
 }

@@ -10,7 +10,6 @@ use super::{
     Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
     tangent_stiffness, wrench_of,
 };
-use crate::catenary::Catenary;
 use crate::math::{DMat, Mat6, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 
@@ -163,10 +162,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         let chord = chord_w.norm();
         // Not so slack that its length would be all sag.
         let least = TensionRange::of(robot, i, chord_w).minimum.max(0.25 * line.load.size * chord);
-        let cable = line.hang(pose, chord).catenary;
-        let tension = balanced[i].max(least);
-        let rise = chord_w.dot(&line.load.up_w);
-        Catenary::with_parallel_tension(cable.span(), rise, cable.rope(), tension).rope().unstrained_length
+        line.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
     });
     Ok(lengths.collect())
 }

@@ -16,7 +16,7 @@ pub(super) struct Lowest {
 
 /// The lowest `count` natural frequencies that are not above `highest_hz`.
 ///
-/// The limit of the search starts where the first frequency is likely and is doubled until the count says that there are
+/// The first alone of exact cables has its own way, [`modes::first`]. Else the limit of the search starts where the first frequency is likely and is doubled until the count says that there are
 /// enough below it.
 pub(super) fn lowest(
     robot: &Robot,
@@ -30,6 +30,13 @@ pub(super) fn lowest(
         return Err(Status::new("unstable", &reason));
     }
     let none = |reason: String| Status::new("no-frequency", &reason);
+    if count == 1 && linearisation == Linearisation::default() {
+        let first = modes::first(robot, rest).map_err(|error| none(error.to_string()))?;
+        if first.frequency_hz > highest_hz {
+            return Err(too_few(count, highest_hz));
+        }
+        return Ok(Lowest { modes: vec![(first.frequency_hz, first.kind)], certified: first.certified });
+    }
     let mut limit = first_limit(robot, rest, linearisation.cable_model).min(highest_hz);
     loop {
         let dynamics = Dynamics::about(robot, rest, linearisation, limit).map_err(|error| none(error.to_string()))?;
@@ -41,12 +48,16 @@ pub(super) fn lowest(
             return Ok(Lowest { modes, certified });
         }
         if limit >= highest_hz {
-            return Err(none(format!(
-                "fewer than {count} natural frequencies are below {highest_hz} Hz: raise the limit of the search"
-            )));
+            return Err(too_few(count, highest_hz));
         }
         limit = (2.0 * limit).min(highest_hz);
     }
+}
+
+fn too_few(count: usize, highest_hz: f64) -> Status {
+    let reason =
+        format!("fewer than {count} natural frequencies are below {highest_hz} Hz: raise the limit of the search");
+    Status::new("no-frequency", &reason)
 }
 
 /// Where to begin: a little above the lowest frequency of a cable between fixed ends, which is above the first of the robot.

@@ -4,7 +4,7 @@
 //! CONTRIBUTING.md.
 
 mod bars;
-mod robots;
+pub(crate) mod robots;
 
 use bars::Bars;
 use funicular::cable::CableModel;

@@ -8,7 +8,7 @@ use funicular::validity;
 use std::path::Path;
 
 /// Every robot by its file's name, and its equilibrium.
-fn library() -> Vec<(String, Robot, Equilibrium)> {
+pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();

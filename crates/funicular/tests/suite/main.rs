@@ -7,6 +7,7 @@ mod campaign;
 mod catenary;
 mod damped;
 mod exact;
+mod first;
 mod freedoms;
 mod independent;
 mod library;

@@ -56,17 +56,7 @@ impl<'a> Mesh<'a> {
         cuts: &[f64],
     ) -> Result<Self, ExactError> {
         let rope = catenary.rope();
-        let w = rope.weight_per_length;
-        let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
-        let straight = w == 0.0;
-        // T is analytic but at V = ±iH, that is at s = lowest ± i H/w.
-        let (lowest, depth) = (-va / w, h / w);
-        let least = if !straight && (0.0..=rope.unstrained_length).contains(&lowest) {
-            h
-        } else {
-            catenary.tension_at_start().min(catenary.tension_at_end())
-        };
-        if least.is_nan() || least <= 1e-9 * catenary.tension_at_end().max(catenary.tension_at_start()) {
+        if !has_tension(catenary) {
             return Err(ExactError::NoTension);
         }
         let mut nodes: Vec<f64> = cuts.iter().copied().filter(|s| *s > 0.0 && *s < rope.unstrained_length).collect();
@@ -78,10 +68,7 @@ impl<'a> Mesh<'a> {
         let mut elements = Vec::new();
         while let Some((from, to)) = cuts.pop() {
             let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
-            // Size of the Bernstein ellipse through the singularity: the coefficients of C fall like its powers.
-            let z = Complex::new((lowest - center) / half, depth / half);
-            let root = (z * z - 1.0).sqrt();
-            let size = if straight { f64::INFINITY } else { (z + root).norm().max((z - root).norm()) };
+            let size = ellipse(catenary, center, half);
             if size < SMOOTH_ENOUGH {
                 cuts.extend([(center, to), (from, center)]);
                 continue;
@@ -315,6 +302,31 @@ impl Element {
 /// Smallest Bernstein ellipse of an element, by the sum of its semi-axes: coefficients of C fall by at least this factor
 /// a degree. Nearer to 1 the degree grows without bound, further away cables of little slack would be cut.
 const SMOOTH_ENOUGH: f64 = 1.5;
+
+/// No point of the cable is without tension.
+pub(super) fn has_tension(catenary: &Catenary) -> bool {
+    let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
+    let (start, end) = (catenary.tension_at_start(), catenary.tension_at_end());
+    let w = catenary.rope().weight_per_length;
+    // Where the cable is lowest.
+    let inside = w != 0.0 && (0.0..=catenary.rope().unstrained_length).contains(&(-va / w));
+    let least = if inside { h } else { start.min(end) };
+    least > 1e-9 * end.max(start)
+}
+
+/// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C, as the sum of its
+/// semi-axes over half: the coefficients of C fall like its powers.
+pub(super) fn ellipse(catenary: &Catenary, center: f64, half: f64) -> f64 {
+    let w = catenary.rope().weight_per_length;
+    if w == 0.0 {
+        return f64::INFINITY;
+    }
+    // T is analytic but at V = ±iH, that is at s = lowest ± i H/w.
+    let (lowest, depth) = (-catenary.vertical_force_at_start() / w, catenary.horizontal_force() / w);
+    let z = Complex::new((lowest - center) / half, depth / half);
+    let root = (z * z - 1.0).sqrt();
+    (z + root).norm().max((z - root).norm())
+}
 
 /// ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
 fn bubble_mass(degree: usize) -> DMat {
