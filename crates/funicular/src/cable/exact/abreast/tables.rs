@@ -20,7 +20,7 @@ impl Masses {
     pub(super) fn row<const H: usize>(&self, function: usize) -> impl Iterator<Item = (usize, f64)> + use<H> {
         let f = function;
         // Bubbles meet the hats in their first two.
-        let (below, other) = match f + 1 - H {
+        let (below, other) = match (f + 1).saturating_sub(H) {
             _ if f == 0 => (None, None),
             0 => (Some((0, 1.0 / 3.0)), None),
             1 => (Some((0, self.first)), Some((1, self.first))),
