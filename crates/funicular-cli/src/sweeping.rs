@@ -169,9 +169,9 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     if path.canonicalize().ok().is_some_and(|to| job.robot_path.canonicalize().is_ok_and(|from| from == to)) {
         bail!("refusing to write the result over the robot file {}; choose another name for -o", path.display());
     }
-    let begin = match (run.resume, run.force) {
+    let begin = match (run.resume, run.discard) {
         (true, _) => Begin::Resume,
-        (_, true) => Begin::Force,
+        (_, true) => Begin::Discard,
         _ => Begin::Anew,
     };
     let range = record.range();

@@ -16,7 +16,7 @@ pub enum Begin {
     /// Go on with it.
     Resume,
     /// Forget it.
-    Force,
+    Discard,
 }
 
 /// A file that is being made.
@@ -179,7 +179,7 @@ fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal,
     let unwritable = |source| FilesError::Place { path: path(), reason: crate::told(&source) };
     let file = Journal::lock(partial)?;
     let found = match begin {
-        Begin::Force => Found::Nothing,
+        Begin::Discard => Found::Nothing,
         Begin::Anew | Begin::Resume => journal::look(&file, &record).map_err(unreadable)?,
     };
     match found {

@@ -65,7 +65,7 @@ pub enum FilesError {
     },
     /// Work in the way.
     #[error(
-        "{} holds {done} of {rows} rows of a run that did not end: go on with --resume, or begin anew with --force",
+        "{} holds {done} of {rows} rows of a run that did not end: go on with --resume, or begin anew with --discard",
         .journal.display()
     )]
     Unfinished {
@@ -77,7 +77,7 @@ pub enum FilesError {
         rows: usize,
     },
     /// A file that is no journal where one would be.
-    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with --force", .path.display())]
+    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with --discard", .path.display())]
     NoJournal {
         /// The file.
         path: PathBuf,

@@ -130,7 +130,7 @@ fn work_is_not_lost_unasked_and_not_mixed() {
     fs::write(partial(&path), "my notes").unwrap();
     assert!(message(open(&path, &record, Begin::Resume)).contains("is no journal of funicular"));
     assert!(message(open(&path, &record, Begin::Anew)).contains("is no journal of funicular"));
-    complete(open(&path, &record, Begin::Force).unwrap(), &chunks, chunks.len());
+    complete(open(&path, &record, Begin::Discard).unwrap(), &chunks, chunks.len());
     assert!(matches!(Job::open(&path, record.clone(), Begin::Resume), Ok(Opened::Done)));
     let mut other = record.clone();
     other.plan.insert("mass_kg".to_owned(), json!(3));
@@ -154,7 +154,7 @@ fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
     let expected = whole(&folder.path().join("whole.parquet"), &record, &chunks);
     complete(open(&path, &record, Begin::Resume).unwrap(), &chunks, chunks.len());
     assert!(fs::read(&path).unwrap() == expected);
-    let mut job = open(&path, &record, Begin::Force).unwrap();
+    let mut job = open(&path, &record, Begin::Discard).unwrap();
     job.add(&chunks[0]).unwrap();
     assert!(!job.interrupt().unwrap());
     assert!(fs::read(&path).unwrap() == expected, "a whole file stays");

@@ -81,12 +81,12 @@ pub(crate) struct RunArgs {
     pub(crate) output_file: Option<PathBuf>,
 
     /// Go on with what FILE.partial holds of the same sweep; begin if there is nothing
-    #[arg(long, requires = "output_file", conflicts_with = "force")]
+    #[arg(long, requires = "output_file", conflicts_with = "discard")]
     pub(crate) resume: bool,
 
     /// Forget what FILE.partial holds
     #[arg(long, requires = "output_file")]
-    pub(crate) force: bool,
+    pub(crate) discard: bool,
 
     /// The k-th of n parts, each with a FILE.parquet of its own, for `funicular merge`
     #[arg(long, value_name = "K/N", requires = "output_file")]

@@ -142,7 +142,10 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
     assert!(path.exists() && journal.exists());
     let again = started(&arguments).wait_with_output().unwrap();
     assert_eq!(again.status.code(), Some(2));
-    assert!(stderr(&again).contains("go on with --resume, or begin anew with --force"), "{}", stderr(&again));
+    let discarded = [&slow(&path)[..], &["--discard".to_owned()]].concat();
+    assert!(started(&discarded).wait().unwrap().success());
+    assert!(!journal.exists());
+    assert!(stderr(&again).contains("go on with --resume, or begin anew with --discard"), "{}", stderr(&again));
 }
 
 #[test]
