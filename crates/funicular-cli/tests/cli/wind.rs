@@ -42,7 +42,7 @@ fn a_load_along_the_cables_makes_them_sag_and_is_refused_where_it_cannot_be_said
     assert!(sag(&iced) > 1.3 * sag(&plain), "{} {}", sag(&iced), sag(&plain));
     let output = run(&["export", "ROBOT", "--to", "moordyn", "--cable-load-n-per-m", "0,0,-0.6", "-o", "x.py"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("along cables"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("along the cables"), "{}", stderr(&output));
 }
 
 #[test]
