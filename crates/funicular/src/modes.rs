@@ -5,6 +5,7 @@
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
 pub mod damped;
+pub mod track;
 
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};

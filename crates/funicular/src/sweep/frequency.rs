@@ -1,12 +1,41 @@
 //! The lowest natural frequencies of a robot at rest, how many are asked.
 
 use super::status::Status;
+use super::{Options, Point, row};
 use crate::cable::{CableModel, Sag};
+use crate::cable_motion::WeightedMotions;
 use crate::dynamics::{Dynamics, Linearisation};
-use crate::modes::{self, Kind};
+use crate::modes::{self, Kind, Mode, track::Tracked};
 use crate::robot::Robot;
 use crate::statics::{Equilibrium, Stability};
 use std::f64::consts::TAU;
+
+/// The lowest modes of a point, ascending, and each as tracking takes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointModes {
+    /// The modes.
+    pub modes: Vec<Mode>,
+    /// Their motions, in the same order.
+    pub tracked: Vec<Tracked>,
+}
+
+/// The lowest `count` modes of a point: those whose frequencies the quantity [`Frequencies`](super::Quantity::Frequencies)
+/// gives, with their motions, to be [tracked](modes::track::branches) from point to point.
+///
+/// # Errors
+/// The reason why there are none, as a row has it.
+pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<PointModes, String> {
+    let (robot, state) = point.robot.as_ref().map_err(Clone::clone)?;
+    let (rest, _) = row::at_rest(robot, state, options).map_err(|error| error.to_string())?;
+    if let Some(status) = Status::refusing(robot, &rest) {
+        return Err(status.reason);
+    }
+    let found = search(robot, &rest, options.linearisation, count, options.highest_hz);
+    let (dynamics, modes, _) = found.map_err(|status| status.reason)?;
+    let weighted = WeightedMotions::new(robot, &rest, &dynamics).map_err(|error| error.to_string())?;
+    let tracked = modes.iter().map(|mode| weighted.of(mode)).collect();
+    Ok(PointModes { modes, tracked })
+}
 
 /// The lowest modes: frequency [Hz] and kind, ascending.
 pub(super) struct Lowest {
@@ -15,9 +44,6 @@ pub(super) struct Lowest {
 }
 
 /// The lowest `count` natural frequencies that are not above `highest_hz`.
-///
-/// The limit of the search starts where the first frequency is likely and is doubled until the count says that there are
-/// enough below it.
 pub(super) fn lowest(
     robot: &Robot,
     rest: &Equilibrium,
@@ -25,6 +51,21 @@ pub(super) fn lowest(
     count: usize,
     highest_hz: f64,
 ) -> Result<Lowest, Status> {
+    let (_, modes, certified) = search(robot, rest, linearisation, count, highest_hz)?;
+    Ok(Lowest { modes: modes.iter().map(|mode| (mode.frequency_hz, mode.kind)).collect(), certified })
+}
+
+/// The same with whole modes and what they are modes of, and whether they are certified.
+///
+/// The limit of the search starts where the first frequency is likely and is doubled until the count says that there are
+/// enough below it.
+fn search(
+    robot: &Robot,
+    rest: &Equilibrium,
+    linearisation: Linearisation,
+    count: usize,
+    highest_hz: f64,
+) -> Result<(Dynamics, Vec<Mode>, bool), Status> {
     if let Stability::Unstable { directions, .. } = rest.stability {
         let reason = format!("the equilibrium is not stable ({directions} directions): it has no first frequency");
         return Err(Status::new("unstable", &reason));
@@ -36,9 +77,8 @@ pub(super) fn lowest(
         if dynamics.modes_below(limit * TAU) >= count {
             let mut found = modes::below(&dynamics, limit);
             found.modes.truncate(count);
-            let modes: Vec<_> = found.modes.iter().map(|mode| (mode.frequency_hz, mode.kind)).collect();
-            let certified = found.certified && modes.len() == count;
-            return Ok(Lowest { modes, certified });
+            let certified = found.certified && found.modes.len() == count;
+            return Ok((dynamics, found.modes, certified));
         }
         if limit >= highest_hz {
             return Err(none(format!(
