@@ -102,9 +102,11 @@ pub(crate) enum Command {
     ///
     /// Grids as slices with contours, the feasible set, histograms and points in space; trajectories and sweeps of one value
     /// as curves, the natural frequencies with their modes followed through crossings and veering. docs/sweeps.md says how.
-    #[command(after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
+    #[command(
+        after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
         --quantity tension-max,stiffness-min -o cogiro.parquet\n  funicular plot cogiro.parquet\n  \
-        funicular plot mass.parquet -o mass.html")]
+        funicular plot mass.parquet -o mass.html"
+    )]
     Plot(PlotArgs),
     /// All of it on one page, figures included
     #[command(after_help = "Examples:\n  funicular report\n  \

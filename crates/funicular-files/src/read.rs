@@ -53,9 +53,8 @@ impl SweepFile {
         self.file
             .each(0, ROWS, &mut |chunk| {
                 let kinds = self.record.columns.iter().map(|column| Values::new(column.kind, 0));
-                let same = |(ours, theirs): (Values, &Values)| {
-                    std::mem::discriminant(&ours) == std::mem::discriminant(theirs)
-                };
+                let same =
+                    |(ours, theirs): (Values, &Values)| std::mem::discriminant(&ours) == std::mem::discriminant(theirs);
                 if chunk.columns.len() != self.record.columns.len() || !kinds.zip(&chunk.columns).all(same) {
                     return Err(io::Error::new(io::ErrorKind::InvalidData, "its columns are not those of its plan"));
                 }

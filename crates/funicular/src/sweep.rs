@@ -14,7 +14,6 @@ mod run;
 mod status;
 mod steps;
 
-
 pub use columns::{Chunk, Column, Kind, Values};
 pub use frequency::{PointModes, lowest_modes};
 pub use points::{AXES, Point, Points, Poses};

@@ -77,7 +77,8 @@ fn follow(file: &SweepFile, record: &Record, count: usize) -> Result<Tracking, S
         progress.advance(1);
     }
     drop(progress);
-    let (modes, tracked): (Vec<Vec<Mode>>, Vec<Vec<Tracked>>) = steps.into_iter().map(|step| step.into_iter().unzip()).unzip();
+    let (modes, tracked): (Vec<Vec<Mode>>, Vec<Vec<Tracked>>) =
+        steps.into_iter().map(|step| step.into_iter().unzip()).unzip();
     let branches = branches(&tracked);
     Ok(Tracking { modes, branches })
 }

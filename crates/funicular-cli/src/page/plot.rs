@@ -42,8 +42,12 @@ pub(crate) struct Page {
     pub(crate) notes: Vec<String>,
 }
 
-const CONTENTS: &[(&str, &str)] =
-    &[("numbers", "Numbers"), ("pictures", "Pictures"), ("feasible", "What is feasible"), ("repeat", "How to repeat this")];
+const CONTENTS: &[(&str, &str)] = &[
+    ("numbers", "Numbers"),
+    ("pictures", "Pictures"),
+    ("feasible", "What is feasible"),
+    ("repeat", "How to repeat this"),
+];
 
 #[derive(Template)]
 #[template(path = "plot.html")]
@@ -144,13 +148,17 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
 
 fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     let share = 100.0 * rows.feasible as f64 / rows.rows.max(1) as f64;
-    let mut key = vec![
-        ("rows", rows.rows.to_string()),
-        ("feasible", format!("{} ({} %)", rows.feasible, significant(share, 3))),
-    ];
+    let mut key =
+        vec![("rows", rows.rows.to_string()), ("feasible", format!("{} ({} %)", rows.feasible, significant(share, 3)))];
     let range = |axis: &rows::Axis| {
         let ends = [axis.steps.at(0), axis.steps.at(axis.steps.count() - 1)].map(|end| significant(end, 4));
-        format!("{} {} to {}, {}", axis_title(&axis.name, &axis.unit), ends[0], ends[1], counted(axis.steps.count(), "value"))
+        format!(
+            "{} {} to {}, {}",
+            axis_title(&axis.name, &axis.unit),
+            ends[0],
+            ends[1],
+            counted(axis.steps.count(), "value")
+        )
     };
     if rows.is_list {
         key.push(("points", "a list of poses".to_owned()));

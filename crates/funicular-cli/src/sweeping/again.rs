@@ -27,8 +27,9 @@ impl Again {
         let unknown = || "its plan is not one of this program".to_owned();
         let grid = plan.get("grid").and_then(Grid::from_json).ok_or_else(unknown)?;
         let axes = grid.0.into_iter();
-        let axes: Vec<Variation> =
-            axes.map(|(path, steps)| Ok(Variation { path: edit::path(&path)?, steps })).collect::<Result<_, String>>()?;
+        let axes: Vec<Variation> = axes
+            .map(|(path, steps)| Ok(Variation { path: edit::path(&path)?, steps }))
+            .collect::<Result<_, String>>()?;
         let state = state_of(plan).ok_or_else(unknown)?;
         let tensions = tensions_of(plan);
         let adjust = {

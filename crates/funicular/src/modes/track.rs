@@ -250,8 +250,9 @@ mod tests {
         let number = |k: usize| (k as f64 * 0.618_033_988_749_894_9).fract();
         for (rows, columns) in [(1, 1), (3, 3), (4, 6), (6, 6)] {
             for seed in 0..20 {
-                let values: Vec<Vec<f64>> =
-                    (0..rows).map(|i| (0..columns).map(|j| number(seed * 97 + i * 31 + j * j * 7 + 1)).collect()).collect();
+                let values: Vec<Vec<f64>> = (0..rows)
+                    .map(|i| (0..columns).map(|j| number(seed * 97 + i * 31 + j * j * 7 + 1)).collect())
+                    .collect();
                 let pairs = best_pairs(&values, columns);
                 assert_eq!(pairs.len(), rows);
                 let sum: f64 = pairs.iter().map(|&(i, j)| values[i][j]).sum();

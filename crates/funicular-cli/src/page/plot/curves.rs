@@ -20,8 +20,22 @@ const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
 
 /// Identifiers of figures: as many as there are kinds of quantities.
 const IDS: [&str; 16] = [
-    "figure-1", "figure-2", "figure-3", "figure-4", "figure-5", "figure-6", "figure-7", "figure-8", "figure-9",
-    "figure-10", "figure-11", "figure-12", "figure-13", "figure-14", "figure-15", "figure-16",
+    "figure-1",
+    "figure-2",
+    "figure-3",
+    "figure-4",
+    "figure-5",
+    "figure-6",
+    "figure-7",
+    "figure-8",
+    "figure-9",
+    "figure-10",
+    "figure-11",
+    "figure-12",
+    "figure-13",
+    "figure-14",
+    "figure-15",
+    "figure-16",
 ];
 
 /// Relative difference of frequencies that are the same.
@@ -106,8 +120,12 @@ fn along(rows: &Rows) -> Along {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
         return Along { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
     }
-    let positions: Vec<&Vec<f64>> =
-        rows.coordinates.iter().filter(|(name, ..)| ["x_m", "y_m", "z_m"].contains(&name.as_str())).map(|c| &c.2).collect();
+    let positions: Vec<&Vec<f64>> = rows
+        .coordinates
+        .iter()
+        .filter(|(name, ..)| ["x_m", "y_m", "z_m"].contains(&name.as_str()))
+        .map(|c| &c.2)
+        .collect();
     let mut length = 0.0;
     let path: Vec<f64> = (0..rows.places.len())
         .map(|i| {
@@ -126,7 +144,8 @@ fn along(rows: &Rows) -> Along {
 
 /// Where rows are infeasible: bands from half way before to half way behind.
 fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
-    let infeasible = |i: usize| CODES.get(usize::from(rows.status[i])).is_some_and(|code| code.1.starts_with("infeasible"));
+    let infeasible =
+        |i: usize| CODES.get(usize::from(rows.status[i])).is_some_and(|code| code.1.starts_with("infeasible"));
     let x = &along.x;
     let last = x.len().saturating_sub(1);
     let middle = |a: usize, b: usize| 0.5 * (x[a] + x[b]);
@@ -152,7 +171,10 @@ fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
 }
 
 fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
-    let ends = [along.x.iter().copied().fold(f64::INFINITY, f64::min), along.x.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
+    let ends = [
+        along.x.iter().copied().fold(f64::INFINITY, f64::min),
+        along.x.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ];
     let room = if ends[1] > ends[0] { 0.015 * (ends[1] - ends[0]) } else { 0.5 };
     let base = json!({
         "xaxis": axis(&plain(&along.title), json!({"range": [ends[0] - room, ends[1] + room]})),

@@ -43,7 +43,7 @@ impl Slices {
             "space": space,
             "quantities": rows.series.iter().map(|series| json!({
                 "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit), "unit": series.unit,
-                "count": series.count, "bins": series.bins,
+                "count": series.count, "bins": series.bins.to_vec(),
                 "least": if series.count > 0 { series.least.0 } else { 0.0 },
                 "greatest": if series.count > 0 { series.greatest.0 } else { 0.0 },
             })).collect::<Vec<_>>(),
@@ -58,11 +58,17 @@ impl Slices {
         bytes.extend(header.as_bytes());
         bytes.extend(&rows.status);
         // Seven digits are more than a picture shows.
-        bytes.extend(rows.series.iter().flat_map(|series| &series.values).flat_map(|value| (*value as f32).to_le_bytes()));
+        bytes.extend(
+            rows.series.iter().flat_map(|series| &series.values).flat_map(|value| (*value as f32).to_le_bytes()),
+        );
         Self {
             packed: packed(&bytes),
             quantities: rows.series.iter().map(|series| label(&series.name)).collect(),
-            planes: pairs.iter().enumerate().map(|(k, (i, j))| (format!("{}, {}", axes[*i].name, axes[*j].name), k)).collect(),
+            planes: pairs
+                .iter()
+                .enumerate()
+                .map(|(k, (i, j))| (format!("{}, {}", axes[*i].name, axes[*j].name), k))
+                .collect(),
             axes: (0..axes.len()).map(title).collect(),
             in_space: space.is_some(),
             points: rows.shown(),
