@@ -46,9 +46,9 @@
 
   // Colours by the number, or by its logarithm where all numbers are positive.
   function scaled(value) { return state.log ? Math.log10(value) : value; }
-  function scale() {
+  function scale(least, greatest) {
     const quantity = header.quantities[state.quantity];
-    const low = scaled(quantity.least), high = scaled(quantity.greatest), bar = { title: { text: plain(quantity.title), side: "right", font: { size: 12 } }, thickness: 14, tickfont: { size: 11 }, outlinewidth: 0 };
+    const low = scaled(least), high = scaled(greatest), bar = { title: { text: plain(quantity.title), side: "right", font: { size: 12 } }, thickness: 14, tickfont: { size: 11 }, outlinewidth: 0 };
     if (state.log) {
       const ticks = [];
       for (let decade = Math.floor(low); decade <= high; decade++) {
@@ -95,26 +95,29 @@
   }
 
   function drawSlice(found) {
-    const x = axes[found.h].values, y = axes[found.v].values, name = header.quantities[state.quantity], range = scale();
+    const x = axes[found.h].values, y = axes[found.v].values, name = header.quantities[state.quantity];
+    const numbers = found.raw.flat().filter(function (value) { return value !== null; });
+    const own = { least: Math.min.apply(null, numbers), greatest: Math.max.apply(null, numbers) };
+    const span = control("whole").checked || numbers.length === 0 || own.least === own.greatest ? name : own;
+    const range = scale(span.least, span.greatest);
     const text = found.z.map(function (line, j) {
       return line.map(function (value, i) { return value === null ? reason(found.codes[j][i]) : short(found.raw[j][i]); });
     });
-    const some = found.z.some(function (line) { return line.some(function (value) { return value !== null; }); });
-    const step = (range.high - range.low) / 12;
+    const lines = numbers.length === 0 ? range : scale(own.least, own.greatest), step = (lines.high - lines.low) / 12;
     const traces = [
       { type: "heatmap", x: x, y: y, z: found.z, text: text, colorscale: SCALE, zmin: range.low, zmax: range.high, colorbar: range.bar, hoverongaps: true,
         hovertemplate: plain(axes[found.h].name) + " %{x}, " + plain(axes[found.v].name) + " %{y}<br>%{text}<extra></extra>" },
     ];
-    if (some && x.length > 1 && y.length > 1) {
-      traces.push({ type: "contour", x: x, y: y, z: found.z, zmin: range.low, zmax: range.high, autocontour: false, connectgaps: false, showscale: false, hoverinfo: "skip",
-        contours: Object.assign(nice(range, step), { coloring: "none", showlabels: !state.log, labelfont: { size: 10, color: INK } }), line: { color: "rgba(20,20,20,0.65)", width: 1 } });
+    if (own.greatest > own.least && x.length > 1 && y.length > 1) {
+      traces.push({ type: "contour", x: x, y: y, z: found.z, zmin: range.low, zmax: range.high, autocontour: false, showlegend: false, connectgaps: false, showscale: false, hoverinfo: "skip",
+        contours: Object.assign(nice(lines, step), { coloring: "none", showlabels: !state.log, labelfont: { size: 10, color: INK } }), line: { color: "rgba(20,20,20,0.65)", width: 1 } });
     }
     const many = x.length * y.length > 2500;
     traces.push({ type: "scatter", mode: "markers", x: found.crosses.x, y: found.crosses.y, name: "infeasible", hoverinfo: "skip", showlegend: true,
       marker: { symbol: "x-thin", size: many ? 4 : 6, color: "#8a8a8a", line: { color: "#8a8a8a", width: 1 } } });
     page.show(plot("slice"), traces, layout({
       plot_bgcolor: EMPTY, title: { text: plain(name.title), font: { size: 14 }, x: 0.5, xanchor: "center", y: 0.985, yanchor: "top" },
-      xaxis: axis(axes[found.h].title, { constrain: "domain" }), yaxis: axis(axes[found.v].title, proportion(found.h, found.v)),
+      xaxis: axis(axes[found.h].title, { constrain: "domain", range: ends(x) }), yaxis: axis(axes[found.v].title, Object.assign({ range: ends(y) }, proportion(found.h, found.v))),
       showlegend: found.crosses.x.length > 0,
     }));
   }
@@ -173,19 +176,19 @@
         });
       });
     });
-    const range = scale();
+    const quantity = header.quantities[state.quantity], range = scale(quantity.least, quantity.greatest);
     const trace = function (from, name, marker) {
       return { type: "scatter3d", mode: "markers", name: name, x: from.x, y: from.y, z: from.z, text: from.t, marker: marker, hovertemplate: "(%{x}, %{y}, %{z}) m<br>%{text}<extra></extra>" };
     };
     const size = Math.max(1.6, Math.min(5, 60 / Math.cbrt(good.x.length + bad.x.length)));
     const side = function (k) { const list = axes[k].values; return Math.abs(list[list.length - 1] - list[0]); };
     const most = Math.max(side(X), side(Y), side(Z));
-    const ratio = function (k) { return Math.max(0.2, side(k) / most) * 1.15; };
+    const ratio = function (k) { return side(k) / most * 1.6; };
     const deep = function (k) { return { title: { text: plain(axes[k].title), font: { size: 12 } }, tickfont: { size: 10 }, nticks: 6, showbackground: false, gridcolor: "#d9d9d9", zeroline: false, showspikes: false }; };
     page.show(target, [
       trace(good, "feasible", { size: size, color: good.c, colorscale: SCALE, cmin: range.low, cmax: range.high, colorbar: range.bar, line: { width: 0 } }),
       trace(bad, "infeasible", { size: 0.6 * size, color: "#9a9a9a", symbol: "x", opacity: 0.35, line: { width: 0 } }),
-    ], layout({ margin: { l: 0, r: 0, t: 28, b: 0 }, showlegend: bad.x.length > 0, uirevision: "space",
+    ], layout({ margin: { l: 0, r: 0, t: 28, b: 0 }, showlegend: bad.x.length > 0, uirevision: "space", legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom", font: { size: 12 }, itemsizing: "constant" },
       scene: { aspectmode: "manual", aspectratio: { x: ratio(X), y: ratio(Y), z: ratio(Z) }, xaxis: deep(X), yaxis: deep(Y), zaxis: deep(Z),
         camera: { eye: { x: 0.85, y: -1.6, z: 0.75 }, projection: { type: "orthographic" } }, uirevision: "space" } }));
   }
@@ -202,7 +205,7 @@
       input.value = at[k];
       label.querySelector("output").textContent = short(list[at[k]]);
     });
-    const others = axes.map(function (one, k) { return k === found.h || k === found.v ? "" : one.title + " = " + short(one.values[at[k]]); }).filter(Boolean);
+    const others = axes.map(function (one, k) { return k === found.h || k === found.v ? "" : one.name + " = " + short(one.values[at[k]]) + (one.unit === "deg" ? "°" : one.unit === "1" ? "" : " " + one.unit); }).filter(Boolean);
     place.querySelector("[data-where]").textContent = others.length ? "Here " + others.join(", ") + "." : "";
     drawSlice(found);
     drawSet(found);
@@ -217,6 +220,7 @@
   header.statuses.forEach(function (one) { one.feasible = header.feasible.includes(one.name); });
   control("quantity").addEventListener("change", function (event) { state.quantity = Number(event.target.value); begin(); draw(); });
   control("log").addEventListener("change", draw);
+  control("whole").addEventListener("change", draw);
   if (control("plane")) {
     control("plane").addEventListener("change", function (event) { state.pair = header.pairs[Number(event.target.value)]; draw(); });
   }
