@@ -190,6 +190,10 @@ fn numbers(rows: &Rows) -> Table {
         if rows.axes.is_empty() {
             return format!("row {}", row + 1);
         }
+        if let ([axis], [value]) = (&rows.axes[..], &rows.at(row)[..]) {
+            let unit = if axis.unit == "1" { "" } else { &axis.unit };
+            return format!("{} {unit}", significant(*value, 4)).trim_end().to_owned();
+        }
         let parts = rows.axes.iter().zip(rows.at(row));
         let parts: Vec<String> =
             parts.map(|(axis, value)| format!("{} = {}", axis.name, significant(value, 4))).collect();

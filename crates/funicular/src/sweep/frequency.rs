@@ -104,37 +104,28 @@ mod tests {
     use crate::modes::track::branches;
     use std::borrow::Cow;
 
-    /// Sum of the changes of the platform's share of the energy from step to step, along lists of modes.
-    fn unrest(steps: &[Vec<Mode>], lists: &[Vec<usize>]) -> f64 {
-        let share = |step: usize, list: usize| {
-            let k = lists[step].iter().position(|of| *of == list)?;
-            Some(steps[step][k].platform_energy_fraction)
-        };
-        let count = lists.iter().flatten().max().unwrap() + 1;
-        let pairs = (1..steps.len()).flat_map(|step| (0..count).map(move |list| (step, list)));
-        pairs.filter_map(|(step, list)| Some((share(step, list)? - share(step - 1, list)?).abs())).sum()
-    }
-
     #[test]
-    fn modes_of_a_growing_payload_keep_their_character_along_branches_and_not_along_their_order() {
+    fn modes_of_a_growing_payload_veer_in_fine_steps_and_cross_in_coarse_ones() {
         const MODES: usize = 12;
         let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
         let options = Options::default();
-        let (steps, tracked): (Vec<_>, Vec<_>) = (0..50)
-            .map(|i| {
-                let heavy = robot.with_mass(10.55 + (86.35 - 10.55) * f64::from(i) / 49.0);
+        let followed = |count: u32| -> Vec<Vec<usize>> {
+            let step = |i: u32| {
+                let heavy = robot.with_mass(10.55 + (86.35 - 10.55) * f64::from(i) / f64::from(count - 1));
                 let state = heavy.state.clone();
                 let point = Point { coordinates: Vec::new(), robot: Ok((Cow::Owned(heavy), Cow::Owned(state))) };
                 let found = lowest_modes(&point, MODES, &options).unwrap();
-                (found.modes, found.tracked)
-            })
-            .unzip();
-        assert!(steps.iter().all(|modes| modes.len() == MODES));
-        let branches = branches(&tracked);
-        let by_order = vec![(0..MODES).collect::<Vec<_>>(); steps.len()];
-        let crossings = branches.iter().filter(|of| of.windows(2).any(|pair| pair[0] > pair[1])).count();
-        assert!(crossings > 10, "{crossings}");
-        let (along, across) = (unrest(&steps, &branches), unrest(&steps, &by_order));
-        assert!(along < 0.5 * across, "{along} along branches, {across} by order");
+                assert!(found.modes.len() == MODES && found.tracked.len() == MODES);
+                found.tracked
+            };
+            branches(&(0..count).map(step).collect::<Vec<_>>())
+        };
+        // A robot without symmetry: its curves come near each other and never meet, however many there are.
+        let fine = followed(800);
+        assert!(fine.iter().all(|of| of.iter().copied().eq(0..MODES)), "{:?}", fine.last());
+        // The motions cross what the frequencies only come near to.
+        let coarse = followed(8);
+        let crossed = coarse.iter().filter(|of| of.windows(2).any(|pair| pair[0] > pair[1])).count();
+        assert!(crossed >= 3, "{coarse:?}");
     }
 }

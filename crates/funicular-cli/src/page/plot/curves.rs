@@ -214,7 +214,16 @@ fn curves(id: &'static str, rows: &Rows, along: &Along, members: &[&Series]) -> 
             let word = first.split(' ').next().unwrap_or_default().to_owned();
             let word = if word == "unstrained" { "unstrained length".to_owned() } else { word };
             let word = if several[0].name.ends_with("distance_m") { "distance".to_owned() } else { word };
-            (with_unit(&word, unit), format!("{word}: {}.", several[0].about))
+            let mut said: Vec<String> = Vec::new();
+            for series in several {
+                let same = several.iter().all(|other| other.about == series.about);
+                let name = if same { word.clone() } else { label(&series.name) };
+                let one = format!("{name}: {}", series.about);
+                if !said.contains(&one) {
+                    said.push(one);
+                }
+            }
+            (with_unit(&word, unit), format!("{}.", said.join("; ")))
         }
     };
     let caption = format!("{caption}{}", shading(rows, along));
