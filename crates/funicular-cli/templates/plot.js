@@ -227,6 +227,13 @@
   place.querySelectorAll("[data-axis]").forEach(function (label) {
     label.querySelector("input").addEventListener("input", function (event) { at[Number(label.dataset.axis)] = Number(event.target.value); draw(); });
   });
+  // In an incomplete file the middle may be missing: then the middle of what there is.
+  if (slice().raw.flat().every(function (value) { return value === null; })) {
+    const there = [];
+    values[0].forEach(function (value, cell) { if (!isNaN(value)) { there.push(cell); } });
+    const cell = there[Math.floor(there.length / 2)] || 0;
+    axes.forEach(function (one, k) { at[k] = Math.floor(cell / strides[k]) % one.values.length; });
+  }
   begin();
   draw();
 }());

@@ -7,7 +7,7 @@ mod slices;
 use super::Shell;
 use super::figure::Figure;
 use super::table::{Table, significant};
-use crate::table::counted;
+use crate::table::{counted, short};
 use anyhow::Context as _;
 use askama::Template;
 use funicular::modes::Mode;
@@ -151,7 +151,7 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     let mut key =
         vec![("rows", rows.rows.to_string()), ("feasible", format!("{} ({} %)", rows.feasible, significant(share, 3)))];
     let range = |axis: &rows::Axis| {
-        let ends = [axis.steps.at(0), axis.steps.at(axis.steps.count() - 1)].map(|end| significant(end, 4));
+        let ends = [axis.steps.at(0), axis.steps.at(axis.steps.count() - 1)].map(brief);
         format!(
             "{} {} to {}, {}",
             axis_title(&axis.name, &axis.unit),
@@ -166,14 +166,19 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
         key.push(("varies", rows.axes.iter().map(range).collect::<Vec<_>>().join("; ")));
     }
     let fixed = rows.fixed.iter().map(|(name, unit, value)| match unit.as_str() {
-        "deg" => format!("{name} = {}°", significant(*value, 4)),
-        unit => format!("{name} = {} {unit}", significant(*value, 4)),
+        "deg" => format!("{name} = {}°", brief(*value)),
+        unit => format!("{name} = {} {unit}", brief(*value)),
     });
     let fixed: Vec<String> = fixed.collect();
     if !fixed.is_empty() {
         key.push(("fixed", fixed.join(", ")));
     }
     key
+}
+
+/// A number with at most four digits, without zeros behind.
+fn brief(value: f64) -> String {
+    short(value, 4).replace('-', "−")
 }
 
 /// Name of an axis with its unit: `x [m]`, `platform mass [kg]`.
@@ -192,11 +197,10 @@ fn numbers(rows: &Rows) -> Table {
         }
         if let ([axis], [value]) = (&rows.axes[..], &rows.at(row)[..]) {
             let unit = if axis.unit == "1" { "" } else { &axis.unit };
-            return format!("{} {unit}", significant(*value, 4)).trim_end().to_owned();
+            return format!("{} {unit}", brief(*value)).trim_end().to_owned();
         }
         let parts = rows.axes.iter().zip(rows.at(row));
-        let parts: Vec<String> =
-            parts.map(|(axis, value)| format!("{} = {}", axis.name, significant(value, 4))).collect();
+        let parts: Vec<String> = parts.map(|(axis, value)| format!("{} = {}", axis.name, brief(value))).collect();
         parts.join(", ")
     };
     let mut table = Table::new(

@@ -181,6 +181,22 @@ fn two_values_become_slices_without_a_view_in_space() {
 }
 
 #[test]
+fn a_part_is_drawn_with_a_note_of_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = text(&folder.path().join("part.parquet"));
+    let grid = ["--grid", "x=-3:3:20", "--grid", "y=-2:2:10", "--grid", "z=1,2", "--quantity", "tension-max"];
+    succeed(&[&["map", &robot("cogiro.toml")], &grid[..], &["--part", "2/3", "-o", &file]].concat());
+    let output = run(&["plot", &file, "-o", "-"]);
+    assert!(stderr(&output).contains("the file is part 2/3:"), "{}", stderr(&output));
+    let (_, status, numbers) = slices(stdout(&output));
+    let there = status.iter().filter(|code| **code != u8::MAX).count();
+    assert!(there > 100 && there < 200, "{there} of 400");
+    // In the middle of the grid, where its rows belong.
+    assert!(status[0] == u8::MAX && status[399] == u8::MAX && numbers[0][200].is_finite());
+    assert!(stdout(&output).contains("not in this file"));
+}
+
+#[test]
 fn what_is_no_file_of_a_sweep_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| text(&folder.path().join(name));
