@@ -15,12 +15,12 @@ use funicular::statics::StaticModel;
 use funicular_files::edit::Assignment;
 pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
-pub(crate) use sweep::{MapArgs, MergeArgs, RunArgs, SweepArgs, WhatArgs};
+pub(crate) use sweep::{MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs, WhatArgs};
 use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// All but `import`, `paper` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
+/// All but `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
 /// the unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
@@ -99,6 +99,16 @@ pub(crate) enum Command {
     /// Parts of a map or sweep become one file
     #[command(after_help = "Example:\n  funicular merge part-*.parquet -o all.parquet")]
     Merge(MergeArgs),
+    /// A map or sweep in pictures: one page that opens offline
+    ///
+    /// Grids as slices with contours, the feasible set, histograms and points in space; trajectories and sweeps of one value
+    /// as curves, the natural frequencies with their modes followed through crossings and veering. docs/sweeps.md says how.
+    #[command(
+        after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
+        --quantity tension-max,stiffness-min -o cogiro.parquet\n  funicular plot cogiro.parquet\n  \
+        funicular plot mass.parquet -o mass.html"
+    )]
+    Plot(PlotArgs),
     /// All of it on one page, figures included
     #[command(after_help = "Examples:\n  funicular report\n  \
         funicular report robots/cogiro.toml -o cogiro.html\n  \

@@ -10,6 +10,7 @@ pub(crate) mod map;
 pub(crate) mod merge;
 pub(crate) mod modes;
 pub(crate) mod paper;
+pub(crate) mod plot;
 pub(crate) mod pose_error;
 pub(crate) mod reduce;
 pub(crate) mod report;

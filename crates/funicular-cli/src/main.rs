@@ -51,6 +51,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Map(args) => commands::map::run(args),
         Command::Sweep(args) => commands::sweep::run(args),
         Command::Merge(args) => commands::merge::run(args),
+        Command::Plot(args) => commands::plot::run(args),
         Command::Report(args) => commands::report::run(args),
         Command::Paper(args) => commands::paper::run(args),
         Command::Import(args) => commands::import::run(args),

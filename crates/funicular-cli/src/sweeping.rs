@@ -1,5 +1,6 @@
 //! What `map` and `sweep` share: a plan is computed, its rows go to a file or to standard output, a summary is given.
 
+pub(crate) mod again;
 mod summary;
 
 use crate::args::Format;
@@ -85,6 +86,8 @@ pub(crate) fn described(
         "force_n": vector(state.load.force_n),
         "moment_n_m": vector(state.load.moment_n_m),
         "load_point_m": vector(state.load.load_point_m),
+        "wind_m_s": vector(state.load.wind_m_s),
+        "cable_load_n_per_m": vector(state.load.cable_load_n_per_m),
     });
     match value {
         Value::Object(map) => map.into_iter().filter(|(_, value)| !value.is_null()).collect(),

@@ -39,7 +39,7 @@ const page = (function () {
       plots.push(place);
     });
   }
-  draw();
+  const drawn = draw();
 
   function redraw() { plots.forEach(function (place) { Plotly.Plots.resize(place); }); }
   function size(place) { return { width: place.clientWidth, height: place.clientHeight }; }
@@ -55,5 +55,10 @@ const page = (function () {
     plots.forEach(function (place) { Plotly.relayout(place, { width: null, height: null, autosize: true }); });
     redraw();
   });
-  return { unpack: unpack, excuse: excuse };
+  // A figure of a page's own script, which waits for `drawn`; drawn anew where it is.
+  function show(place, data, layout) {
+    if (!plots.includes(place)) { plots.push(place); }
+    return Plotly.react(place, data, layout, config);
+  }
+  return { unpack: unpack, excuse: excuse, drawn: drawn, show: show };
 }());

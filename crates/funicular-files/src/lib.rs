@@ -11,6 +11,7 @@ mod job;
 mod journal;
 mod merge;
 mod parquet;
+mod read;
 mod record;
 mod variations;
 mod vti;
@@ -18,6 +19,7 @@ pub mod whole;
 
 pub use job::{Begin, Job, Opened};
 pub use merge::merge;
+pub use read::SweepFile;
 pub use record::{Difference, Part, Record};
 pub use variations::{Variation, Variations};
 pub use vti::Grid;

@@ -89,7 +89,7 @@ fn other(error: ParquetError) -> io::Error {
 
 /// A file that a sweep has written.
 pub(crate) struct ParquetFile {
-    path: std::path::PathBuf,
+    pub(crate) path: std::path::PathBuf,
     /// All of its record but the robot.
     pub(crate) json: Value,
     pub(crate) robot_file: String,

@@ -22,6 +22,25 @@ impl Grid {
         });
         axes.collect()
     }
+
+    /// What [`Grid::to_json`] wrote; `None` for anything else.
+    pub fn from_json(json: &Value) -> Option<Self> {
+        let axis = |json: &Value| {
+            let name = json["axis"].as_str()?.to_owned();
+            let steps = match json["values"].as_array() {
+                Some(values) if !values.is_empty() => {
+                    Steps::List(values.iter().map(Value::as_f64).collect::<Option<_>>()?)
+                }
+                Some(_) => return None,
+                None => {
+                    let count = usize::try_from(json["count"].as_u64()?).ok()?;
+                    Steps::range(json["from"].as_f64()?, json["to"].as_f64()?, count).ok()?
+                }
+            };
+            Some((name, steps))
+        };
+        json.as_array()?.iter().map(axis).collect::<Option<_>>().map(Self)
+    }
 }
 
 /// Three axes: where each begins, its step and its number of values.

@@ -3,6 +3,10 @@
 //! A cable whose platform end moves by u answers along its length with `Ψ(s) u + Σ φ_k(s) q_k`: the slow shape and its
 //! clamped modes, the amplitudes following from u and the frequency (docs/theory.md, section 11).
 
+mod weighted;
+
+pub use weighted::WeightedMotions;
+
 use crate::cable::exact::{Exact, ExactError, Stations, Swing};
 use crate::cable::{CableModel, DynamicCable, LocalAxes, damped_square};
 use crate::dynamics::Dynamics;

@@ -7,6 +7,7 @@
 mod checks;
 pub mod damped;
 mod first;
+pub mod track;
 
 pub use first::{First, FirstError, first, first_of_all};
 

@@ -15,6 +15,7 @@ mod status;
 mod steps;
 
 pub use columns::{Chunk, Column, Kind, Values};
+pub use frequency::{PointModes, lowest_modes};
 pub use points::{AXES, Point, Points, Poses};
 pub use quantity::{MOST_FREQUENCIES, QUANTITIES, Quantity, UnknownQuantity};
 pub use run::Outcome;

@@ -1,4 +1,4 @@
-//! Options of `map`, `sweep` and `merge`.
+//! Options of `map`, `sweep`, `merge` and `plot`.
 
 use super::{Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
 use clap::Args;
@@ -106,4 +106,15 @@ pub(crate) struct MergeArgs {
     /// Write all rows to FILE.parquet, .csv or .vti, as a whole or not at all
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output_file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PlotArgs {
+    /// What `map` or `sweep` has written
+    #[arg(value_name = "FILE.parquet")]
+    pub(crate) file: PathBuf,
+
+    /// Write the page to FILE, as a whole or not at all; - is standard output [default: as FILE.parquet, ending in .html]
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output_file: Option<PathBuf>,
 }

@@ -6,6 +6,7 @@ mod files;
 mod freedoms;
 mod import;
 mod pages;
+mod plots;
 mod readme;
 mod results;
 mod sweeps;

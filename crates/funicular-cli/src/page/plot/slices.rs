@@ -1,0 +1,97 @@
+//! Grids of two axes and more: what the page's own script draws slices, sets and points from.
+
+use super::rows::{Rows, label, with_unit};
+use super::{axis_title, status};
+use crate::page::figure::colour;
+use crate::page::packed;
+use askama::Template;
+use funicular::sweep::CODES;
+use serde_json::json;
+
+/// The part of the page with a choice of quantity and slice.
+#[derive(Template)]
+#[template(path = "slices.html")]
+pub(super) struct Slices {
+    packed: String,
+    /// Names of the quantities.
+    quantities: Vec<String>,
+    /// Pairs of axes that a slice can have, by number.
+    planes: Vec<(String, usize)>,
+    /// Names of the axes; the script hides the two of the slice.
+    axes: Vec<String>,
+    in_space: bool,
+    points: usize,
+}
+
+impl Slices {
+    /// Of rows on a grid.
+    pub(super) fn new(rows: &Rows, is_sweep: bool) -> Self {
+        let axes = &rows.axes;
+        let title = |i: usize| axis_title(&axes[i].name, &axes[i].unit);
+        // The two longest axes first, each pair in the order of the file.
+        let mut pairs: Vec<(usize, usize)> =
+            (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j))).collect();
+        pairs.sort_by_key(|(i, j)| std::cmp::Reverse(axes[*i].kept() * axes[*j].kept()));
+        let position = |name: &str| axes.iter().position(|axis| axis.name == name);
+        let space = if is_sweep { None } else { position("x").zip(position("y")).zip(position("z")) };
+        let space = space.map(|((x, y), z)| [x, y, z]);
+        let header = json!({
+            "axes": (0..axes.len()).map(|i| json!({
+                "name": axes[i].name, "title": title(i), "unit": axes[i].unit, "values": axes[i].values(),
+            })).collect::<Vec<_>>(),
+            "pairs": pairs,
+            "space": space,
+            "quantities": rows.series.iter().map(|series| json!({
+                "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit), "unit": series.unit,
+                "count": series.count, "bins": series.bins.to_vec(),
+                "least": if series.count > 0 { series.least.0 } else { 0.0 },
+                "greatest": if series.count > 0 { series.greatest.0 } else { 0.0 },
+            })).collect::<Vec<_>>(),
+            "statuses": rows.counts.iter().enumerate().map(|(i, count)| json!({
+                "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code, i),
+            })).collect::<Vec<_>>(),
+            "feasible": CODES.iter().filter(|code| !code.1.starts_with("infeasible")).map(|code| code.0).collect::<Vec<_>>(),
+        });
+        // Length of the header, the header, the status of every cell, and the quantities, one after the other.
+        let header = header.to_string();
+        let mut bytes = u32::try_from(header.len()).unwrap_or(u32::MAX).to_le_bytes().to_vec();
+        bytes.extend(header.as_bytes());
+        bytes.extend(&rows.status);
+        // Seven digits are more than a picture shows.
+        bytes.extend(
+            rows.series.iter().flat_map(|series| &series.values).flat_map(|value| (*value as f32).to_le_bytes()),
+        );
+        Self {
+            packed: packed(&bytes),
+            quantities: rows.series.iter().map(|series| label(&series.name)).collect(),
+            planes: pairs
+                .iter()
+                .enumerate()
+                .map(|(k, (i, j))| (format!("{}, {}", axes[*i].name, axes[*j].name), k))
+                .collect(),
+            axes: (0..axes.len()).map(title).collect(),
+            in_space: space.is_some(),
+            points: rows.shown(),
+        }
+    }
+}
+
+/// Light for what is good, strong colours for what is not; the same for a status on every page where there are few.
+fn colour_of(code: u8, place: usize) -> &'static str {
+    const OTHERS: [&str; 6] =
+        [colour::VERMILION, colour::PURPLE, colour::BLUE, colour::ORANGE, colour::GREEN, colour::BLACK];
+    match super::status(code).0 {
+        "ok" => "#cfe8f7",
+        "would-push" => colour::VERMILION,
+        "beyond-limits" => colour::PURPLE,
+        "not-converged" => colour::BLACK,
+        "singular" => colour::BLUE,
+        "slack" => colour::SKY,
+        "no-frequency" | "not-certified" => colour::ORANGE,
+        "unstable" => colour::GREEN,
+        _ => OTHERS[place % OTHERS.len()],
+    }
+}
+
+/// What draws them.
+pub(super) const SCRIPT: &str = include_str!("../../../templates/plot.js");

@@ -1,0 +1,66 @@
+//! Rows read back from a file, for pictures.
+
+use crate::merge::record_of;
+use crate::parquet::ParquetFile;
+use crate::{FilesError, Record};
+use funicular::sweep::{Chunk, Values};
+use std::io;
+use std::path::Path;
+
+/// A Parquet file of a sweep.
+pub struct SweepFile {
+    file: ParquetFile,
+    /// What it says of itself.
+    pub record: Record,
+    /// It has all rows that it is to hold.
+    pub complete: bool,
+    /// Place of its first row among those of all parts.
+    pub first_row: usize,
+    /// Rows that it has.
+    pub rows: usize,
+}
+
+impl SweepFile {
+    /// Opens it and reads what it says of itself.
+    ///
+    /// # Errors
+    /// [`FilesError`]: a file that cannot be read, or that no sweep of this version has written.
+    pub fn open(path: &Path) -> Result<Self, FilesError> {
+        if path.is_dir() {
+            let cause = io::Error::new(io::ErrorKind::IsADirectory, "it is a directory; give the file");
+            return Err(FilesError::Read { path: path.to_owned(), cause });
+        }
+        let file = ParquetFile::open(path)?;
+        let mut record = record_of(&file, path)?;
+        record.part = file.part;
+        let not_ours = |reason: &str| FilesError::NotOurs { path: path.to_owned(), reason: reason.to_owned() };
+        let (complete, rows) = (file.complete, file.rows);
+        let range = record.range();
+        if range.end > record.chunks() || rows > record.rows_of(range.clone()) {
+            return Err(not_ours("it has more rows than its plan"));
+        }
+        let first_row = range.start * record.chunk_rows;
+        Ok(Self { file, record, complete, first_row, rows })
+    }
+
+    /// Its rows in chunks, in order.
+    ///
+    /// # Errors
+    /// [`FilesError`]: a file that is damaged, or whose columns are not those of its record.
+    pub fn each(&self, mut take: impl FnMut(&Chunk)) -> Result<(), FilesError> {
+        /// Enough to read fast, few to hold.
+        const ROWS: usize = 4096;
+        self.file
+            .each(0, ROWS, &mut |chunk| {
+                let kinds = self.record.columns.iter().map(|column| Values::new(column.kind, 0));
+                let same =
+                    |(ours, theirs): (Values, &Values)| std::mem::discriminant(&ours) == std::mem::discriminant(theirs);
+                if chunk.columns.len() != self.record.columns.len() || !kinds.zip(&chunk.columns).all(same) {
+                    return Err(io::Error::new(io::ErrorKind::InvalidData, "its columns are not those of its plan"));
+                }
+                take(&chunk);
+                Ok(())
+            })
+            .map_err(|cause| FilesError::Read { path: self.file.path.clone(), cause })
+    }
+}

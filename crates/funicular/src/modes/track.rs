@@ -1,0 +1,263 @@
+//! Which mode is which while the robot changes: branches, by the likeness of motions.
+//!
+//! Modes sorted by frequency change places where curves cross. Where they veer instead, they come near, exchange their
+//! motions and part; a list by frequency does not tell. Here every mode goes on in the one of the next step whose motion
+//! is most like its own, all at once.
+
+/// A mode as tracking sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tracked {
+    /// Natural frequency [Hz].
+    pub frequency_hz: f64,
+    /// Its motion in coordinates weighted by the square root of their masses, so that the square of its length is twice the
+    /// kinetic energy over the square of the frequency [1/s]. Any size but zero, either sign; of one number of coordinates
+    /// throughout.
+    pub motion: Vec<f64>,
+}
+
+/// Likeness from which on a mode is taken for that of the step before. Of two modes that exchange their motions, exactly
+/// one can be above it.
+pub const LEAST_LIKENESS: f64 = 0.5;
+
+/// Relative distance of frequencies below which motions are any mixture of each other, as of a symmetric robot.
+const TOGETHER: f64 = 1e-6;
+
+/// The likeness of two motions (modal assurance criterion, weighted by mass): the squared cosine of their angle. 1 for the
+/// same motion, 0 for motions without common energy, or if one is at rest.
+///
+/// # Example
+/// ```
+/// # use funicular::modes::track::likeness;
+/// assert_eq!(likeness(&[3.0, 0.0], &[-2.0, 0.0]), 1.0);
+/// assert!((likeness(&[1.0, 0.0], &[1.0, 1.0]) - 0.5).abs() < 1e-15);
+/// ```
+///
+/// # References
+/// R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
+pub fn likeness(a: &[f64], b: &[f64]) -> f64 {
+    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(x, y)| x * y).sum() };
+    let both = dot(a, a) * dot(b, b);
+    if both > 0.0 { (dot(a, b).powi(2) / both).min(1.0) } else { 0.0 }
+}
+
+/// The branch of every mode of every step, from 0, in order of first appearance.
+///
+/// Each step is compared with the last one that has modes: the pairs are those with the greatest sum of likenesses
+/// (Hungarian method). A pair that is less alike than [`LEAST_LIKENESS`] is none: one branch ends, another begins. What
+/// is one branch depends on the steps. If they are wider than the range in which two curves veer, branches cross, as motions
+/// do; if they are finer, they follow the curves apart.
+///
+/// # Example
+/// ```
+/// # use funicular::modes::track::{Tracked, branches};
+/// let mode = |frequency_hz, motion: [f64; 2]| Tracked { frequency_hz, motion: motion.to_vec() };
+/// let before = vec![mode(1.0, [1.0, 0.1]), mode(1.2, [-0.1, 1.0])];
+/// let after = vec![mode(1.1, [0.1, -1.0]), mode(1.3, [1.0, 0.1])];
+/// assert_eq!(branches(&[before, after]), [[0, 1], [1, 0]]);
+/// ```
+pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
+    let mut known = 0;
+    let mut last: Option<(&[Tracked], Vec<usize>)> = None;
+    let mut found = Vec::with_capacity(steps.len());
+    for step in steps {
+        let mut of_step = vec![None; step.len()];
+        if let Some((before, branch)) = &last {
+            let alike = all_likenesses(before, step);
+            for (i, j) in best_pairs(&alike, step.len()) {
+                if alike[i][j] >= LEAST_LIKENESS {
+                    of_step[j] = Some(branch[i]);
+                }
+            }
+        }
+        let of_step: Vec<usize> = of_step
+            .into_iter()
+            .map(|branch| {
+                branch.unwrap_or_else(|| {
+                    known += 1;
+                    known - 1
+                })
+            })
+            .collect();
+        if !step.is_empty() {
+            last = Some((step, of_step.clone()));
+        }
+        found.push(of_step);
+    }
+    found
+}
+
+/// Likeness of every mode before with every one after. Modes at one frequency share a space of motions, and which of them
+/// are listed is chance: with such it is the part of a motion that lies in the space.
+fn all_likenesses(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
+    let plain: Vec<Vec<f64>> =
+        before.iter().map(|a| after.iter().map(|b| likeness(&a.motion, &b.motion)).collect()).collect();
+    let (of_before, of_after) = (companies(before), companies(after));
+    let in_space = |i: usize, j: usize| {
+        let with_after: f64 = of_after[j].clone().map(|k| plain[i][k]).sum();
+        let with_before: f64 = of_before[i].clone().map(|k| plain[k][j]).sum();
+        with_after.max(with_before).min(1.0)
+    };
+    (0..before.len()).map(|i| (0..after.len()).map(|j| in_space(i, j).max(plain[i][j])).collect()).collect()
+}
+
+/// For each mode the places of those at its frequency; modes are in ascending order.
+fn companies(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
+    let mut companies = Vec::with_capacity(modes.len());
+    let mut begin = 0;
+    for end in 1..=modes.len() {
+        let apart = |i: usize| modes[i].frequency_hz - modes[i - 1].frequency_hz > TOGETHER * modes[i].frequency_hz;
+        if end == modes.len() || apart(end) {
+            companies.extend((begin..end).map(|_| begin..end));
+            begin = end;
+        }
+    }
+    companies
+}
+
+/// Pairs (row, column) with the greatest sum of values in 0 to 1, as many as the shorter side has (Hungarian method with
+/// potentials, one row after the other; of equal sums the one found first).
+fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
+    let size = values.len().max(columns);
+    let cost = |i: usize, j: usize| 1.0 - values.get(i).and_then(|row| row.get(j)).unwrap_or(&0.0);
+    // Row 0 and column 0 stand for none.
+    let (mut of_row, mut of_column) = (vec![0.0; size + 1], vec![0.0; size + 1]);
+    let mut row_at = vec![0; size + 1];
+    for row in 1..=size {
+        let mut slack = vec![f64::INFINITY; size + 1];
+        let (mut from, mut seen) = (vec![0; size + 1], vec![false; size + 1]);
+        let mut column = 0;
+        row_at[0] = row;
+        loop {
+            seen[column] = true;
+            let at = row_at[column];
+            let (mut step, mut next) = (f64::INFINITY, 0);
+            for j in (1..=size).filter(|&j| !seen[j]) {
+                let reduced = cost(at - 1, j - 1) - of_row[at] - of_column[j];
+                if reduced < slack[j] {
+                    (slack[j], from[j]) = (reduced, column);
+                }
+                if slack[j] < step {
+                    (step, next) = (slack[j], j);
+                }
+            }
+            for j in 0..=size {
+                if seen[j] {
+                    of_row[row_at[j]] += step;
+                    of_column[j] -= step;
+                } else {
+                    slack[j] -= step;
+                }
+            }
+            column = next;
+            if row_at[column] == 0 {
+                break;
+            }
+        }
+        while column != 0 {
+            let before = from[column];
+            row_at[column] = row_at[before];
+            column = before;
+        }
+    }
+    (1..=size)
+        .map(|column| (row_at[column] - 1, column - 1))
+        .filter(|&(i, j)| i < values.len() && j < columns)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two oscillators of unit mass with stiffnesses 10 ± p and a coupling c: squares of the frequencies 10 ± √(p² + c²),
+    /// motions (cos φ, sin φ) with tan 2φ = c/p, above, and at right angles to it below.
+    fn veering(p: f64, c: f64) -> Vec<Tracked> {
+        let (root, phi) = (p.hypot(c), 0.5 * c.atan2(p));
+        let hz = |square: f64| square.sqrt() / std::f64::consts::TAU;
+        vec![
+            Tracked { frequency_hz: hz(10.0 - root), motion: vec![-phi.sin(), phi.cos()] },
+            Tracked { frequency_hz: hz(10.0 + root), motion: vec![phi.cos(), phi.sin()] },
+        ]
+    }
+
+    fn last(steps: &[Vec<Tracked>]) -> Vec<usize> {
+        branches(steps).pop().unwrap()
+    }
+
+    #[test]
+    fn branches_cross_where_a_step_is_wider_than_the_veering_and_veer_where_it_is_finer() {
+        // From −p to p the motions turn by φ(−p) − φ(p) = π/2 − atan(c/p), by more than 45° if p > c.
+        for (ratio, expected) in [(1.01, [1, 0]), (0.99, [0, 1]), (30.0, [1, 0]), (0.05, [0, 1])] {
+            let c = 0.1;
+            assert_eq!(last(&[veering(-ratio * c, c), veering(ratio * c, c)]), expected, "{ratio}");
+        }
+        // Through the whole range in fine steps.
+        let fine: Vec<_> = (-200..=200).map(|k| veering(0.01 * f64::from(k), 0.1)).collect();
+        assert_eq!(last(&fine), [0, 1]);
+        let coarse: Vec<_> = (-3..=4).map(|k| veering(f64::from(k) - 0.5, 0.1)).collect();
+        assert_eq!(last(&coarse), [1, 0]);
+    }
+
+    #[test]
+    fn uncoupled_modes_cross_and_neither_size_nor_sign_of_motions_counts() {
+        let mut steps: Vec<_> = (-5..=6).map(|k| veering(f64::from(k) - 0.5, 1e-9)).collect();
+        for (k, mode) in steps.iter_mut().flatten().enumerate() {
+            mode.motion.iter_mut().for_each(|x| *x *= (1.0 + k as f64) * if k % 3 == 0 { -1.0 } else { 1.0 });
+        }
+        assert_eq!(last(&steps), [1, 0]);
+    }
+
+    #[test]
+    fn modes_at_one_frequency_go_on_however_they_are_mixed() {
+        let mode = |frequency_hz, motion: [f64; 3]| Tracked { frequency_hz, motion: motion.to_vec() };
+        let turned = |angle: f64| {
+            let (s, c) = angle.sin_cos();
+            vec![mode(1.0, [c, s, 0.0]), mode(1.0, [-s, c, 0.0]), mode(2.0, [0.0, 0.0, 1.0])]
+        };
+        let steps: Vec<_> = [0.0, 0.785, 1.3, 2.2].map(turned).to_vec();
+        assert!(branches(&steps).iter().flatten().all(|branch| *branch < 3), "{:?}", branches(&steps));
+    }
+
+    #[test]
+    fn branches_begin_end_and_bridge_steps_without_modes() {
+        let mode = |frequency_hz, k: usize| Tracked {
+            frequency_hz,
+            motion: (0..4).map(|i| f64::from(u8::from(i == k))).collect(),
+        };
+        let steps = [vec![mode(1.0, 0), mode(2.0, 1)], vec![], vec![mode(1.5, 1), mode(1.7, 2)], vec![mode(1.0, 2)]];
+        assert_eq!(branches(&steps), [vec![0, 1], vec![], vec![1, 2], vec![2]]);
+        assert_eq!(branches(&[]), Vec::<Vec<usize>>::new());
+        // At rest: like nothing.
+        assert!(likeness(&[0.0, 0.0], &[1.0, 0.0]) <= 0.0);
+    }
+
+    #[test]
+    fn the_pairs_have_the_greatest_sum_of_all() {
+        /// By trying every pairing of a row with a column that is left.
+        fn greatest(values: &[Vec<f64>], taken: &mut Vec<usize>) -> f64 {
+            let Some(row) = values.get(taken.len()) else { return 0.0 };
+            let mut best = f64::NEG_INFINITY;
+            for (j, value) in row.iter().enumerate() {
+                if !taken.contains(&j) {
+                    taken.push(j);
+                    best = best.max(value + greatest(values, taken));
+                    taken.pop();
+                }
+            }
+            best
+        }
+        // A fixed sequence without pattern: fractions of multiples of the golden ratio.
+        let number = |k: usize| (k as f64 * 0.618_033_988_749_894_9).fract();
+        for (rows, columns) in [(1, 1), (3, 3), (4, 6), (6, 6)] {
+            for seed in 0..20 {
+                let values: Vec<Vec<f64>> = (0..rows)
+                    .map(|i| (0..columns).map(|j| number(seed * 97 + i * 31 + j * j * 7 + 1)).collect())
+                    .collect();
+                let pairs = best_pairs(&values, columns);
+                assert_eq!(pairs.len(), rows);
+                let sum: f64 = pairs.iter().map(|&(i, j)| values[i][j]).sum();
+                assert!((sum - greatest(&values, &mut Vec::new())).abs() < 1e-12, "{rows}×{columns}, {seed}");
+            }
+        }
+    }
+}
