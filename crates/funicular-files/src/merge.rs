@@ -102,7 +102,7 @@ impl Rows for Parts<'_> {
 }
 
 /// The record that a file has, without the part.
-fn record_of(file: &ParquetFile, path: &Path) -> Result<Record, FilesError> {
+pub(crate) fn record_of(file: &ParquetFile, path: &Path) -> Result<Record, FilesError> {
     let json = &file.json;
     let not_ours = |reason: String| FilesError::NotOurs { path: path.to_owned(), reason };
     if json["schema"] != SCHEMA {
