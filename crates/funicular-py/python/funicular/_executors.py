@@ -70,8 +70,8 @@ def note_what_is_safe(error: BaseException, work: SweepWork) -> None:
     """Ends it early; says in the exception what is safe."""
     try:
         safe = work.interrupt()
-    except Error:
-        return  # The exception at hand says more.
+    except (Error, ValueError):
+        return  # It has ended, or the exception at hand says more.
     if safe is not None:
         error.add_note(safe)
 
@@ -122,7 +122,7 @@ class Shared:
             return self.work.finish()
         except BaseException as error:
             # In memory the work stays open for `ExecutorError.resume`; a file is closed, so that others can go on with it.
-            with contextlib.suppress(Error):
+            with contextlib.suppress(Error, ValueError):
                 self._deliver()
             if self.file is not None:
                 note_what_is_safe(error, self.work)

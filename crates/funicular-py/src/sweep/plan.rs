@@ -9,7 +9,7 @@ use crate::robot::PyRobot;
 use crate::waiting::LOOK;
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics;
-use funicular::sweep::{Chunk, Outcome, Plan, Points, Poses, Quantity, Steps};
+use funicular::sweep::{Chunk, Plan, Points, Poses, Quantity, Steps};
 use funicular_files::{Begin, Grid, Job, Opened, Record, Source, Variation, Variations, edit, table};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -176,8 +176,8 @@ impl Whole {
             }
             PointsAsked::Poses(rows) => {
                 let robot = state.robot(statics.robot(&file.robot)?)?;
-                let turned = |row: &&[f64; 6]| row[3..].iter().any(|angle| *angle != 0.0);
-                if robot.platform.freedoms == Freedoms::PointMass && rows.iter().find(turned).is_some() {
+                let turned = |row: &[f64; 6]| row[3..].iter().any(|angle| *angle != 0.0);
+                if robot.platform.freedoms == Freedoms::PointMass && rows.iter().any(turned) {
                     return Err(errors::input("a point mass has no orientation: give poses of x, y, z".to_owned()));
                 }
                 let (poses, rows) = (Poses::list(robot.clone(), rows.clone()), rows.clone());
@@ -255,7 +255,7 @@ impl Whole {
             drop(receiver);
             match runner.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
-                Ok(Ok(Outcome::Complete | Outcome::Cancelled { .. }) | Err(_)) => ended,
+                Ok(_) => ended,
             }
         })
     }

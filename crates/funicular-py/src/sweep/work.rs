@@ -9,15 +9,16 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Where rows go.
-enum Into {
+enum Place {
     Memory(Growing),
     File(Box<Job>, PathBuf),
 }
 
-impl Into {
+impl Place {
     fn add(&mut self, chunk: &funicular::sweep::Chunk) -> PyResult<()> {
         match self {
             Self::Memory(rows) => rows.add(chunk).map_err(|error| PyRuntimeError::new_err(error.to_string())),
@@ -38,20 +39,20 @@ impl Into {
 pub(crate) struct PyWork {
     whole: Arc<Whole>,
     /// None once it has ended.
-    into: Option<Into>,
+    into: Option<Place>,
 }
 
 impl PyWork {
     pub(crate) fn in_memory(whole: Arc<Whole>) -> Self {
-        let into = Into::Memory(Growing::new(whole.record.clone()));
+        let into = Place::Memory(Growing::new(whole.record.clone()));
         Self { whole, into: Some(into) }
     }
 
     pub(crate) fn in_file(whole: Arc<Whole>, job: Job, path: PathBuf) -> Self {
-        Self { whole, into: Some(Into::File(Box::new(job), path)) }
+        Self { whole, into: Some(Place::File(Box::new(job), path)) }
     }
 
-    fn open(&mut self) -> PyResult<&mut Into> {
+    fn open(&mut self) -> PyResult<&mut Place> {
         self.into.as_mut().ok_or_else(ended)
     }
 }
@@ -79,8 +80,8 @@ impl PyWork {
     #[getter]
     fn journal(&mut self) -> PyResult<Option<PathBuf>> {
         Ok(match self.open()? {
-            Into::Memory(_) => None,
-            Into::File(job, _) => Some(job.journal().to_owned()),
+            Place::Memory(_) => None,
+            Place::File(job, _) => Some(job.journal().to_owned()),
         })
     }
 
@@ -106,19 +107,19 @@ impl PyWork {
         let whole = Arc::clone(&self.whole);
         let into = self.open()?;
         let chunks = into.next()..whole.record.chunks();
-        let done = std::cell::Cell::new(chunks.start);
+        let done = AtomicUsize::new(chunks.start);
         let mut told = Instant::now();
         let tell = || match &progress {
             None => Ok(()),
             Some(progress) => Python::attach(|py| {
-                progress.call1(py, (whole.record.rows_of(0..done.get()), whole.record.rows)).map(drop)
+                progress.call1(py, (whole.record.rows_of(0..done.load(Ordering::Relaxed)), whole.record.rows)).map(drop)
             }),
         };
         py.detach(|| {
             let tell = &tell;
             let take = |chunk: funicular::sweep::Chunk| {
                 into.add(&chunk)?;
-                done.set(chunk.index + 1);
+                done.store(chunk.index + 1, Ordering::Relaxed);
                 Ok(())
             };
             let look = || {
@@ -142,8 +143,8 @@ impl PyWork {
         let into = self.into.take().ok_or_else(ended)?;
         let whole = Arc::clone(&self.whole);
         py.detach(|| match into {
-            Into::Memory(rows) => finished(rows).map(Some),
-            Into::File(job, path) => {
+            Place::Memory(rows) => finished(rows).map(Some),
+            Place::File(job, path) => {
                 let table = if is_parquet(&path) {
                     None
                 } else {
@@ -168,7 +169,7 @@ impl PyWork {
     fn interrupt(&mut self, py: Python<'_>) -> PyResult<Option<String>> {
         let rows = self.whole.record.rows;
         let done = self.done()?;
-        let Some(Into::File(job, path)) = self.into.take() else { return Ok(None) };
+        let Some(Place::File(job, path)) = self.into.take() else { return Ok(None) };
         let journal = job.journal().display().to_string();
         let written = py.detach(|| job.interrupt()).map_err(|error| errors::files(&error))?;
         let written = if written { format!("; {} has them, marked as incomplete", path.display()) } else { String::new() };
