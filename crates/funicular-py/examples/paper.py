@@ -21,7 +21,7 @@ for millimetres, line in ((4, "-"), (8, "--")):
             rows["platform.mass_kg"], 1e3 * rows[column], line, color=f"C{colour}", label=f"{label}, {millimetres} mm"
         )
 left.set(xlabel="platform mass [kg]", ylabel="pose error [mm]")
-left.legend(ncols=2)
+left.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1))
 
 rest = funicular.Robot.example().equilibrium(pose=[0, 0, 0.5])
 hz = np.linspace(0.3, 12, 3000)

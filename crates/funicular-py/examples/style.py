@@ -18,7 +18,7 @@ pyplot.rcParams.update(
         "lines.linewidth": 1.1,
         "axes.spines.top": False,
         "axes.spines.right": False,
-        "savefig.dpi": 150,
+        "savefig.dpi": 120,
     }
 )
 

@@ -6,7 +6,8 @@ from matplotlib import pyplot
 from style import ROBOTS, save
 
 robot = funicular.Robot.from_file(ROBOTS / "cogiro.toml")
-rows = robot.map({"x": (-7, 7, 57), "y": (-5.5, 5.5, 45), "z": [1.5]}, ["tension-max", "stiffness-min"])
+grid = {"x": (-7, 7, 57), "y": (-5.5, 5.5, 45)}
+rows = robot.map(grid, quantities=["tension-max", "stiffness-min"], pose=[0, 0, 1.5])
 x, y = rows.axes["x"], rows.axes["y"]
 infeasible = np.ma.masked_where(rows.on_grid("feasible"), np.ones((len(y), len(x))))
 
@@ -25,6 +26,6 @@ for ax, (column, scale, label) in zip(
     anchors = robot.anchors_m
     ax.plot(anchors[:, 0], anchors[:, 1], "k^", markersize=4, clip_on=False)
     ax.set(xlabel="x [m]", aspect="equal")
-    figure.colorbar(drawn, ax=ax, label=label)
+    figure.colorbar(drawn, ax=ax, label=label, shrink=0.8)
 axes[0].set_ylabel("y [m]")
 save(figure, "workspace")

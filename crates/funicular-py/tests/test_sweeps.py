@@ -81,7 +81,7 @@ def test_a_list_of_poses_is_that_of_the_program(executable: str, robot: funicula
 @pytest.fixture(scope="module")
 def rows() -> funicular.Sweep:
     return funicular.Robot.example().map(
-        {"x": (-4, 4, 9), "y": (-1, 1, 3), "z": [0.5]}, quantities=["tension-max", "first-kind"], up_to_hz=20
+        {"x": (-4, 4, 9), "y": (-1, 1, 3), "z": [0.5]}, pose=[0, 0, 0], quantities=["tension-max", "first-kind"], up_to_hz=20
     )
 
 

@@ -46,7 +46,7 @@ def main() -> None:
 
     with ThreadPoolExecutor(2) as executor:
         rows: funicular.Sweep = robot.map(
-            {"x": (-1, 1, 5), "z": [0.5, 0.6]}, ["tension-max"], executor=executor, progress=lambda done, rows: None
+            {"x": (-1, 1, 5), "z": [0.5, 0.6]}, quantities=["tension-max"], executor=executor, progress=lambda done, rows: None
         )
     tension: NDArray[np.float64] = rows["tension_max_n"]
     print(tension.shape, rows.on_grid("tension_max_n").shape, rows.units["tension_max_n"], rows.plan["quantities"])

@@ -25,6 +25,6 @@ def pool() -> ProcessPoolExecutor:
 
 
 def ask(robot: funicular.Robot, **keywords: object) -> funicular.Sweep:
-    """64 chunks, of which some have rows without equilibrium."""
-    grid = {"x": (-4, 4, 33), "y": (-2, 2, 9), "z": [0.4, 0.8]}
+    """68 chunks of a row, of which some have no equilibrium."""
+    grid = {"x": (-4, 4, 17), "y": (-2, 2, 4), "z": [0.5]}
     return robot.map(grid, quantities=["tension-max", "first-frequency"], **keywords)  # type: ignore[arg-type]
