@@ -119,10 +119,8 @@ impl Record {
         asked: &Asked<'_>,
         part: Option<Part>,
     ) -> Self {
-        let mut words = Map::from_iter([
-            ("command".to_owned(), json!(source.command())),
-            ("robot".to_owned(), json!(name)),
-        ]);
+        let mut words =
+            Map::from_iter([("command".to_owned(), json!(source.command())), ("robot".to_owned(), json!(name))]);
         source.describe(&mut words);
         asked.describe(&mut words);
         Self {

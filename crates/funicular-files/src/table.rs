@@ -166,7 +166,8 @@ fn fits(record: &Record, chunk: &Chunk) -> bool {
 impl Rows for Table {
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()> {
         for (index, batch) in self.batches.iter().enumerate() {
-            let columns = arrow::values(batch).ok_or_else(|| io::Error::other("a column of a kind that no sweep has"))?;
+            let columns =
+                arrow::values(batch).ok_or_else(|| io::Error::other("a column of a kind that no sweep has"))?;
             take(Chunk { index, columns })?;
         }
         Ok(())

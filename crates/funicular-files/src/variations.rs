@@ -32,12 +32,7 @@ impl<'a> Variations<'a> {
     ///
     /// # Errors
     /// A text for the user, if an end of one of the variations alone makes no robot.
-    pub fn new(
-        text: String,
-        axes: Vec<Variation>,
-        option: &'static str,
-        adjust: Adjust<'a>,
-    ) -> Result<Self, String> {
+    pub fn new(text: String, axes: Vec<Variation>, option: &'static str, adjust: Adjust<'a>) -> Result<Self, String> {
         for (i, axis) in axes.iter().enumerate() {
             if axes[..i].iter().any(|other| other.path.text == axis.path.text) {
                 return Err(format!("{option} {} is given twice", axis.path.text));

@@ -15,7 +15,8 @@ pub(crate) fn run(args: &SweepArgs) -> Result<()> {
         state::with_limits(&robot, &args.tensions)
     };
     let adjust = Box::new(|robot| as_asked(robot).map_err(|error| format!("{error:#}")));
-    let points = Variations::new(file.text.clone(), args.vary.clone(), "--vary", adjust).map_err(|error| anyhow!("{error}"))?;
+    let points =
+        Variations::new(file.text.clone(), args.vary.clone(), "--vary", adjust).map_err(|error| anyhow!("{error}"))?;
     let robot = points.first().map_err(|error| anyhow!("{error}"))?;
     if robot.state == State::Unknown {
         bail!(

@@ -104,7 +104,9 @@ impl<'py> FromPyObject<'_, 'py> for Told {
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if !object.is_callable() {
-            return Err(errors::input("`progress` is no function: it is called with rows done and all rows".to_owned()));
+            return Err(errors::input(
+                "`progress` is no function: it is called with rows done and all rows".to_owned(),
+            ));
         }
         Ok(Self(object.to_owned().unbind()))
     }
@@ -137,9 +139,7 @@ impl Settings<'_> {
         }
         Ok(Request {
             points,
-            quantities: self
-                .quantities
-                .unwrap_or_else(|| vec!["tension-min".to_owned(), "tension-max".to_owned()]),
+            quantities: self.quantities.unwrap_or_else(|| vec!["tension-min".to_owned(), "tension-max".to_owned()]),
             model: statics.model.name().to_owned(),
             tension_rule: statics.rule.map(|rule| rule.name().to_owned()),
             wanted_tension_n,

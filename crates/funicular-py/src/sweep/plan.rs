@@ -187,7 +187,9 @@ impl Whole {
         let quantities: PyResult<Vec<Quantity>> = request
             .quantities
             .iter()
-            .map(|name| name.parse().map_err(|error: funicular::sweep::UnknownQuantity| errors::input(error.to_string())))
+            .map(|name| {
+                name.parse().map_err(|error: funicular::sweep::UnknownQuantity| errors::input(error.to_string()))
+            })
             .collect();
         let (quantities, options) = (quantities?, request.options(&robot, &statics)?);
         let vector = |given: Option<[f64; 3]>| given.map(Into::into);
@@ -290,7 +292,8 @@ fn base(robot: &Robot, statics: &Options) -> PyResult<Option<Pose>> {
         State::Pose(pose) => Some(*pose),
         State::Unknown => None,
         State::Lengths(lengths) => {
-            let rest = statics::forward(robot, lengths, statics.model, None).map_err(|error| errors::statics(&error))?;
+            let rest =
+                statics::forward(robot, lengths, statics.model, None).map_err(|error| errors::statics(&error))?;
             Some(rest.pose)
         }
     })
@@ -384,7 +387,8 @@ impl PyPlan {
             }
             return Ok(Some(PyWork::in_memory(whole)));
         };
-        let opened = py.detach(|| Job::open(&path, whole.record.clone(), begin)).map_err(|error| errors::files(&error))?;
+        let opened =
+            py.detach(|| Job::open(&path, whole.record.clone(), begin)).map_err(|error| errors::files(&error))?;
         Ok(match opened {
             Opened::Done => None,
             Opened::Work(job) => Some(PyWork::in_file(whole, *job, path)),

@@ -92,7 +92,11 @@ impl PyWork {
         py.detach(|| {
             for chunk in unpack(chunks, &whole.record)? {
                 if chunk.index != into.next() {
-                    return Err(PyValueError::new_err(format!("chunk {} is not the next, {}", chunk.index, into.next())));
+                    return Err(PyValueError::new_err(format!(
+                        "chunk {} is not the next, {}",
+                        chunk.index,
+                        into.next()
+                    )));
                 }
                 into.add(&chunk)?;
             }
@@ -172,8 +176,11 @@ impl PyWork {
         let Some(Place::File(job, path)) = self.into.take() else { return Ok(None) };
         let journal = job.journal().display().to_string();
         let written = py.detach(|| job.interrupt()).map_err(|error| errors::files(&error))?;
-        let written = if written { format!("; {} has them, marked as incomplete", path.display()) } else { String::new() };
-        Ok(Some(format!("{done} of {rows} rows are safe in {journal}{written}; the same call with `resume=True` goes on")))
+        let written =
+            if written { format!("; {} has them, marked as incomplete", path.display()) } else { String::new() };
+        Ok(Some(format!(
+            "{done} of {rows} rows are safe in {journal}{written}; the same call with `resume=True` goes on"
+        )))
     }
 }
 
