@@ -15,7 +15,6 @@ mod names;
 mod pose;
 mod request;
 mod robot;
-mod sweep;
 mod vibration;
 mod waiting;
 
@@ -32,8 +31,6 @@ mod _funicular {
     use crate::pose::PyPose;
     #[pymodule_export]
     use crate::robot::PyRobot;
-    #[pymodule_export]
-    use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]
     use crate::vibration::peaks;
 
