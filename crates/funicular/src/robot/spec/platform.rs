@@ -281,9 +281,9 @@ mod tests {
     }
 
     #[test]
-    fn the_slack_is_a_billionth() {
-        assert!(tensor_of("[1.0, 1.0, 2.000000001]").is_ok());
-        assert!(tensor_of("[1.0, 1.0, 2.00000001]").is_err());
+    fn the_slack_is_a_billionth_of_symmetry_and_a_millionth_of_flatness() {
+        assert!(tensor_of("[1.0, 1.0, 2.000001]").is_ok());
+        assert!(tensor_of("[1.0, 1.0, 2.00001]").is_err());
         assert!(tensor_of("[[1, 1e-10, 0], [0, 1, 0], [0, 0, 1]]").is_ok());
         assert!(tensor_of("[[1, 1e-8, 0], [0, 1, 0], [0, 0, 1]]").unwrap_err().contains("not symmetric"));
     }
