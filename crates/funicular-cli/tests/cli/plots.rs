@@ -138,7 +138,7 @@ fn a_sweep_of_one_value_becomes_curves_whose_modes_are_followed() {
 fn a_trajectory_is_drawn_over_its_path_and_infeasible_rows_are_shaded() {
     let folder = tempfile::tempdir().unwrap();
     let poses = folder.path().join("poses.csv");
-    let rows: Vec<String> = (0..31).map(|i| format!("{},0,0.5", 0.2 * f64::from(i) - 1.0)).collect();
+    let rows: Vec<String> = (0..31).map(|i| format!("{},0,0.5", 0.2 * f64::from(i) + 1.0)).collect();
     fs::write(&poses, format!("x_m,y_m,z_m\n{}\n", rows.join("\n"))).unwrap();
     let file = text(&folder.path().join("path.parquet"));
     succeed(&["map", "ROBOT", "--poses", &text(&poses), "--quantity", "tensions,first-kind", "-o", &file]);
