@@ -129,7 +129,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Limit of rounds in which the drag of the wind follows the cables; 3 to 8 are seen, up to 20 in a hurricane.
+/// Limit of rounds in which the drag of the wind follows the cables; each gains a factor, see theory, section 15.
 const MOST_ROUNDS: usize = 100;
 
 /// The stable equilibrium that elastic cables come to from a start.
