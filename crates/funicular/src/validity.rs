@@ -50,7 +50,7 @@ pub enum Warning {
     },
     /// A pose near one at which the cables do not hold the platform.
     NearlySingular {
-        /// Tension per worst unit wrench, [`statics::tension_gain`](crate::statics::tension_gain).
+        /// Tension per worst unit wrench, [`crate::statics::tension_gain`].
         gain: f64,
     },
     /// An equilibrium that the platform leaves by itself.
