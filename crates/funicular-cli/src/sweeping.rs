@@ -12,8 +12,7 @@ use crate::state;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
 use funicular::sweep::{Options, Outcome, Plan, Points, Quantity};
-use funicular_files::{Begin, CsvRows, Opened, Record};
-use serde_json::{Map, Value, json};
+use funicular_files::{Asked, Begin, CsvRows, Opened, Record, Source};
 use std::io::{self, BufWriter};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -28,10 +27,8 @@ pub(crate) struct Job<'a> {
     pub(crate) robot_path: &'a Path,
     pub(crate) robot_file: String,
     pub(crate) points: &'a dyn Points,
-    pub(crate) options: &'a Options,
-    pub(crate) quantities: &'a [Quantity],
-    /// What it is, for its files.
-    pub(crate) plan: Map<String, Value>,
+    pub(crate) source: Source<'a>,
+    pub(crate) asked: Asked<'a>,
     pub(crate) run: &'a RunArgs,
 }
 
@@ -60,38 +57,30 @@ pub(crate) fn options(
     })
 }
 
-/// Quantities and options, for the files.
-pub(crate) fn described(
-    options: &Options,
-    state: &StateArgs,
-    tensions: &TensionArgs,
-    quantities: &[Quantity],
-) -> Map<String, Value> {
-    let vector = |v: Option<funicular::math::Vec3>| v.map(|v| [v.x, v.y, v.z]);
-    let pose = state.pose.map(|pose| [pose.position, pose.roll_pitch_yaw_deg].concat());
-    let value = json!({
-        "quantities": quantities.iter().map(Quantity::name).collect::<Vec<_>>(),
-        "static_model": options.static_model.name(),
-        "tension_rule": options.tension_rule.name(),
-        "wanted_tension_n": tensions.wanted_tension_n.as_ref().map(|wanted| &wanted.0),
-        "min_tension_n": tensions.min_tension_n,
-        "max_tension_n": tensions.max_tension_n,
-        "cable_model": options.linearisation.cable_model.name(),
-        "assembly": options.linearisation.assembly.name(),
-        "in_plane_only": options.linearisation.in_plane_only,
-        "up_to_hz": options.highest_hz,
-        "pose": pose,
-        "lengths_m": state.lengths_m.as_ref().map(|lengths| &lengths.0),
-        "mass_kg": state.mass_kg,
-        "force_n": vector(state.load.force_n),
-        "moment_n_m": vector(state.load.moment_n_m),
-        "load_point_m": vector(state.load.load_point_m),
-        "wind_m_s": vector(state.load.wind_m_s),
-        "cable_load_n_per_m": vector(state.load.cable_load_n_per_m),
-    });
-    match value {
-        Value::Object(map) => map.into_iter().filter(|(_, value)| !value.is_null()).collect(),
-        _ => Map::new(),
+/// What was asked, for the files.
+pub(crate) fn asked<'a>(
+    options: &'a Options,
+    state: &'a StateArgs,
+    tensions: &'a TensionArgs,
+    quantities: &'a [Quantity],
+) -> Asked<'a> {
+    Asked {
+        options,
+        quantities,
+        wanted_tension_n: tensions.wanted_tension_n.as_ref().map(|wanted| &wanted.0[..]),
+        min_tension_n: tensions.min_tension_n,
+        max_tension_n: tensions.max_tension_n,
+        pose: state.pose.map(|pose| {
+            let ([x, y, z], [roll, pitch, yaw]) = (pose.position, pose.roll_pitch_yaw_deg);
+            [x, y, z, roll, pitch, yaw]
+        }),
+        lengths_m: state.lengths_m.as_ref().map(|lengths| &lengths.0[..]),
+        mass_kg: state.mass_kg,
+        force_n: state.load.force_n,
+        moment_n_m: state.load.moment_n_m,
+        load_point_m: state.load.load_point_m,
+        wind_m_s: state.load.wind_m_s,
+        cable_load_n_per_m: state.load.cable_load_n_per_m,
     }
 }
 
@@ -111,18 +100,8 @@ fn listen() -> Result<()> {
 /// Computes all of it.
 pub(crate) fn run(job: &Job) -> Result<()> {
     let Job { run, .. } = job;
-    let plan = Plan::new(job.points, job.robot, job.quantities, job.options)?;
-    let record = Record {
-        robot_file: job.robot_file.clone(),
-        plan: Map::from_iter([("command".to_owned(), json!(job.command)), ("robot".to_owned(), json!(job.robot.name))])
-            .into_iter()
-            .chain(job.plan.clone())
-            .collect(),
-        columns: plan.columns().to_vec(),
-        rows: plan.rows(),
-        chunk_rows: plan.chunk_rows(),
-        part: run.part,
-    };
+    let plan = Plan::new(job.points, job.robot, job.asked.quantities, job.asked.options)?;
+    let record = Record::of(&plan, job.robot_file.clone(), &job.robot.name, job.source, &job.asked, run.part);
     let threads = match run.threads {
         Some(threads) => threads,
         None => std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),

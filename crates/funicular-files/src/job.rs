@@ -45,26 +45,8 @@ impl Job {
     pub fn open(path: &Path, record: Record, begin: Begin) -> Result<Opened, FilesError> {
         // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
         let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let place = |reason: String| FilesError::Place { path: path.clone(), reason };
         let format = Format::of(path)?;
-        if path.is_dir() {
-            return Err(place("it is a directory; add a file name".to_owned()));
-        }
-        if !is_regular_or_new(path) {
-            return Err(place(
-                "it is no regular file; `--format csv` without a file writes to standard output".to_owned(),
-            ));
-        }
-        if fs::metadata(path).is_ok_and(|metadata| metadata.permissions().readonly()) {
-            return Err(place("it is read-only".to_owned()));
-        }
-        Temporary::beside(path).map_err(|error| place(crate::told(&error)))?;
-        if format == Format::Vti {
-            vti::check(&record).map_err(|reason| FilesError::NoImage { path: path.clone(), reason })?;
-        }
-        if record.part.is_some() && format != Format::Parquet {
-            return Err(place("a part has to be a .parquet file, which says what it is a part of".to_owned()));
-        }
+        check_place(path, format, &record)?;
         let partial = with_ending(path, ".partial");
         if begin == Begin::Resume
             && !partial.exists()
@@ -162,6 +144,28 @@ impl Job {
         );
         FilesError::Write { path: path.to_owned(), saved, cause }
     }
+}
+
+/// Checks that a file can be written there, and that the format fits.
+pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Result<(), FilesError> {
+    let place = |reason: String| FilesError::Place { path: path.to_owned(), reason };
+    if path.is_dir() {
+        return Err(place("it is a directory; add a file name".to_owned()));
+    }
+    if !is_regular_or_new(path) {
+        return Err(place("it is no regular file; `--format csv` without a file writes to standard output".to_owned()));
+    }
+    if fs::metadata(path).is_ok_and(|metadata| metadata.permissions().readonly()) {
+        return Err(place("it is read-only".to_owned()));
+    }
+    Temporary::beside(path).map_err(|error| place(crate::told(&error)))?;
+    if format == Format::Vti {
+        vti::check(record).map_err(|reason| FilesError::NoImage { path: path.to_owned(), reason })?;
+    }
+    if record.part.is_some() && format != Format::Parquet {
+        return Err(place("a part has to be a .parquet file, which says what it is a part of".to_owned()));
+    }
+    Ok(())
 }
 
 /// The file is the whole result already.

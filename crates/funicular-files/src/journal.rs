@@ -179,7 +179,7 @@ fn part(record: &Record) -> Value {
     record.part.map_or(Value::Null, |part| Value::String(part.to_string()))
 }
 
-fn write_frame(file: &mut File, bytes: &[u8]) -> io::Result<()> {
+pub(crate) fn write_frame(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
     let length = u32::try_from(bytes.len())
         .ok()
         .filter(|length| *length <= LONGEST)
@@ -192,7 +192,7 @@ fn write_frame(file: &mut File, bytes: &[u8]) -> io::Result<()> {
 }
 
 /// The next frame; none at the end, or where the rest is torn.
-fn read_frame(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
+pub(crate) fn read_frame(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     let mut head = Vec::new();
     file.by_ref().take(8).read_to_end(&mut head)?;
     let &[a, b, c, d, e, f, g, h] = &head[..] else { return Ok(None) };
@@ -206,7 +206,7 @@ fn read_frame(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
 }
 
 /// Index, number of rows, and the columns: a bit a row for what is there, then what is there.
-fn encode(chunk: &Chunk) -> Vec<u8> {
+pub(crate) fn encode(chunk: &Chunk) -> Vec<u8> {
     let mut bytes = Vec::new();
     bytes.extend((chunk.index as u64).to_le_bytes());
     bytes.extend((chunk.rows() as u32).to_le_bytes());
@@ -241,7 +241,7 @@ fn put_bits(bytes: &mut Vec<u8>, bits: impl Iterator<Item = bool>) {
 }
 
 /// The chunk of a frame; none if it is not of this record.
-fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
+pub(crate) fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
     let bytes = &mut bytes;
     let index = usize::try_from(u64::from_le_bytes(get(bytes, 8)?.try_into().ok()?)).ok()?;
     let rows = u32::from_le_bytes(get(bytes, 4)?.try_into().ok()?) as usize;

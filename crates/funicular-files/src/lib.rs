@@ -5,6 +5,7 @@
 //! as a whole. Parquet, CSV and VTK hold the same rows; [`arrow::batch`] gives them in memory.
 
 pub mod arrow;
+mod asked;
 mod csv;
 pub mod edit;
 mod job;
@@ -13,14 +14,17 @@ mod merge;
 mod parquet;
 mod read;
 mod record;
+pub mod table;
 mod variations;
 mod vti;
 pub mod whole;
 
+pub use asked::{Asked, Source};
 pub use job::{Begin, Job, Opened};
 pub use merge::merge;
 pub use read::SweepFile;
 pub use record::{Difference, Part, Record};
+pub use table::Table;
 pub use variations::{Variation, Variations};
 pub use vti::Grid;
 

@@ -17,7 +17,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Rows of a group: what is in memory at a time.
-const GROUP: usize = 1 << 16;
+pub(crate) const GROUP: usize = 1 << 16;
 
 /// Keys of the file's metadata.
 const PLAN: &str = "funicular.plan";

@@ -15,34 +15,37 @@ pub struct Variation {
 }
 
 /// What is done to a robot after it was read, as a whole.
-type Adjust<'a> = Box<dyn Fn(Robot) -> Result<Robot, String> + Sync + 'a>;
+type Adjust<'a> = Box<dyn Fn(Robot) -> Result<Robot, String> + Send + Sync + 'a>;
 
 /// All combinations of values of a robot file; the first varies fastest.
 pub struct Variations<'a> {
     text: String,
     axes: Vec<Variation>,
+    /// What the user calls it, for messages.
+    option: &'static str,
     adjust: Adjust<'a>,
 }
 
 impl<'a> Variations<'a> {
-    /// Of the text of a robot file, values that vary in it, and what is done to every robot after it was read.
+    /// Of the text of a robot file, values that vary in it (as the user's `option` asked), and what is done to every robot
+    /// after it was read.
     ///
     /// # Errors
     /// A text for the user, if an end of one of the variations alone makes no robot.
-    pub fn new(text: String, axes: Vec<Variation>, adjust: Adjust<'a>) -> Result<Self, String> {
+    pub fn new(text: String, axes: Vec<Variation>, option: &'static str, adjust: Adjust<'a>) -> Result<Self, String> {
         for (i, axis) in axes.iter().enumerate() {
             if axes[..i].iter().any(|other| other.path.text == axis.path.text) {
-                return Err(format!("--vary {} is given twice", axis.path.text));
+                return Err(format!("{option} {} is given twice", axis.path.text));
             }
         }
-        let variations = Self { text, axes, adjust };
+        let variations = Self { text, axes, option, adjust };
         for axis in &variations.axes {
             let tried = match &axis.steps {
                 Steps::Range { from, to, .. } => vec![*from, *to],
                 Steps::List(values) => values.clone(),
             };
             for value in tried {
-                variations.robot(&[axis.path.with("--vary", value)])?;
+                variations.robot(&[axis.path.with(option, value)])?;
             }
         }
         Ok(variations)
@@ -76,7 +79,7 @@ impl<'a> Variations<'a> {
             .zip(&self.axes)
             .map(|(digit, axis)| {
                 let value = axis.steps.at(digit);
-                (value, axis.path.with("--vary", value))
+                (value, axis.path.with(self.option, value))
             })
             .unzip()
     }

@@ -7,11 +7,13 @@ use funicular::ports::{PlaceError, PortError};
 use funicular::response::ResponseError;
 use funicular::robot::spec::SpecError;
 use funicular::statics::StaticsError;
+use funicular_files::FilesError;
 use pyo3::PyErr;
 
 /// The exceptions, which are written in Python so that they have types, pickle and can be caught by any base.
 mod python {
     pyo3::import_exception!(funicular._errors, DynamicsError);
+    pyo3::import_exception!(funicular._errors, FileError);
     pyo3::import_exception!(funicular._errors, InputError);
     pyo3::import_exception!(funicular._errors, ResponseError);
     pyo3::import_exception!(funicular._errors, RobotFileError);
@@ -36,6 +38,12 @@ pub(crate) fn robot_file(error: &SpecError, name: &str, text: &str) -> PyErr {
 /// A change of a robot file that cannot be made.
 pub(crate) fn change(text: String) -> PyErr {
     python::RobotFileError::new_err((text, Vec::<(usize, usize, String, Option<String>)>::new()))
+}
+
+/// A file of a sweep that cannot be read or written; what to do in the words of Python.
+pub(crate) fn files(error: &FilesError) -> PyErr {
+    let text = error.to_string().replace("--resume", "`resume=True`").replace("--force", "`force=True`");
+    python::FileError::new_err(text)
 }
 
 pub(crate) fn statics(error: &StaticsError) -> PyErr {

@@ -15,6 +15,7 @@ mod names;
 mod pose;
 mod request;
 mod robot;
+mod sweep;
 mod vibration;
 mod waiting;
 
@@ -31,6 +32,8 @@ mod _funicular {
     use crate::pose::PyPose;
     #[pymodule_export]
     use crate::robot::PyRobot;
+    #[pymodule_export]
+    use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]
     use crate::vibration::peaks;
 

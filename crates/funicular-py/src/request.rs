@@ -16,9 +16,9 @@ pub(crate) struct Options {
     pub(crate) model: StaticModel,
     pub(crate) rule: Option<TensionRule>,
     pub(crate) limits: TensionLimits,
-    force_n: Option<[f64; 3]>,
-    moment_n_m: Option<[f64; 3]>,
-    load_point_m: Option<[f64; 3]>,
+    pub(crate) force_n: Option<[f64; 3]>,
+    pub(crate) moment_n_m: Option<[f64; 3]>,
+    pub(crate) load_point_m: Option<[f64; 3]>,
 }
 
 /// The same as Python gives it.
@@ -52,16 +52,21 @@ impl Options {
 
     /// The robot with limits and loads.
     pub(crate) fn robot(&self, robot: &Robot) -> PyResult<Robot> {
+        self.adjusted(robot).map_err(errors::input)
+    }
+
+    /// The same without Python's lock.
+    pub(crate) fn adjusted(&self, robot: &Robot) -> Result<Robot, String> {
         let mut robot = robot.with_tension_limits(self.limits);
         for cable in &robot.cables {
             if let TensionLimits { minimum: Some(minimum), maximum: Some(maximum) } = cable.limits()
                 && minimum >= maximum
             {
-                return Err(errors::input(format!(
+                return Err(format!(
                     "the least tension of cable \"{}\" is {minimum} N and its greatest {maximum} N: give min_tension_n \
                      below max_tension_n (what is not given is as the robot file says)",
                     cable.name
-                )));
+                ));
             }
         }
         let or = |given: Option<[f64; 3]>, of_file: Vec3| given.map_or(of_file, Vec3::from);
@@ -70,13 +75,10 @@ impl Options {
             moment_w: or(self.moment_n_m, robot.load.moment_w),
             point_p: or(self.load_point_m, robot.load.point_p),
         };
-        let load = |error: LoadError| errors::input(error.to_string());
         if self.load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
-            return Err(errors::input(
-                "`load_point_m` is where a force acts, and there is none: give `force_n`".to_owned(),
-            ));
+            return Err("`load_point_m` is where a force acts, and there is none: give `force_n`".to_owned());
         }
-        robot.load.check(&robot.platform.freedoms).map_err(load)?;
+        robot.load.check(&robot.platform.freedoms).map_err(|error: LoadError| error.to_string())?;
         Ok(robot)
     }
 
@@ -142,11 +144,16 @@ impl Asked {
     }
 
     /// The robot in this state.
-    pub(crate) fn robot(&self, mut robot: Robot) -> PyResult<Robot> {
+    pub(crate) fn robot(&self, robot: Robot) -> PyResult<Robot> {
+        self.put(robot).map_err(errors::input)
+    }
+
+    /// The same without Python's lock.
+    pub(crate) fn put(&self, mut robot: Robot) -> Result<Robot, String> {
         match self {
             Self::OfFile => {}
             Self::Pose(pose) => {
-                check_pose(&robot, pose).map_err(errors::input)?;
+                check_pose(&robot, pose)?;
                 robot.state = State::Pose(*pose);
             }
             Self::Lengths(lengths) => robot.state = State::Lengths(lengths.clone()),

@@ -7,6 +7,7 @@ use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::pose::PoseLike;
 use crate::request::{Asked, Given, Options};
+use crate::sweep::{self, Axes, Makes, PointsAsked, PyPlan, Run, Settings, SweepObject, Told};
 use crate::vibration::{self, ModesObject, Pair};
 use funicular::robot::{Robot, State};
 use numpy::Complex64;
@@ -27,7 +28,7 @@ const LARGEST: u64 = 16 << 20;
 /// Make one by `Robot.from_file`, `Robot.from_toml`, `Robot.from_dict` or `Robot.example`.
 #[pyclass(frozen, name = "Robot", module = "funicular")]
 pub(crate) struct PyRobot {
-    text: String,
+    pub(crate) text: String,
     pub(crate) robot: Arc<Robot>,
 }
 
@@ -300,6 +301,180 @@ impl PyRobot {
         })?;
         let states = batch::States::read(poses, lengths)?;
         batch::equilibria(py, &self.robot, states, &options, threads)
+    }
+
+    /// Quantities over poses, one row a pose.
+    ///
+    /// The rows are those of the program's `map`, bit for bit, whatever computes them. A pose without equilibrium is a row
+    /// with its reason, never an exception.
+    ///
+    /// Parameters
+    /// ----------
+    /// grid
+    ///     Values along axes x, y, z [m], roll, pitch, yaw [degrees]: `{"x": (-4, 4, 81), "z": [0.5, 1, 2]}`; a tuple is
+    ///     first, last and how many, anything else is values. x runs fastest, then y and so on.
+    /// poses
+    ///     Instead of a grid (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+    /// quantities
+    ///     What to compute, docs/sweeps.md has the list; tension-min and tension-max if not given.
+    /// pose, lengths
+    ///     Where axes stay that the grid does not have: x, y, z [m] and roll, pitch, yaw [degrees], or unstrained lengths
+    ///     [m]. As the robot file says if not given.
+    /// up_to_hz
+    ///     Where the search for natural frequencies ends [Hz].
+    /// file
+    ///     Write the rows to .parquet, .csv or .vti, as a whole; until then they are in FILE.partial and survive whatever
+    ///     ends the program. Of a Parquet file nothing is in memory before it is asked for.
+    /// resume, force
+    ///     Go on with what FILE.partial holds of the same sweep, or forget it.
+    /// threads
+    ///     How many threads compute here; all processors if not given.
+    /// executor
+    ///     Compute in the workers of an executor (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
+    ///     `MPIPoolExecutor`), or of a function that makes one, which is called again when it breaks.
+    /// chunks_per_task
+    ///     Chunks of rows that a worker gets at once; by default what takes some seconds, as measured on the way.
+    /// progress
+    ///     Is called now and then with the rows there are and all rows.
+    ///
+    /// The other parameters are those of `equilibrium` and `modes`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An argument means nothing.
+    /// FileError
+    ///     The file cannot be written, or belongs to another sweep.
+    /// ExecutorError
+    ///     The executor's workers died; its `resume` goes on.
+    #[pyo3(signature = (
+        grid=None, poses=None, quantities=None, *, pose=None, lengths=None, model="catenary", cable_model=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=funicular::sweep::HIGHEST_HZ, tension_rule=None,
+        wanted_tension_n=None, min_tension_n=None, max_tension_n=None, force_n=None, moment_n_m=None, load_point_m=None,
+        file=None, resume=false, force=false, threads=None, executor=None, chunks_per_task=None, progress=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn map(
+        slf: Py<Self>,
+        py: Python<'_>,
+        grid: Option<Axes>,
+        poses: Option<Numbers>,
+        quantities: Option<Vec<String>>,
+        pose: Option<Numbers>,
+        lengths: Option<Numbers>,
+        model: &str,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        up_to_hz: f64,
+        tension_rule: Option<&str>,
+        wanted_tension_n: Option<Numbers>,
+        min_tension_n: Option<f64>,
+        max_tension_n: Option<f64>,
+        force_n: Option<Numbers>,
+        moment_n_m: Option<Numbers>,
+        load_point_m: Option<Numbers>,
+        file: Option<PathBuf>,
+        resume: bool,
+        force: bool,
+        threads: Option<usize>,
+        executor: Option<Makes>,
+        chunks_per_task: Option<usize>,
+        progress: Option<Told>,
+    ) -> PyResult<SweepObject> {
+        let points = match (grid, poses) {
+            (Some(Axes(grid)), None) => PointsAsked::Grid(grid),
+            (None, Some(poses)) => PointsAsked::Poses(sweep::poses(poses)?),
+            _ => return Err(errors::input("give `grid` or `poses`, one of them".to_owned())),
+        };
+        let settings = Settings {
+            quantities,
+            statics: Given {
+                model,
+                tension_rule,
+                wanted_tension_n,
+                min_tension_n,
+                max_tension_n,
+                force_n,
+                moment_n_m,
+                load_point_m,
+            },
+            cable_model,
+            assembly,
+            in_plane_only,
+            up_to_hz,
+            pose,
+            lengths,
+        };
+        let plan = PyPlan::of(slf, settings.request(points)?)?;
+        Run { file, resume, force, threads, executor, chunks_per_task, progress }.rows(py, plan)
+    }
+
+    /// Quantities over values of the robot file, one row a combination, as of the program's `sweep`.
+    ///
+    /// Parameters
+    /// ----------
+    /// vary
+    ///     Values by their paths in the robot file, as of `with_`: `{"platform.mass_kg": (10, 90, 81)}`; a tuple is first,
+    ///     last and how many, anything else is values. The first runs fastest.
+    ///
+    /// The other parameters are those of `map`.
+    #[pyo3(signature = (
+        vary, quantities=None, *, pose=None, lengths=None, model="catenary", cable_model=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=funicular::sweep::HIGHEST_HZ, tension_rule=None,
+        wanted_tension_n=None, min_tension_n=None, max_tension_n=None, force_n=None, moment_n_m=None, load_point_m=None,
+        file=None, resume=false, force=false, threads=None, executor=None, chunks_per_task=None, progress=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn sweep(
+        slf: Py<Self>,
+        py: Python<'_>,
+        vary: Axes,
+        quantities: Option<Vec<String>>,
+        pose: Option<Numbers>,
+        lengths: Option<Numbers>,
+        model: &str,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        up_to_hz: f64,
+        tension_rule: Option<&str>,
+        wanted_tension_n: Option<Numbers>,
+        min_tension_n: Option<f64>,
+        max_tension_n: Option<f64>,
+        force_n: Option<Numbers>,
+        moment_n_m: Option<Numbers>,
+        load_point_m: Option<Numbers>,
+        file: Option<PathBuf>,
+        resume: bool,
+        force: bool,
+        threads: Option<usize>,
+        executor: Option<Makes>,
+        chunks_per_task: Option<usize>,
+        progress: Option<Told>,
+    ) -> PyResult<SweepObject> {
+        let points = PointsAsked::Vary(vary.0);
+        let settings = Settings {
+            quantities,
+            statics: Given {
+                model,
+                tension_rule,
+                wanted_tension_n,
+                min_tension_n,
+                max_tension_n,
+                force_n,
+                moment_n_m,
+                load_point_m,
+            },
+            cable_model,
+            assembly,
+            in_plane_only,
+            up_to_hz,
+            pose,
+            lengths,
+        };
+        let plan = PyPlan::of(slf, settings.request(points)?)?;
+        Run { file, resume, force, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
 
     /// `Equilibrium.stiffness` in the state of the robot file.

@@ -1,5 +1,6 @@
 """A user's script, as mypy --strict has to take it; it runs, too."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import funicular
@@ -42,6 +43,15 @@ def main() -> None:
     states: funicular.Equilibria = robot.equilibria(poses=np.c_[np.zeros((3, 2)), heights])
     feasible: NDArray[np.bool_] = states.ok
     print(states.tensions[feasible], states.reason)
+
+    with ThreadPoolExecutor(2) as executor:
+        rows: funicular.Sweep = robot.map(
+            {"x": (-1, 1, 5), "z": [0.5, 0.6]}, quantities=["tension-max"], executor=executor, progress=lambda done, rows: None
+        )
+    tension: NDArray[np.float64] = rows["tension_max_n"]
+    print(tension.shape, rows.on_grid("tension_max_n").shape, rows.units["tension_max_n"], rows.plan["quantities"])
+    loads = robot.sweep({"platform.mass_kg": (10, 40, 4)}, ["pose", "first-frequency"], up_to_hz=50)
+    print(loads.to_arrow(), len(loads))
 
 
 if __name__ == "__main__":

@@ -7,10 +7,8 @@ use crate::sweeping::{self, Job};
 use anyhow::{Context, Result, bail};
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics;
-use funicular::sweep::{AXES, Poses};
-use funicular_files::Grid;
-use serde_json::{Map, Value, json};
-use sha2::{Digest, Sha256};
+use funicular::sweep::Poses;
+use funicular_files::Source;
 use std::fs::File;
 use std::path::Path;
 
@@ -18,30 +16,25 @@ pub(crate) fn run(args: &MapArgs) -> Result<()> {
     let file = robot_file::read(Some(&args.robot.robot), &args.robot.changes)?;
     let robot = state::with_limits(&state::with_options(file.robot, &args.state)?, &args.tensions)?;
     let options = sweeping::options(&robot, &args.state, &args.tensions, &args.model, &args.what)?;
-    let mut plan = Map::new();
-    let points = if let Some(path) = &args.poses {
-        let poses = read_poses(path, &robot)?;
-        plan.insert("poses".to_owned(), json!({ "count": poses.len(), "sha256": digest(&poses) }));
-        Poses::list(robot.clone(), poses)
+    let (listed, base);
+    let points;
+    let source = if let Some(path) = &args.poses {
+        listed = read_poses(path, &robot)?;
+        points = Poses::list(robot.clone(), listed.clone());
+        Source::List(&listed)
     } else {
-        let base = base(&robot, args)?;
-        let grid = Poses::grid(robot.clone(), &args.grid, base.as_ref())?;
-        plan.insert("grid".to_owned(), axes_of(&grid));
-        if let Some(base) = base {
-            plan.insert("orientation_wxyz".to_owned(), json!(funicular::math::rotation::quaternion_wxyz(&base.rot_wp)));
-        }
-        grid
+        base = self::base(&robot, args)?;
+        points = Poses::grid(robot.clone(), &args.grid, base.as_ref())?;
+        Source::Grid { poses: &points, base: base.as_ref() }
     };
-    plan.extend(sweeping::described(&options, &args.state, &args.tensions, &args.what.quantity));
     sweeping::run(&Job {
         command: "map",
         robot: &robot,
         robot_path: &args.robot.robot,
         robot_file: file.text,
         points: &points,
-        options: &options,
-        quantities: &args.what.quantity,
-        plan,
+        source,
+        asked: sweeping::asked(&options, &args.state, &args.tensions, &args.what.quantity),
         run: &args.run,
     })
 }
@@ -58,18 +51,6 @@ fn base(robot: &Robot, args: &MapArgs) -> Result<Option<Pose>> {
             Some(rest.pose)
         }
     })
-}
-
-fn axes_of(grid: &Poses) -> Value {
-    let axes = grid.axes().into_iter().flatten().cloned();
-    Grid(AXES.iter().map(|axis| (*axis).to_owned()).zip(axes).collect()).to_json()
-}
-
-/// Tells lists of poses apart.
-fn digest(poses: &[[f64; 6]]) -> String {
-    let mut sha = Sha256::new();
-    poses.iter().flatten().for_each(|value| sha.update(value.to_bits().to_le_bytes()));
-    format!("{:x}", sha.finalize())
 }
 
 /// The columns of a file of poses; all others are left alone.

@@ -6,8 +6,7 @@ use crate::state;
 use crate::sweeping::{self, Job};
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::{Robot, State};
-use funicular_files::{Grid, Variations};
-use serde_json::Map;
+use funicular_files::{Grid, Source, Variations};
 
 pub(crate) fn run(args: &SweepArgs) -> Result<()> {
     let file = robot_file::read(Some(&args.robot.robot), &args.robot.changes)?;
@@ -16,7 +15,8 @@ pub(crate) fn run(args: &SweepArgs) -> Result<()> {
         state::with_limits(&robot, &args.tensions)
     };
     let adjust = Box::new(|robot| as_asked(robot).map_err(|error| format!("{error:#}")));
-    let points = Variations::new(file.text.clone(), args.vary.clone(), adjust).map_err(|error| anyhow!("{error}"))?;
+    let points =
+        Variations::new(file.text.clone(), args.vary.clone(), "--vary", adjust).map_err(|error| anyhow!("{error}"))?;
     let robot = points.first().map_err(|error| anyhow!("{error}"))?;
     if robot.state == State::Unknown {
         bail!(
@@ -25,18 +25,15 @@ pub(crate) fn run(args: &SweepArgs) -> Result<()> {
         );
     }
     let options = sweeping::options(&robot, &args.state, &args.tensions, &args.model, &args.what)?;
-    let axes = points.axes().iter().map(|axis| (axis.path.text.clone(), axis.steps.clone())).collect();
-    let mut plan = Map::from_iter([("grid".to_owned(), Grid(axes).to_json())]);
-    plan.extend(sweeping::described(&options, &args.state, &args.tensions, &args.what.quantity));
+    let axes = Grid(points.axes().iter().map(|axis| (axis.path.text.clone(), axis.steps.clone())).collect());
     sweeping::run(&Job {
         command: "sweep",
         robot: &robot,
         robot_path: &args.robot.robot,
         robot_file: file.text,
         points: &points,
-        options: &options,
-        quantities: &args.what.quantity,
-        plan,
+        source: Source::Values(&axes),
+        asked: sweeping::asked(&options, &args.state, &args.tensions, &args.what.quantity),
         run: &args.run,
     })
 }

@@ -1,6 +1,6 @@
 //! The sweep of a file again: its robots and options, from what the file says of itself.
 
-use super::{described, options};
+use super::{asked, options};
 use crate::args::values::{self, Lengths, PoseNumbers, Tensions};
 use crate::args::{LoadArgs, ModelArgs, StateArgs, TensionArgs, TermArgs, WhatArgs};
 use crate::state;
@@ -39,7 +39,7 @@ impl Again {
                 state::with_limits(&robot, &tensions).map_err(|error| format!("{error:#}"))
             })
         };
-        let points = Variations::new(record.robot_file.clone(), axes, adjust)?;
+        let points = Variations::new(record.robot_file.clone(), axes, "--vary", adjust)?;
         let robot = points.first()?;
         // What chooses among tensions where there is nothing to choose is refused as an option, and not one.
         let mut rule = tensions;
@@ -50,7 +50,8 @@ impl Again {
         let (model, what) = (model_of(plan).ok_or_else(unknown)?, what_of(plan).ok_or_else(unknown)?);
         let options = options(&robot, &state, &rule, &model, &what).map_err(|error| format!("{error:#}"))?;
         // The proof that nothing was left out.
-        let ours = described(&options, &state, &rule, &what.quantity);
+        let mut ours = Map::new();
+        asked(&options, &state, &rule, &what.quantity).describe(&mut ours);
         let theirs = plan.iter().filter(|(key, _)| !["command", "robot", "grid"].contains(&key.as_str()));
         if ours == theirs.map(|(key, value)| (key.clone(), value.clone())).collect::<Map<_, _>>() {
             Ok(Self { points, options })

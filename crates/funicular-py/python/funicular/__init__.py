@@ -12,9 +12,11 @@ array([17.685, 36.926, 39.89 , 15.636, 50.443, 52.549])
 array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 """
 
-from funicular._errors import DynamicsError, Error, InputError, ResponseError, RobotFileError, StaticsError
+from funicular._errors import DynamicsError, Error, FileError, InputError, ResponseError, RobotFileError, StaticsError
+from funicular._executors import ExecutorError
 from funicular._funicular import Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._results import Equilibria, Modes
+from funicular._sweeps import Sweep
 
 __all__ = [
     "Catenary",
@@ -22,6 +24,8 @@ __all__ = [
     "Equilibria",
     "Equilibrium",
     "Error",
+    "ExecutorError",
+    "FileError",
     "InputError",
     "Modes",
     "Pose",
@@ -29,6 +33,7 @@ __all__ = [
     "Robot",
     "RobotFileError",
     "StaticsError",
+    "Sweep",
     "__version__",
     "peaks",
 ]

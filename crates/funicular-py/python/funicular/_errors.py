@@ -60,3 +60,9 @@ class ResponseError(Error):
     """There is no finite response."""
 
     __module__ = "funicular"
+
+
+class FileError(Error):
+    """A file of a sweep that cannot be read or written, or that belongs to another sweep."""
+
+    __module__ = "funicular"

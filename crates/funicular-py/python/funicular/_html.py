@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from funicular._funicular import Equilibrium, Robot
     from funicular._results import Equilibria, Modes
+    from funicular._sweeps import Sweep
 
 # Rows of a table that a notebook shows.
 _SHOWN = 40
@@ -79,3 +80,17 @@ def equilibria(of: "Equilibria") -> str:
     more = f"<p>and {len(of) - _SHOWN} more</p>" if len(of) > _SHOWN else ""
     heads = ("state", "status", "position [m]", "least tension [N]", "greatest tension [N]")
     return f"<p>{int(of.ok.sum())} of {len(of)} states have an equilibrium</p>{_table(heads, rows)}{more}"
+
+
+def sweep(of: "Sweep") -> str:
+    units = of.units
+    heads = [f"{name} [{units[name]}]" if units[name] else name for name in of.columns]
+
+    def shown(value: object) -> object:
+        if value is None or value != value:
+            return ""
+        return f"{value:.6g}" if isinstance(value, float) else value
+
+    rows = [[shown(column[i]) for column in of.columns.values()] for i in range(min(len(of), _SHOWN))]
+    more = f"<p>and {len(of) - _SHOWN} more</p>" if len(of) > _SHOWN else ""
+    return f"<p>{int(of.feasible.sum())} of {len(of)} rows are feasible</p>{_table(heads, rows)}{more}"

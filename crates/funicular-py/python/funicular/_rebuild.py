@@ -1,11 +1,14 @@
 """What pickles are made of: results are computed again from what they were asked with, which is less and exact."""
 
+import tempfile
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from funicular._funicular import Catenary, Equilibrium, Pose, Robot
+from funicular._sweeps import Sweep
 
 
 def pose(position_m: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) -> Pose:
@@ -20,3 +23,11 @@ def catenary(span: float, rise: float, length: float, weight: float, stiffness: 
     return Catenary(
         span, rise, unstrained_length_m=length, weight_n_per_m=weight, axial_stiffness_n=stiffness
     )
+
+
+def sweep(parquet: bytes) -> Sweep:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "sweep.parquet"
+        path.write_bytes(parquet)
+        sweep = Sweep.read(path)
+        return sweep

@@ -7,6 +7,7 @@ import numpy as np
 if TYPE_CHECKING:
     from funicular._funicular import Equilibrium
     from funicular._results import Equilibria, Modes
+    from funicular._sweeps import Sweep
 
 _MOTIONS = ("x", "y", "z", "rx_per_m", "ry_per_m", "rz_per_m")
 
@@ -130,3 +131,9 @@ def equilibria_table(of: "Equilibria") -> Any:
         "least_stiffness_n_per_m": of.least_stiffness_n_per_m,
     }
     return _pandas().DataFrame(columns)
+
+
+def sweep_table(of: "Sweep") -> Any:
+    table = _pandas().DataFrame(dict(of.columns))
+    table.attrs["units"] = of.units
+    return table

@@ -1,0 +1,32 @@
+"""The paper again: how far simpler static models put the platform from where it hangs, over its load, and what its cables
+do to a frequency response (Yuan, Courteille and Deblaise 2014)."""
+
+import funicular
+import numpy as np
+from matplotlib import pyplot
+from style import ROBOTS, save
+
+figure, (left, right) = pyplot.subplots(1, 2, figsize=(6.9, 2.5), layout="constrained")
+
+for millimetres, line in ((4, "-"), (8, "--")):
+    robot = funicular.Robot.from_file(ROBOTS / f"yuan2014-{millimetres}mm.toml")
+    rows = robot.sweep({"platform.mass_kg": (10.55, 86.35, 39)}, ["pose-error"], pose=[0, 0, 0.5])
+    for colour, (column, label) in enumerate(
+        {
+            "catenary_from_ideal_distance_m": "ideal cables",
+            "spring_from_catenary_distance_m": "springs",
+        }.items()
+    ):
+        left.semilogy(
+            rows["platform.mass_kg"], 1e3 * rows[column], line, color=f"C{colour}", label=f"{label}, {millimetres} mm"
+        )
+left.set(xlabel="platform mass [kg]", ylabel="pose error [mm]")
+left.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1))
+
+rest = funicular.Robot.example().equilibrium(pose=[0, 0, 0.5])
+hz = np.linspace(0.3, 12, 3000)
+for label, model in (("exact", "exact"), ("massless springs", "spring")):
+    right.semilogy(hz, abs(rest.frf(hz, input="fz", output="az", cable_model=model)), label=label, linewidth=0.9)
+right.set(xlabel="frequency [Hz]", ylabel="$|a_z/f_z|$ [1/kg]", xlim=(0.3, 12))
+right.legend(loc="lower right")
+save(figure, "paper")

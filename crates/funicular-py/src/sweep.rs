@@ -1,0 +1,62 @@
+//! Sweeps: a plan, which pickles, its rows as they come, and the table that they end in.
+//!
+//! Which rows are computed where, and what becomes of workers that die, is Python's (`_sweeps.py`, `_executors.py`).
+
+mod arguments;
+mod plan;
+mod table;
+mod work;
+
+pub(crate) use arguments::{Axes, Makes, Settings, Told, poses};
+pub(crate) use plan::{PointsAsked, PyPlan};
+pub(crate) use table::PyTable;
+pub(crate) use work::PyWork;
+
+use pyo3::inspect::PyStaticExpr;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::convert::Infallible;
+use std::path::PathBuf;
+
+/// `funicular.Sweep`.
+pub(crate) struct SweepObject(Py<PyAny>);
+
+impl<'py> IntoPyObject<'py> for SweepObject {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = Infallible;
+
+    const OUTPUT_TYPE: PyStaticExpr =
+        PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "funicular._sweeps" }, attr: "Sweep" };
+
+    fn into_pyobject(self, py: Python<'py>) -> Result<Self::Output, Self::Error> {
+        Ok(self.0.into_bound(py))
+    }
+}
+
+/// How rows are computed and where they go.
+pub(crate) struct Run {
+    pub(crate) file: Option<PathBuf>,
+    pub(crate) resume: bool,
+    pub(crate) force: bool,
+    pub(crate) threads: Option<usize>,
+    pub(crate) executor: Option<Makes>,
+    pub(crate) chunks_per_task: Option<usize>,
+    pub(crate) progress: Option<Told>,
+}
+
+impl Run {
+    /// All rows of a plan.
+    pub(crate) fn rows(self, py: Python<'_>, plan: PyPlan) -> PyResult<SweepObject> {
+        let keywords = PyDict::new(py);
+        keywords.set_item("file", self.file)?;
+        keywords.set_item("resume", self.resume)?;
+        keywords.set_item("force", self.force)?;
+        keywords.set_item("threads", self.threads)?;
+        keywords.set_item("executor", self.executor.map(|executor| executor.0))?;
+        keywords.set_item("chunks_per_task", self.chunks_per_task)?;
+        keywords.set_item("progress", self.progress.map(|progress| progress.0))?;
+        let run = py.import("funicular._sweeps")?.getattr("run")?;
+        Ok(SweepObject(run.call((plan,), Some(&keywords))?.unbind()))
+    }
+}

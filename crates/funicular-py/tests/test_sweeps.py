@@ -1,0 +1,197 @@
+"""Maps and sweeps are those of the program, byte for byte, and feel like NumPy."""
+
+import json
+import pickle
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import funicular
+import numpy as np
+import pytest
+from conftest import ROBOTS, ROOT
+
+CASES: list[tuple[str, list[str], dict[str, Any]]] = [
+    (
+        "yuan2014-4mm",
+        ["map", "--grid", "x=-4:4:9", "--grid", "y=0,0.5", "--grid", "z=0.5", "--quantity", "first-frequency,pose-error"],
+        {
+            "grid": {"x": (-4, 4, 9), "y": [0, 0.5], "z": 0.5},
+            "quantities": ["first-frequency", "pose-error"],
+        },
+    ),
+    (
+        "cogiro",
+        ["map", "--grid", "z=0.5:3:4", "--pose", "1,2,1,0,3,10", "--tension-rule", "middle", "--max-tension-n", "4000"]
+        + ["--force-n", "0,5,-50", "--up-to-hz", "90"],
+        {
+            "grid": {"z": (0.5, 3, 4)},
+            "pose": [1, 2, 1, 0, 3, 10],
+            "tension_rule": "middle",
+            "max_tension_n": 4000,
+            "force_n": [0, 5, -50],
+            "up_to_hz": 90,
+        },
+    ),
+    (
+        "yuan2014-4mm",
+        ["sweep", "--vary", "platform.mass_kg=10:40:7", "--vary", "materials.rope-4mm.diameter_m=0.004,0.006"]
+        + ["--quantity", "pose,first-kind", "--static-model", "catenary"],
+        {
+            "vary": {"platform.mass_kg": (10, 40, 7), "materials.rope-4mm.diameter_m": [0.004, 0.006]},
+            "quantities": ["pose", "first-kind"],
+        },
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "options", "keywords"), CASES)
+def test_files_are_those_of_the_program(
+    name: str, options: list[str], keywords: dict[str, Any], executable: str, tmp_path: Path
+) -> None:
+    theirs = tmp_path / "theirs.parquet"
+    command, *rest = options
+    line = [executable, command, str(ROBOTS / f"{name}.toml"), *rest, "-o", str(theirs)]
+    subprocess.run(line, check=True, capture_output=True, cwd=ROOT)
+    robot = funicular.Robot.from_file(ROBOTS / f"{name}.toml")
+    rows = getattr(robot, command)(**keywords)
+    rows.to_parquet(tmp_path / "ours.parquet")
+    read = funicular.Sweep.read(theirs)
+    assert rows.plan == read.plan
+    assert (tmp_path / "ours.parquet").read_bytes() == theirs.read_bytes()
+    getattr(robot, command)(**keywords, file=tmp_path / "file.parquet")
+    assert (tmp_path / "file.parquet").read_bytes() == theirs.read_bytes()
+    assert read == rows and read.robot == robot and len(read) == len(rows)
+
+
+def test_a_list_of_poses_is_that_of_the_program(executable: str, robot: funicular.Robot, tmp_path: Path) -> None:
+    poses = np.array([[0, 0, 0.5, 0, 0, 10], [9, 0, 0.5, 0, 0, 0], [0.25, -0.5, 0.625, 1, 2, 3]])
+    table = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n" + "\n".join(",".join(map(repr, map(float, row))) for row in poses)
+    (tmp_path / "poses.csv").write_text(table)
+    line = [executable, "map", str(ROBOTS / "yuan2014-4mm.toml"), "--poses", str(tmp_path / "poses.csv")]
+    subprocess.run([*line, "-o", str(tmp_path / "theirs.parquet")], check=True, capture_output=True)
+    rows = robot.map(poses=poses)
+    rows.to_parquet(tmp_path / "ours.parquet")
+    assert (tmp_path / "ours.parquet").read_bytes() == (tmp_path / "theirs.parquet").read_bytes()
+    assert rows.axes == {}
+    with pytest.raises(funicular.InputError, match="no grid"):
+        rows.on_grid("tension_max_n")
+
+
+@pytest.fixture(scope="module")
+def rows() -> funicular.Sweep:
+    return funicular.Robot.example().map(
+        {"x": (-4, 4, 9), "y": (-1, 1, 3), "z": [0.5]}, pose=[0, 0, 0], quantities=["tension-max", "first-kind"], up_to_hz=20
+    )
+
+
+def test_columns_are_those_of_equilibria(rows: funicular.Sweep, robot: funicular.Robot) -> None:
+    poses = np.stack([rows["x_m"], rows["y_m"], rows["z_m"]], axis=1)
+    others = robot.equilibria(poses)
+    assert np.array_equal(rows.feasible, others.ok) and 0 < rows.feasible.sum() < len(rows) == 27
+    assert np.array_equal(np.isnan(rows["tension_max_n"]), ~others.ok)
+    expected = np.fmax(others.tensions, others.anchor_tensions).max(axis=1)
+    assert np.allclose(rows["tension_max_n"], expected, rtol=1e-12, equal_nan=True)
+    reasons = [reason or "" for reason in rows["reason"][~rows.feasible]]
+    assert all("would need" in reason for reason in reasons)
+    assert rows.units["tension_max_n"] == "N" and rows.units["status"] == "" and "tension" in rows.about["tension_max_n"]
+    assert list(rows.columns)[:3] == ["x_m", "y_m", "z_m"] and "27 rows" in repr(rows)
+
+
+def test_a_grid_has_its_dimensions(rows: funicular.Sweep) -> None:
+    assert list(rows.axes) == ["x", "y"]
+    tension = rows.on_grid("tension_max_n")
+    assert tension.shape == (3, 9)
+    x, y = np.meshgrid(rows.axes["x"], rows.axes["y"])
+    assert np.array_equal(rows.on_grid("x_m"), x) and np.array_equal(rows.on_grid("y_m"), y)
+
+
+def test_arrow_takes_the_rows_without_copies(rows: funicular.Sweep, tmp_path: Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    table, again = rows.to_arrow(), pyarrow.table(rows)
+    assert table.schema.field("tension_max_n").metadata[b"unit"] == b"N"
+    assert table.column("tension_max_n").null_count == (~rows.feasible).sum()
+    address = [of.column("tension_max_n").chunk(0).buffers()[1].address for of in (table, again)]
+    assert address[0] == address[1]
+    kept = table.column("tension_max_n")
+    del table, again
+    assert np.array_equal(kept.to_numpy(), rows["tension_max_n"], equal_nan=True)
+    import pyarrow.parquet
+
+    rows.to_parquet(tmp_path / "rows.parquet")
+    assert pyarrow.parquet.read_table(tmp_path / "rows.parquet").equals(rows.to_arrow())
+
+
+def test_tables_pickles_and_pages(rows: funicular.Sweep) -> None:
+    table = rows.to_pandas()
+    assert table.shape == (27, len(rows.columns)) and table.attrs["units"]["x_m"] == "m"
+    assert table["status"].tolist() == rows["status"].tolist()
+    again = pickle.loads(pickle.dumps(rows))
+    assert again == rows and again.plan == rows.plan
+    assert "tension_max_n [N]" in rows._repr_html_() and "would need" in rows._repr_html_()
+    with pytest.raises(ValueError, match="read-only"):
+        rows["x_m"][0] = 1
+
+
+def test_a_sweep_in_memory_goes_to_any_format(rows: funicular.Sweep, tmp_path: Path) -> None:
+    rows.write(tmp_path / "rows.csv")
+    rows.write(tmp_path / "rows.vti")
+    lines = (tmp_path / "rows.csv").read_text().splitlines()
+    assert len(lines) == 28 and lines[0].split(",") == list(rows.columns)
+    with pytest.raises(funicular.FileError, match="names no format"):
+        rows.write(tmp_path / "rows.xls")
+    with pytest.raises(funicular.InputError, match="must end in .parquet"):
+        rows.to_parquet(tmp_path / "rows.csv")
+    with pytest.raises(funicular.FileError, match="no directory"):
+        rows.to_parquet(tmp_path / "nowhere" / "rows.parquet")
+
+
+def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: Path) -> None:
+    path = tmp_path / "map.parquet"
+    robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path)
+    assert len(robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, resume=True)) == 2
+    with pytest.raises(funicular.FileError, match="belongs to another sweep"):
+        robot.map({"x": [0, 2], "y": 0, "z": 0.5}, file=path, resume=True)
+    with pytest.raises(funicular.FileError, match="robot file, line"):
+        robot.with_(mass_kg=20).map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, resume=True)
+    (tmp_path / "other.parquet").write_text("no")
+    with pytest.raises(funicular.FileError, match="no Parquet file"):
+        funicular.Sweep.read(tmp_path / "other.parquet")
+
+
+@pytest.mark.parametrize(
+    ("command", "keywords", "told"),
+    [
+        ("map", {}, "`grid` or `poses`"),
+        ("map", {"grid": {"x": 0}, "poses": [[0, 0, 0]]}, "`grid` or `poses`"),
+        ("map", {"grid": {"q": 0}}, "no axis `q`"),
+        ("map", {"grid": {"x": (0, 1, 1)}}, "`x`: 1 is not a number of values"),
+        ("map", {"grid": {"x": (0, 1, -1)}}, "`x` has -1 values"),
+        ("map", {"grid": {"x": []}}, "`x` has no values"),
+        ("map", {"grid": {"x": [0, float("nan")]}}, "must be finite"),
+        ("map", {"poses": [[0, 0]]}, "give x, y, z"),
+        ("map", {"poses": np.zeros((0, 3))}, "no points"),
+        ("map", {"grid": {"x": 0}, "quantities": ["tension-mx"]}, "did you mean `tension-max`"),
+        ("map", {"grid": {"x": 0}, "quantities": []}, "no quantity"),
+        ("map", {"grid": {"x": 0}, "tension_rule": "middle"}, "nothing to choose"),
+        ("map", {"grid": {"x": 0}, "resume": True}, "go with `file`"),
+        ("map", {"grid": {"x": 0}, "chunks_per_task": 3}, "goes with `executor`"),
+        ("map", {"grid": {"x": 0}, "executor": 3}, "`executor` is a int"),
+        ("map", {"grid": {"x": 0}, "threads": 0}, "`threads` is 0"),
+        ("map", {"grid": {"x": (0, 1, 10**9)}}, "more than the 100000000"),
+        ("sweep", {"vary": {"platform.mas_kg": [1, 2]}}, "mas_kg"),
+        ("sweep", {"vary": {"platform.mass_kg": (-1, 1, 3)}}, "mass_kg"),
+        ("sweep", {"vary": {"a b": 1}}, "not a path"),
+    ],
+)
+def test_arguments_that_mean_nothing_are_explained(
+    command: str, keywords: dict[str, Any], told: str, robot: funicular.Robot
+) -> None:
+    with pytest.raises(funicular.Error, match=told.replace("(", r"\(")) as error:
+        getattr(robot, command)(**keywords)
+    assert "--" not in str(error.value)
+
+
+def test_the_plan_says_what_was_asked(rows: funicular.Sweep) -> None:
+    assert rows.plan["quantities"] == ["tension-max", "first-kind"] and rows.plan["command"] == "map"
+    assert json.dumps(rows.plan)
