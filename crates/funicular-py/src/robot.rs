@@ -313,10 +313,10 @@ impl PyRobot {
     /// grid
     ///     Values along axes x, y, z [m], roll, pitch, yaw [degrees]: `{"x": (-4, 4, 81), "z": [0.5, 1, 2]}`; a tuple is
     ///     first, last and how many, anything else is values. x runs fastest, then y and so on.
-    /// poses
-    ///     Instead of a grid (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     /// quantities
     ///     What to compute, docs/sweeps.md has the list; tension-min and tension-max if not given.
+    /// poses
+    ///     Instead of a grid (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     /// pose, lengths
     ///     Where axes stay that the grid does not have: x, y, z [m] and roll, pitch, yaw [degrees], or unstrained lengths
     ///     [m]. As the robot file says if not given.
@@ -348,7 +348,7 @@ impl PyRobot {
     /// ExecutorError
     ///     The executor's workers died; its `resume` goes on.
     #[pyo3(signature = (
-        grid=None, poses=None, quantities=None, *, pose=None, lengths=None, model="catenary", cable_model=None,
+        grid=None, quantities=None, *, poses=None, pose=None, lengths=None, model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, up_to_hz=funicular::sweep::HIGHEST_HZ, tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, force_n=None, moment_n_m=None, load_point_m=None,
         file=None, resume=false, force=false, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -358,8 +358,8 @@ impl PyRobot {
         slf: Py<Self>,
         py: Python<'_>,
         grid: Option<Axes>,
-        poses: Option<Numbers>,
         quantities: Option<Vec<String>>,
+        poses: Option<Numbers>,
         pose: Option<Numbers>,
         lengths: Option<Numbers>,
         model: &str,

@@ -84,7 +84,7 @@ def _workers(executor: Executor) -> int:
             return count
     client = getattr(executor, "_client", None)
     if client is not None:
-        return max(1, sum(client.nthreads().values()))
+        return max(1, sum(int(threads) for threads in client.nthreads().values()))
     return os.cpu_count() or 1
 
 

@@ -2,13 +2,18 @@
 The compiled half of `funicular`; import `funicular` instead.
 """
 
+from _typeshed import SupportsGetItem
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from funicular._results import Equilibria, Modes
+from funicular._sweeps import Sweep
 from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Catenary", "Equilibrium", "Pose", "Robot", "peaks"]
+__all__ = ["__version__", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "peaks"]
 
 __version__: Final[str]
 
@@ -428,6 +433,53 @@ class Robot:
         """
         Unstrained lengths that the file gives [m], one a cable; None where it gives a pose or no state.
         """
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: ArrayLike | None = None, lengths: ArrayLike | None = None, model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, force: bool = False, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+        """
+        Quantities over poses, one row a pose.
+
+        The rows are those of the program's `map`, bit for bit, whatever computes them. A pose without equilibrium is a row
+        with its reason, never an exception.
+
+        Parameters
+        ----------
+        grid
+            Values along axes x, y, z [m], roll, pitch, yaw [degrees]: `{"x": (-4, 4, 81), "z": [0.5, 1, 2]}`; a tuple is
+            first, last and how many, anything else is values. x runs fastest, then y and so on.
+        quantities
+            What to compute, docs/sweeps.md has the list; tension-min and tension-max if not given.
+        poses
+            Instead of a grid (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+        pose, lengths
+            Where axes stay that the grid does not have: x, y, z [m] and roll, pitch, yaw [degrees], or unstrained lengths
+            [m]. As the robot file says if not given.
+        up_to_hz
+            Where the search for natural frequencies ends [Hz].
+        file
+            Write the rows to .parquet, .csv or .vti, as a whole; until then they are in FILE.partial and survive whatever
+            ends the program. Of a Parquet file nothing is in memory before it is asked for.
+        resume, force
+            Go on with what FILE.partial holds of the same sweep, or forget it.
+        threads
+            How many threads compute here; all processors if not given.
+        executor
+            Compute in the workers of an executor (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
+            `MPIPoolExecutor`), or of a function that makes one, which is called again when it breaks.
+        chunks_per_task
+            Chunks of rows that a worker gets at once; by default what takes some seconds, as measured on the way.
+        progress
+            Is called now and then with the rows there are and all rows.
+
+        The other parameters are those of `equilibrium` and `modes`.
+
+        Raises
+        ------
+        InputError
+            An argument means nothing.
+        FileError
+            The file cannot be written, or belongs to another sweep.
+        ExecutorError
+            The executor's workers died; its `resume` goes on.
+        """
     @property
     def mass_kg(self, /) -> float:
         """
@@ -455,6 +507,18 @@ class Robot:
         """
         `Equilibrium.stiffness` in the state of the robot file.
         """
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: ArrayLike | None = None, lengths: ArrayLike | None = None, model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, force: bool = False, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+        """
+        Quantities over values of the robot file, one row a combination, as of the program's `sweep`.
+
+        Parameters
+        ----------
+        vary
+            Values by their paths in the robot file, as of `with_`: `{"platform.mass_kg": (10, 90, 81)}`; a tuple is first,
+            last and how many, anything else is values. The first runs fastest.
+
+        The other parameters are those of `map`.
+        """
     def to_dict(self, /) -> dict[str, Any]:
         """
         The robot file as a dictionary.
@@ -479,6 +543,125 @@ class Robot:
         ------
         RobotFileError
             There is no such place in the file, or the value is not one for it.
+        """
+
+@final
+class SweepPlan:
+    """
+    What is asked of which points; a pickle of it is the text of the robot file and the request.
+    """
+    def __new__(cls, /, robot: Robot, request: str) -> SweepPlan:
+        """
+        Of a robot and a request as JSON.
+        """
+    def __reduce__(self, /) -> tuple[Any, tuple[Robot, str]]: ...
+    def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, force: bool = False) -> SweepWork | None:
+        """
+        Begins to collect rows, in memory or in a file; None if the file has them all.
+        """
+    @property
+    def chunk_rows(self, /) -> int:
+        """
+        Rows of every chunk but the last.
+        """
+    @property
+    def chunks(self, /) -> int:
+        """
+        Number of chunks of rows; each is computed by itself.
+        """
+    def compute(self, /, first: SupportsIndex, end: SupportsIndex, threads: SupportsIndex = 1) -> bytes:
+        """
+        Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
+        """
+    @property
+    def rows(self, /) -> int:
+        """
+        Number of rows.
+        """
+
+@final
+class SweepTable:
+    """
+    The rows of a sweep, as columns in memory.
+    """
+    def __arrow_c_stream__(self, /, requested_schema: Any | None = None) -> Any:
+        """
+        The rows for any library that knows Arrow's C stream, without copies.
+        """
+    def column(self, /, index: SupportsIndex) -> Any:
+        """
+        One column: numbers (NaN where there is none), flags, or a list of texts and None.
+        """
+    @property
+    def complete(self, /) -> bool:
+        """
+        Whether every row of the plan is there.
+        """
+    @property
+    def fields(self, /) -> list[tuple[str, str, str]]:
+        """
+        Names, units and meanings of the columns.
+        """
+    @property
+    def plan(self, /) -> str:
+        """
+        Points, quantities and options, as JSON.
+        """
+    @staticmethod
+    def read(path: str | PathLike[str]) -> SweepTable:
+        """
+        Reads a Parquet file that a sweep has written.
+        """
+    @property
+    def robot_file(self, /) -> str:
+        """
+        Text of the robot file.
+        """
+    @property
+    def rows(self, /) -> int:
+        """
+        Number of rows.
+        """
+    def write(self, /, path: str | PathLike[str]) -> None:
+        """
+        Writes .parquet, .csv or .vti, as a whole or not at all.
+        """
+
+@final
+class SweepWork:
+    """
+    Rows of a plan as they come, in order.
+    """
+    def add(self, /, chunks: bytes) -> None:
+        """
+        Takes chunks that `SweepPlan.compute` has made, the next ones.
+        """
+    @property
+    def done(self, /) -> int:
+        """
+        Rows that are there.
+        """
+    def finish(self, /) -> SweepTable | None:
+        """
+        Ends it: writes the file, as a whole. The table of rows; None where that would be read from a Parquet file.
+        """
+    def interrupt(self, /) -> str | None:
+        """
+        Ends it early: what is safe, in a sentence; None in memory.
+        """
+    @property
+    def journal(self, /) -> Path | None:
+        """
+        The file that holds the rows until the end; None in memory.
+        """
+    @property
+    def next_chunk(self, /) -> int:
+        """
+        The first chunk that is missing.
+        """
+    def run(self, /, threads: SupportsIndex | None = None, progress: Any | None = None) -> None:
+        """
+        Computes all chunks that are missing here, side by side; `progress` is called with the rows there and all rows.
         """
 
 def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex = 1.0) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:

@@ -89,11 +89,13 @@ impl PyTable {
         &self,
         py: Python<'py>,
         requested_schema: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyCapsule>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         // The protocol lets a producer answer with its own schema.
         let _ = requested_schema;
         let batches: Vec<_> = self.0.batches().iter().cloned().map(Ok).collect();
         let reader = RecordBatchIterator::new(batches, Arc::clone(self.0.schema()));
-        PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(reader)), c"arrow_array_stream")
+        let stream = FFI_ArrowArrayStream::new(Box::new(reader));
+        // A capsule, whose type has had a name in Python only since 3.13.
+        Ok(PyCapsule::new_with_value(py, stream, c"arrow_array_stream")?.into_any())
     }
 }
