@@ -1,4 +1,4 @@
-"""What a load does to the lowest frequencies, and from which load on they stay above a limit."""
+"""What a load in the platform's centre of mass does to the lowest frequencies, and when they stay above a limit."""
 
 import funicular
 import numpy as np
