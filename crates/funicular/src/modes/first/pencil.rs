@@ -27,6 +27,9 @@ pub(super) struct Pencil {
 /// A cable that has mass, its axes as scaled vectors.
 pub(super) struct Arm {
     cable: usize,
+    /// Where its matrices are.
+    pub(super) group: usize,
+    pub(super) lane: usize,
     pub(super) normal: Vec6,
     pub(super) along: Vec6,
     pub(super) out: Vec6,
@@ -73,9 +76,8 @@ impl Motion {
     /// The kept unknowns of a group of arms.
     pub(super) fn lanes(&self, arms: &[Arm], group: usize) -> ([Lane; IN_PLANE], [Lane; ACROSS]) {
         let (mut plane, mut across) = ([[0.0; LANES]; IN_PLANE], [[0.0; LANES]; ACROSS]);
-        let range = group * LANES..arms.len().min((group + 1) * LANES);
-        for (i, (arm, [q, p])) in arms[range.clone()].iter().zip(&self.bubbles[range]).enumerate() {
-            let [n, e, b] = arm.end(&self.platform);
+        for (arm, [q, p]) in arms.iter().zip(&self.bubbles).filter(|(arm, _)| arm.group == group) {
+            let ([n, e, b], i) = (arm.end(&self.platform), arm.lane);
             (plane[0][i], plane[1][i], plane[2][i]) = (n, e, *q);
             (across[0][i], across[1][i]) = (b, *p);
         }
@@ -103,16 +105,18 @@ impl Pencil {
             massive.push((i, hanging));
             curves.push((&hanging.catenary, mass_per_length));
         }
-        let groups = curves.chunks(LANES).map(Abreast::new).collect::<Option<Vec<_>>>()?;
-        let arm = |(at, (cable, hanging)): (usize, (usize, &HangingCable))| {
+        let groups = Abreast::groups(&curves)?;
+        let arm = |group: usize, lane: usize| {
+            let (cable, hanging): (usize, &HangingCable) = massive[groups[group].members()[lane]];
             let (level_w, up_w) = hanging.axes_w();
-            let [cos, sin] = groups[at / LANES].axis(at % LANES);
+            let [cos, sin] = groups[group].axis(lane);
             let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
             let lever = equilibrium.cables[cable].lever_w / ell;
             let along = |u| motions.reduced(&wrench_of(&u, &lever));
-            Arm { cable, normal: along(n), along: along(e), out: along(e.cross(&n)) }
+            Arm { cable, group, lane, normal: along(n), along: along(e), out: along(e.cross(&n)) }
         };
-        let arms = massive.into_iter().enumerate().map(arm).collect();
+        let places = |group: usize| (0..groups[group].members().len()).map(move |lane| (group, lane));
+        let arms = (0..groups.len()).flat_map(places).map(|(group, lane)| arm(group, lane)).collect();
         let (freedoms, cable_count) = (motions.count(), robot.cables.len());
         Some(Self { freedoms, motions, ell, constant, mass, arms, groups, cable_count })
     }
@@ -138,9 +142,12 @@ impl Pencil {
             if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
         };
         let platform = Vec6::from_fn(|i, _| if i < self.freedoms { part(i) } else { 0.0 });
-        let bubbles = (0..self.arms.len())
-            .map(|i| {
-                let (mass, lane) = (&masses[i / LANES], i % LANES);
+        let bubbles = self
+            .arms
+            .iter()
+            .enumerate()
+            .map(|(i, arm)| {
+                let (mass, lane) = (&masses[arm.group], arm.lane);
                 let [q, p] = [mass.plane[5][lane], mass.across[2][lane]].map(|m| (self.mass[(0, 0)] / m).sqrt());
                 [q * part(2 * i + 6), p * part(2 * i + 7)]
             })
@@ -155,9 +162,8 @@ impl Pencil {
             .arms
             .iter()
             .zip(&y.bubbles)
-            .enumerate()
-            .map(|(i, (arm, [q, p]))| {
-                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = masses[i / LANES].of(i % LANES);
+            .map(|(arm, [q, p])| {
+                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = masses[arm.group].of(arm.lane);
                 let [n, e, b] = arm.end(&y.platform);
                 platform += arm.wrench([nn * n + en * e + qn * q, en * n + ee * e + qe * q, oo * b + bo * p]);
                 [qn * n + qe * e + qq * q, bo * b + bb * p]

@@ -3,7 +3,7 @@
 use super::cables::Cables;
 use super::factor::Factor;
 use super::pencil::{Motion, Pencil};
-use crate::cable::exact::abreast::{Kept, LANES, place};
+use crate::cable::exact::abreast::{Kept, place};
 use crate::math::DMat;
 
 /// How far a search goes.
@@ -52,7 +52,7 @@ pub(super) fn lowest(
     aim: &Aim,
 ) -> Option<Found> {
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
-    let mut kept = Vec::with_capacity(pencil.arms.len().div_ceil(LANES));
+    let mut kept = Vec::with_capacity(metric.len());
     let mut before = f64::INFINITY;
     let mut refined = false;
     for _ in 0..MOST_EVALUATIONS {
@@ -147,9 +147,9 @@ fn improved(
     }
     let work = |i: usize, j: usize| motions[i].dot(&images[j]);
     let mut arms = vec![Vec::with_capacity(pencil.arms.len()); place(count, 0)];
-    for group in 0..pencil.arms.len().div_ceil(LANES) {
+    for group in 0..metric.len() {
         let ends: Vec<_> = motions.iter().map(|motion| motion.lanes(&pencil.arms, group)).collect();
-        let lanes = LANES.min(pencil.arms.len() - group * LANES);
+        let lanes = pencil.arms.iter().filter(|arm| arm.group == group).count();
         for (arms, masses) in arms.iter_mut().zip(cables.mass(group, &ends)) {
             arms.extend_from_slice(&masses[..lanes]);
         }

@@ -174,13 +174,11 @@ impl Element {
         [substitute(plane_factor, 2 * functions, plane), substitute(across_factor, *functions, across)]
     }
 
-    /// `aᵀ M b` in plane and out of plane, added to the sums.
+    /// `aᵀ M b` in plane and out of plane.
     #[inline(always)]
-    pub(super) fn weigh<const H: usize>(&self, a: &[Vec<Lane>; 2], b: &[Vec<Lane>; 2], sums: &mut [Lane; 2]) {
-        let parts = [weigh::<2, H>(&a[0], &b[0]), weigh::<1, H>(&a[1], &b[1])];
-        for (sum, part) in sums.iter_mut().zip(&parts) {
-            *sum = from_fn(|i| sum[i] + part[i] * self.half_mass[i]);
-        }
+    pub(super) fn weigh<const H: usize>(&self, a: &[Vec<Lane>; 2], b: &[Vec<Lane>; 2]) -> [Lane; 2] {
+        let [plane, across] = [weigh::<2, H>(&a[0], &b[0]), weigh::<1, H>(&a[1], &b[1])];
+        [from_fn(|i| plane[i] * self.half_mass[i]), from_fn(|i| across[i] * self.half_mass[i])]
     }
 }
 
