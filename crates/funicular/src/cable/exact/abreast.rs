@@ -11,23 +11,22 @@
 mod chain;
 mod cuts;
 mod element;
+mod lanes;
 mod tables;
 
 pub(crate) use element::place;
+pub(crate) use lanes::Lane;
 
 use crate::catenary::Catenary;
 use chain::Chain;
 use cuts::Mesh;
 use element::{Element, Shapes};
+use lanes::Lanes;
+use pulp::Simd;
 use std::array::from_fn;
 
 /// Numbers side by side: two AVX2 registers, one of AVX-512.
 pub(crate) const LANES: usize = 8;
-
-/// One number a cable.
-pub(crate) type Lane = [f64; LANES];
-
-const ZERO: Lane = [0.0; LANES];
 
 /// Most degrees of an element. Robots take up to 20.
 pub(crate) const MOST_DEGREES: usize = 32;
@@ -36,10 +35,10 @@ pub(crate) const MOST_DEGREES: usize = 32;
 const MOST_TERMS: usize = 45;
 
 /// Coefficients of C below this part are left out.
-const TRUNCATION: f64 = 1e-15;
+const TRUNCATION: f64 = 1e-13;
 
 /// Up to [`LANES`] cables, either all of one element or all of several.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Abreast {
     /// Which of the cables that were asked for.
     members: Vec<usize>,
@@ -76,8 +75,8 @@ impl Kept {
 }
 
 /// Amplitudes of all functions of elements side by side: of each pack, in plane and out of plane.
-#[derive(Debug, Clone)]
-pub(crate) struct Motion(Vec<[Vec<Lane>; 2]>);
+#[derive(Debug)]
+pub(crate) struct Motion(Vec<[Lanes; 2]>);
 
 impl Abreast {
     /// All cables, of mass m per unstrained length [kg/m] each, in groups. None if one has no tension somewhere.
@@ -150,9 +149,14 @@ impl Abreast {
         pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
     }
 
-    /// `aᵀ M b` in plane and out of plane [kg × motion²].
-    pub(crate) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
-        pulp::Arch::new().dispatch(Weigh { cables: self, a, b })
+    /// What [`mass`](Self::mass) takes the second motion as.
+    pub(crate) fn weighed(&self, motion: &Motion) -> Motion {
+        pulp::Arch::new().dispatch(Weigh { cables: self, motion })
+    }
+
+    /// `aᵀ M b` in plane and out of plane [kg × motion²], of a motion and a [`weighed`](Self::weighed) one.
+    pub(crate) fn mass(&self, a: &Motion, weighed: &Motion) -> [Lane; 2] {
+        pulp::Arch::new().dispatch(Mass { cables: self, a, weighed })
     }
 }
 
@@ -161,15 +165,15 @@ struct Expand<'a> {
     terms: usize,
 }
 
-impl pulp::NullaryFnOnce for Expand<'_> {
+impl pulp::WithSimd for Expand<'_> {
     type Output = Vec<Element>;
 
     #[inline(always)]
-    fn call(self) -> Vec<Element> {
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Element> {
         let Self { shapes, terms } = self;
         let mut elements = Vec::with_capacity(shapes.len());
         for shapes in shapes {
-            elements.push(Element::new(shapes, terms));
+            elements.push(Element::new(simd, shapes, terms));
         }
         elements
     }
@@ -181,16 +185,16 @@ struct Factorise<'a> {
     degree: usize,
 }
 
-impl pulp::NullaryFnOnce for Factorise<'_> {
+impl pulp::WithSimd for Factorise<'_> {
     type Output = Kept;
 
     #[inline(always)]
-    fn call(self) -> Kept {
+    fn with_simd<S: Simd>(self, simd: S) -> Kept {
         let Self { cables: Abreast { packs, chains, .. }, x, degree } = self;
         if chains.is_empty() {
             let mut least_pivot = [f64::INFINITY; LANES];
             let element = &mut packs[0];
-            element.factorise::<1>(x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
+            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
             return Kept {
                 plane: from_fn(|k| element.plane_factor[k]),
                 across: from_fn(|k| element.across_factor[k]),
@@ -200,7 +204,7 @@ impl pulp::NullaryFnOnce for Factorise<'_> {
         let mut least_pivots = Vec::with_capacity(packs.len());
         for element in packs.iter_mut() {
             let mut least_pivot = [f64::INFINITY; LANES];
-            element.factorise::<2>(x, degree, (4, 2), &mut least_pivot);
+            element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut least_pivot);
             least_pivots.push(least_pivot);
         }
         chain::condense(chains, packs, &least_pivots)
@@ -213,18 +217,18 @@ struct Substitute<'a> {
     across: [Lane; ACROSS],
 }
 
-impl pulp::NullaryFnOnce for Substitute<'_> {
+impl pulp::WithSimd for Substitute<'_> {
     type Output = Motion;
 
     #[inline(always)]
-    fn call(self) -> Motion {
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
         let Self { cables: Abreast { packs, chains, .. }, plane, across } = self;
         if chains.is_empty() {
-            return Motion(vec![packs[0].moved(&plane, &across)]);
+            return Motion(vec![packs[0].moved(simd, &plane, &across)]);
         }
         let mut all = Vec::with_capacity(packs.len());
         for (element, ends) in packs.iter().zip(chain::ends(chains, packs.len(), &plane, &across)) {
-            all.push(element.moved(&ends.plane, &ends.across));
+            all.push(element.moved(simd, &ends.plane, &ends.across));
         }
         Motion(all)
     }
@@ -232,22 +236,44 @@ impl pulp::NullaryFnOnce for Substitute<'_> {
 
 struct Weigh<'a> {
     cables: &'a Abreast,
-    a: &'a Motion,
-    b: &'a Motion,
+    motion: &'a Motion,
 }
 
-impl pulp::NullaryFnOnce for Weigh<'_> {
+impl pulp::WithSimd for Weigh<'_> {
+    type Output = Motion;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+        let Self { cables: Abreast { packs, chains, .. }, motion } = self;
+        if chains.is_empty() {
+            return Motion(vec![packs[0].weighed::<S, 1>(simd, &motion.0[0])]);
+        }
+        let mut all = Vec::with_capacity(packs.len());
+        for (element, of_pack) in packs.iter().zip(&motion.0) {
+            all.push(element.weighed::<S, 2>(simd, of_pack));
+        }
+        Motion(all)
+    }
+}
+
+struct Mass<'a> {
+    cables: &'a Abreast,
+    a: &'a Motion,
+    weighed: &'a Motion,
+}
+
+impl pulp::WithSimd for Mass<'_> {
     type Output = [Lane; 2];
 
     #[inline(always)]
-    fn call(self) -> [Lane; 2] {
-        let Self { cables: Abreast { packs, chains, .. }, a, b } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> [Lane; 2] {
+        let Self { cables: Abreast { packs, chains, .. }, a, weighed } = self;
         if chains.is_empty() {
-            return packs[0].weigh::<1>(&a.0[0], &b.0[0]);
+            return packs[0].mass(simd, &a.0[0], &weighed.0[0]);
         }
         let mut masses = Vec::with_capacity(packs.len());
-        for ((element, a), b) in packs.iter().zip(&a.0).zip(&b.0) {
-            masses.push(element.weigh::<2>(a, b));
+        for ((element, a), weighed) in packs.iter().zip(&a.0).zip(&weighed.0) {
+            masses.push(element.mass(simd, a, weighed));
         }
         chain::sums(chains, &masses)
     }
@@ -334,7 +360,7 @@ mod tests {
             abreast.kept(x, 24);
             let lanes = |value: f64| [value; LANES];
             let motion = abreast.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
-            let mass = abreast.mass(&motion, &motion).map(|lane| lane[0]);
+            let mass = abreast.mass(&motion, &abreast.weighed(&motion)).map(|lane| lane[0]);
             for (mass, change) in mass.into_iter().zip(change) {
                 prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
             }

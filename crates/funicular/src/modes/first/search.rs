@@ -21,6 +21,9 @@ pub(super) const EXACT: Aim = Aim { width: 1e-9, steps: 6, checked: true };
 /// Where a step costs little.
 pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
 
+/// One shift, at rest or well below: as good as cables allow whose unknowns follow as at another frequency.
+pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
+
 /// Evaluations after which the slow way is faster.
 const MOST_EVALUATIONS: usize = 40;
 
@@ -66,7 +69,9 @@ pub(super) fn lowest(
             high = high.min(x);
         }
         if factor.negative > 1 {
-            motions.extend((motions.len()..BLOCK).map(|number| pencil.any_motion(metric, number)));
+            motions.extend(
+                (motions.len()..factor.negative.clamp(2, BLOCK)).map(|number| pencil.any_motion(metric, number)),
+            );
         }
         let found = improved(pencil, cables, metric, &factor, x, motions, aim);
         let quotient = found.square;
@@ -94,8 +99,8 @@ pub(super) fn lowest(
         low = if low < high { low } else { 0.9 * high };
         x = match () {
             () if leads => next,
-            () if low > 0.0 => 0.5 * (low + high),
-            () => 0.5 * high,
+            () if low > 0.0 => 0.25 * low + 0.75 * high,
+            () => 0.75 * high,
         };
     }
     None

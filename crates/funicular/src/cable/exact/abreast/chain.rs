@@ -2,7 +2,8 @@
 
 use super::cuts::Mesh;
 use super::element::{Element, place};
-use super::{ACROSS, IN_PLANE, Kept, LANES, Lane, ZERO};
+use super::lanes::{Lane, Lanes, ZERO};
+use super::{ACROSS, IN_PLANE, Kept, LANES};
 use nalgebra::SMatrix;
 
 /// One cable's elements, and its nodes at the last frequency.
@@ -34,12 +35,13 @@ impl Chain {
     /// Eliminates the nodes between elements that are condensed onto their ends; writes the lane of `into`.
     fn condense(&mut self, packs: &[Element], least_pivots: &[Lane], lane: usize, into: &mut Kept) {
         let mut least = self.of(least_pivots).fold(f64::INFINITY, f64::min);
-        let entry = |factor: fn(&Element) -> &[Lane], e: usize, row: usize, column: usize| {
+        let entry = |factor: fn(&Element) -> &Lanes, e: usize, row: usize, column: usize| {
             let at = self.first + e;
             factor(&packs[at / LANES])[place(row.max(column), row.min(column))][at % LANES]
         };
         let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.plane_factor, e, row, column);
-        let out_of_plane = |e: usize, row: usize, column: usize| entry(|element| &element.across_factor, e, row, column);
+        let out_of_plane =
+            |e: usize, row: usize, column: usize| entry(|element| &element.across_factor, e, row, column);
         let [own, between, kept] = self.plane.eliminate(in_plane, self.elements, self.kept, &mut least);
         let pivot = kept[(1, 1)];
         least = if pivot < least { pivot } else { least };
@@ -116,7 +118,8 @@ impl<const D: usize> Nodes<D> {
         kept: usize,
         least_pivot: &mut f64,
     ) -> [Block<D>; 3] {
-        let part = |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
+        let part =
+            |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
         let Self { inverse, next, end } = self;
         let mut own: Vec<Block<D>> = (0..elements).map(|e| part(e, 0, 0)).collect();
         for e in 1..elements {
