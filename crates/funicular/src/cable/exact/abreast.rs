@@ -3,28 +3,30 @@
 //! The first natural frequency of a robot is not above the first clamped one of any of its cables, so that a mesh of
 //! modest degree resolves every cable, and one factorisation a frequency costs less than the clamped modes. The unknowns
 //! are those of `mesh`: one element, or, where a cable hangs nearly without tension, several that grow with the distance
-//! from its lowest point. They are eliminated from the highest bubble down. Kept beside the platform end are, in plane and
-//! out of plane, the lowest bubble, or the node at the lowest point: they carry the first clamped modes, so that what has
-//! been eliminated has its poles far above.
+//! from its lowest point. Elements are worked on side by side, whole cables in one group, the elements of all others in
+//! another. Unknowns are eliminated from the highest bubble down. Kept beside the platform end are, in plane and out of
+//! plane, the lowest bubble, or the node at the lowest point: they carry the first clamped modes, so that what has been
+//! eliminated has its poles far above.
 
+mod chain;
 mod cuts;
 mod element;
+mod lanes;
 mod tables;
 
 pub(crate) use element::place;
+pub(crate) use lanes::Lane;
 
 use crate::catenary::Catenary;
+use chain::Chain;
 use cuts::Mesh;
-use element::{Element, Shapes, eliminate, substitute};
+use element::{Element, Shapes};
+use lanes::Lanes;
+use pulp::Simd;
 use std::array::from_fn;
 
 /// Numbers side by side: two AVX2 registers, one of AVX-512.
 pub(crate) const LANES: usize = 8;
-
-/// One number a cable.
-pub(crate) type Lane = [f64; LANES];
-
-const ZERO: Lane = [0.0; LANES];
 
 /// Most degrees of an element. Robots take up to 20.
 pub(crate) const MOST_DEGREES: usize = 32;
@@ -33,21 +35,21 @@ pub(crate) const MOST_DEGREES: usize = 32;
 const MOST_TERMS: usize = 45;
 
 /// Coefficients of C below this part are left out.
-const TRUNCATION: f64 = 1e-15;
+const TRUNCATION: f64 = 1e-13;
 
-/// Up to [`LANES`] cables; the last lanes repeat the last cable.
-#[derive(Debug, Clone)]
+/// Up to [`LANES`] cables, either all of one element or all of several.
+#[derive(Debug)]
 pub(crate) struct Abreast {
-    elements: Vec<Element>,
+    /// Which of the cables that were asked for.
+    members: Vec<usize>,
+    /// Elements side by side; the last lanes repeat the last element.
+    packs: Vec<Element>,
+    /// Of each cable, if it has several elements.
+    chains: Vec<Chain>,
     /// Legendre terms of C.
     terms: usize,
-    /// Which node is kept; 0 if there is one element.
-    node: usize,
-    /// Factors of the nodes where there are several elements: the platform end, the kept node, the others.
-    plane_factor: Vec<Lane>,
-    across_factor: Vec<Lane>,
     /// Components of e along the horizontal and up, of each cable: the chord's, or upright where the cable is slack.
-    axes: [[f64; 2]; LANES],
+    axes: Vec<[f64; 2]>,
 }
 
 /// Unknowns kept in plane: n and e of the end, n of the bubble or node.
@@ -72,41 +74,58 @@ impl Kept {
     }
 }
 
-/// Amplitudes of all functions of cables side by side: of each element, in plane and out of plane.
-#[derive(Debug, Clone)]
-pub(crate) struct Motion(Vec<[Vec<Lane>; 2]>);
+/// Amplitudes of all functions of elements side by side: of each pack, in plane and out of plane.
+#[derive(Debug)]
+pub(crate) struct Motion(Vec<[Lanes; 2]>);
 
 impl Abreast {
-    /// Cables of mass m per unstrained length [kg/m], at least one and at most [`LANES`]. None if one has no tension
-    /// somewhere.
-    pub(crate) fn new(cables: &[(&Catenary, f64)]) -> Option<Self> {
-        let Mesh { nodes, axes, kept, size } = Mesh::of(cables)?;
+    /// All cables, of mass m per unstrained length [kg/m] each, in groups. None if one has no tension somewhere.
+    pub(crate) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
+        let meshes = cables.iter().map(|(catenary, _)| Mesh::of(catenary)).collect::<Option<Vec<_>>>()?;
+        let (whole, cut): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
+        let groups = whole.chunks(LANES).chain(cut.chunks(LANES));
+        Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
+    }
+
+    fn of(cables: &[(&Catenary, f64)], meshes: &[Mesh], members: &[usize]) -> Self {
+        let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
         let terms = terms.min(MOST_TERMS);
-        let lane = |i: usize| i.min(cables.len() - 1);
-        let shapes: Vec<Shapes> = (1..nodes[0].len())
-            .map(|end| {
-                let mut shapes = Shapes::default();
-                for i in 0..LANES {
-                    let cable = lane(i);
-                    shapes.set(i, cables[cable], axes[cable], nodes[cable][end - 1], nodes[cable][end]);
-                }
-                shapes
-            })
-            .collect();
-        Some(Self {
-            elements: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
+        let mut elements = Vec::with_capacity(2 * LANES);
+        let mut chains = Vec::new();
+        for i in members {
+            let mesh = &meshes[*i];
+            if mesh.kept > 0 {
+                chains.push(Chain::new(mesh, elements.len()));
+            }
+            elements.extend(mesh.nodes.windows(2).map(|ends| (*i, ends[0], ends[1])));
+        }
+        let shapes = elements.chunks(LANES).map(|pack| {
+            let mut shapes = Shapes::default();
+            for lane in 0..LANES {
+                let (i, from, to) = pack[lane.min(pack.len() - 1)];
+                shapes.set(lane, cables[i], meshes[i].axis, from, to);
+            }
+            shapes
+        });
+        let shapes: Vec<Shapes> = shapes.collect();
+        Self {
+            members: members.to_vec(),
+            packs: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
+            chains,
             terms,
-            node: kept,
-            plane_factor: Vec::new(),
-            across_factor: Vec::new(),
-            axes: from_fn(|i| axes[lane(i)]),
-        })
+            axes: members.iter().map(|i| meshes[*i].axis).collect(),
+        }
+    }
+
+    /// Which cables these are, by their lanes.
+    pub(crate) fn members(&self) -> &[usize] {
+        &self.members
     }
 
     /// In several elements.
     pub(crate) fn is_cut(&self) -> bool {
-        self.elements.len() > 1
+        !self.chains.is_empty()
     }
 
     /// Number of Legendre terms that C takes.
@@ -130,21 +149,14 @@ impl Abreast {
         pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
     }
 
-    /// `aᵀ M b` in plane and out of plane [kg × motion²].
-    pub(crate) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
-        pulp::Arch::new().dispatch(Weigh { cables: self, a, b })
+    /// What [`mass`](Self::mass) takes the second motion as.
+    pub(crate) fn weighed(&self, motion: &Motion) -> Motion {
+        pulp::Arch::new().dispatch(Weigh { cables: self, motion })
     }
 
-    /// Where a node stands in the factors of the nodes; the last, the anchor, does not move.
-    #[inline(always)]
-    fn place_of(&self, node: usize) -> Option<usize> {
-        match node {
-            0 => Some(0),
-            _ if node == self.elements.len() => None,
-            _ if node == self.node => Some(1),
-            _ if node < self.node => Some(node + 1),
-            _ => Some(node),
-        }
+    /// `aᵀ M b` in plane and out of plane [kg × motion²], of a motion and a [`weighed`](Self::weighed) one.
+    pub(crate) fn mass(&self, a: &Motion, weighed: &Motion) -> [Lane; 2] {
+        pulp::Arch::new().dispatch(Mass { cables: self, a, weighed })
     }
 }
 
@@ -153,15 +165,15 @@ struct Expand<'a> {
     terms: usize,
 }
 
-impl pulp::NullaryFnOnce for Expand<'_> {
+impl pulp::WithSimd for Expand<'_> {
     type Output = Vec<Element>;
 
     #[inline(always)]
-    fn call(self) -> Vec<Element> {
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Element> {
         let Self { shapes, terms } = self;
         let mut elements = Vec::with_capacity(shapes.len());
         for shapes in shapes {
-            elements.push(Element::new(shapes, terms));
+            elements.push(Element::new(simd, shapes, terms));
         }
         elements
     }
@@ -173,51 +185,29 @@ struct Factorise<'a> {
     degree: usize,
 }
 
-impl pulp::NullaryFnOnce for Factorise<'_> {
+impl pulp::WithSimd for Factorise<'_> {
     type Output = Kept;
 
     #[inline(always)]
-    fn call(self) -> Kept {
-        let Self { cables, x, degree } = self;
-        let mut least_pivot = [f64::INFINITY; LANES];
-        if let [element] = cables.elements.as_mut_slice() {
-            element.factorise::<1>(x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
+    fn with_simd<S: Simd>(self, simd: S) -> Kept {
+        let Self { cables: Abreast { packs, chains, .. }, x, degree } = self;
+        if chains.is_empty() {
+            let mut least_pivot = [f64::INFINITY; LANES];
+            let element = &mut packs[0];
+            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
             return Kept {
                 plane: from_fn(|k| element.plane_factor[k]),
                 across: from_fn(|k| element.across_factor[k]),
                 least_pivot,
             };
         }
-        let nodes = cables.elements.len();
-        let (mut plane, mut across) = (vec![ZERO; place(2 * nodes, 0)], vec![ZERO; place(nodes, 0)]);
-        for e in 0..nodes {
-            cables.elements[e].factorise::<2>(x, degree, (4, 2), &mut least_pivot);
-            let places = [cables.place_of(e), cables.place_of(e + 1)];
-            let element = &cables.elements[e];
-            add_between::<2>(&mut plane, &element.plane_factor, places);
-            add_between::<1>(&mut across, &element.across_factor, places);
+        let mut least_pivots = Vec::with_capacity(packs.len());
+        for element in packs.iter_mut() {
+            let mut least_pivot = [f64::INFINITY; LANES];
+            element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut least_pivot);
+            least_pivots.push(least_pivot);
         }
-        eliminate(&mut plane, 2 * nodes, IN_PLANE, &mut least_pivot);
-        eliminate(&mut across, nodes, ACROSS, &mut least_pivot);
-        let kept = Kept { plane: from_fn(|k| plane[k]), across: from_fn(|k| across[k]), least_pivot };
-        (cables.plane_factor, cables.across_factor) = (plane, across);
-        kept
-    }
-}
-
-/// Adds an element's stiffness between its ends to that of the nodes.
-#[inline(always)]
-fn add_between<const D: usize>(nodes: &mut [Lane], element: &[Lane], places: [Option<usize>; 2]) {
-    for row in 0..2 * D {
-        for column in 0..=row {
-            let (Some(p), Some(q)) = (places[row / D], places[column / D]) else { continue };
-            let (p, q) = (D * p + row % D, D * q + column % D);
-            let entry = &mut nodes[place(p.max(q), p.min(q))];
-            let part = &element[place(row, column)];
-            for i in 0..LANES {
-                entry[i] += part[i];
-            }
-        }
+        chain::condense(chains, packs, &least_pivots)
     }
 }
 
@@ -227,28 +217,18 @@ struct Substitute<'a> {
     across: [Lane; ACROSS],
 }
 
-impl pulp::NullaryFnOnce for Substitute<'_> {
+impl pulp::WithSimd for Substitute<'_> {
     type Output = Motion;
 
     #[inline(always)]
-    fn call(self) -> Motion {
-        let Self { cables, plane, across } = self;
-        if let [element] = cables.elements.as_slice() {
-            return Motion(vec![element.moved(&plane, &across)]);
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+        let Self { cables: Abreast { packs, chains, .. }, plane, across } = self;
+        if chains.is_empty() {
+            return Motion(vec![packs[0].moved(simd, &plane, &across)]);
         }
-        let nodes = cables.elements.len();
-        let plane = substitute(&cables.plane_factor, 2 * nodes, &plane);
-        let across = substitute(&cables.across_factor, nodes, &across);
-        let mut all = Vec::with_capacity(nodes);
-        for (e, element) in cables.elements.iter().enumerate() {
-            let (mut ends, mut ends_across) = ([ZERO; 4], [ZERO; 2]);
-            for (side, place) in [cables.place_of(e), cables.place_of(e + 1)].into_iter().enumerate() {
-                if let Some(place) = place {
-                    ends[2 * side..2 * side + 2].copy_from_slice(&plane[2 * place..2 * place + 2]);
-                    ends_across[side] = across[place];
-                }
-            }
-            all.push(element.moved(&ends, &ends_across));
+        let mut all = Vec::with_capacity(packs.len());
+        for (element, ends) in packs.iter().zip(chain::ends(chains, packs.len(), &plane, &across)) {
+            all.push(element.moved(simd, &ends.plane, &ends.across));
         }
         Motion(all)
     }
@@ -256,25 +236,46 @@ impl pulp::NullaryFnOnce for Substitute<'_> {
 
 struct Weigh<'a> {
     cables: &'a Abreast,
-    a: &'a Motion,
-    b: &'a Motion,
+    motion: &'a Motion,
 }
 
-impl pulp::NullaryFnOnce for Weigh<'_> {
+impl pulp::WithSimd for Weigh<'_> {
+    type Output = Motion;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+        let Self { cables: Abreast { packs, chains, .. }, motion } = self;
+        if chains.is_empty() {
+            return Motion(vec![packs[0].weighed::<S, 1>(simd, &motion.0[0])]);
+        }
+        let mut all = Vec::with_capacity(packs.len());
+        for (element, of_pack) in packs.iter().zip(&motion.0) {
+            all.push(element.weighed::<S, 2>(simd, of_pack));
+        }
+        Motion(all)
+    }
+}
+
+struct Mass<'a> {
+    cables: &'a Abreast,
+    a: &'a Motion,
+    weighed: &'a Motion,
+}
+
+impl pulp::WithSimd for Mass<'_> {
     type Output = [Lane; 2];
 
     #[inline(always)]
-    fn call(self) -> [Lane; 2] {
-        let Self { cables, a, b } = self;
-        let mut sums = [ZERO; 2];
-        if let [element] = cables.elements.as_slice() {
-            element.weigh::<1>(&a.0[0], &b.0[0], &mut sums);
-            return sums;
+    fn with_simd<S: Simd>(self, simd: S) -> [Lane; 2] {
+        let Self { cables: Abreast { packs, chains, .. }, a, weighed } = self;
+        if chains.is_empty() {
+            return packs[0].mass(simd, &a.0[0], &weighed.0[0]);
         }
-        for ((element, a), b) in cables.elements.iter().zip(&a.0).zip(&b.0) {
-            element.weigh::<2>(a, b, &mut sums);
+        let mut masses = Vec::with_capacity(packs.len());
+        for ((element, a), weighed) in packs.iter().zip(&a.0).zip(&weighed.0) {
+            masses.push(element.mass(simd, a, weighed));
         }
-        sums
+        chain::sums(chains, &masses)
     }
 }
 
@@ -310,14 +311,20 @@ mod tests {
             let first = |e: &Exact| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
             let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
             let pairs: Vec<_> = cables.iter().map(|c| (c, MASS)).collect();
-            let mut abreast = Abreast::new(&pairs).unwrap();
-            let kept = abreast.kept(x, 30);
-            for (i, exact) in oracles.iter().enumerate() {
-                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = kept.of(i);
-                prop_assert!(kept.least_pivot[i] > 0.0 && qq > 0.0 && bb > 0.0);
+            let mut groups = Abreast::groups(&pairs).unwrap();
+            let kept: Vec<Kept> = groups.iter_mut().map(|group| group.kept(x, 30)).collect();
+            let lanes = |(k, group): (usize, &Abreast)| -> Vec<_> {
+                group.members().iter().enumerate().map(|(lane, i)| (k, lane, *i)).collect()
+            };
+            let places: Vec<_> = groups.iter().enumerate().flat_map(lanes).collect();
+            prop_assert_eq!(places.len(), cables.len());
+            for (k, lane, i) in places {
+                let (abreast, kept, exact) = (&groups[k], &kept[k], &oracles[i]);
+                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = kept.of(lane);
+                prop_assert!(kept.least_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
                 let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
                 let k = exact.undamped(x.sqrt());
-                let [c, s] = abreast.axis(i);
+                let [c, s] = abreast.axis(lane);
                 let theirs = [
                     k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
                     (k.normal - k.axial) * c * s + k.coupling * (c * c - s * s),
@@ -340,7 +347,7 @@ mod tests {
             let catenary = cable(shape);
             let exact = Exact::new(&catenary, MASS, 20.0).unwrap();
             let x = part * exact.in_plane.poles[0].min(exact.out_of_plane.poles[0]);
-            let mut abreast = Abreast::new(&[(&catenary, MASS)]).unwrap();
+            let abreast = &mut Abreast::groups(&[(&catenary, MASS)]).unwrap()[0];
             let mut work = |x: f64| {
                 let ([nn, en, ee, ..], [oo, ..]) = abreast.kept(x, 24).of(0);
                 [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
@@ -353,7 +360,7 @@ mod tests {
             abreast.kept(x, 24);
             let lanes = |value: f64| [value; LANES];
             let motion = abreast.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
-            let mass = abreast.mass(&motion, &motion).map(|lane| lane[0]);
+            let mass = abreast.mass(&motion, &abreast.weighed(&motion)).map(|lane| lane[0]);
             for (mass, change) in mass.into_iter().zip(change) {
                 prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
             }
@@ -364,6 +371,6 @@ mod tests {
     fn a_loop_without_tension_is_left_to_others() {
         let rope = Rope { unstrained_length: 8.0, weight_per_length: 0.6, axial_stiffness: 1e5 };
         let slack = Catenary::between(0.0, 6.0, rope).unwrap();
-        assert!(Abreast::new(&[(&slack, 0.06)]).is_none());
+        assert!(Abreast::groups(&[(&slack, 0.06)]).is_none());
     }
 }

@@ -37,29 +37,50 @@ pub(super) fn degree_of_start(group: &Abreast) -> usize {
 
 impl Reduced {
     pub(super) fn of(groups: &mut [Abreast]) -> Self {
-        let (mut stiffness, mut mass) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
-        for group in groups {
-            stiffness.push(group.kept(0.0, degree_of_start(group)));
-            let unit = |k: usize| {
-                let one = |j: usize| if j == k { [1.0; LANES] } else { [0.0; LANES] };
-                group.moved(from_fn(one), from_fn(one))
-            };
-            let units = [unit(0), unit(1), unit(2)];
-            let mut masses =
-                Kept { plane: [[0.0; LANES]; 6], across: [[0.0; LANES]; 3], least_pivot: [f64::INFINITY; LANES] };
-            for row in 0..IN_PLANE {
-                for column in 0..=row {
-                    let [plane, across] = group.mass(&units[row], &units[column]);
-                    masses.plane[place(row, column)] = plane;
-                    if row < ACROSS {
-                        masses.across[place(row, column)] = across;
-                    }
-                }
-            }
-            mass.push(masses);
-        }
+        let (stiffness, mass) = groups.iter_mut().map(|group| tangent(group, 0.0)).unzip();
         Self { stiffness, mass }
     }
+
+    /// Lets what has been eliminated follow as at x where a cable is cut. False if x is above a natural frequency of that:
+    /// then it follows as before.
+    pub(super) fn follow(&mut self, groups: &mut [Abreast], x: f64) -> bool {
+        let cut = groups.iter_mut().enumerate().filter(|(_, group)| group.is_cut());
+        let tangents: Vec<_> = cut.map(|(i, group)| (i, tangent(group, x))).collect();
+        let below = tangents.iter().all(|(_, (stiffness, _))| stiffness.least_pivot.iter().all(|pivot| *pivot > 0.0));
+        if below {
+            for (i, (stiffness, mass)) in tangents {
+                (self.stiffness[i], self.mass[i]) = (stiffness, mass);
+            }
+        }
+        below
+    }
+}
+
+/// Stiffness and mass of a group's kept unknowns such that K − xM and its slope are right at x.
+fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
+    let mut stiffness = group.kept(x, degree_of_start(group));
+    let unit = |k: usize| {
+        let one = |j: usize| if j == k { [1.0; LANES] } else { [0.0; LANES] };
+        group.moved(from_fn(one), from_fn(one))
+    };
+    let units = [unit(0), unit(1), unit(2)];
+    let weighed = units.each_ref().map(|motion| group.weighed(motion));
+    let mut masses = Kept { plane: [[0.0; LANES]; 6], across: [[0.0; LANES]; 3], least_pivot: [f64::INFINITY; LANES] };
+    for row in 0..IN_PLANE {
+        for column in 0..=row {
+            let [plane, across] = group.mass(&units[row], &weighed[column]);
+            masses.plane[place(row, column)] = plane;
+            if row < ACROSS {
+                masses.across[place(row, column)] = across;
+            }
+        }
+    }
+    for (k, m) in stiffness.plane.iter_mut().zip(&masses.plane).chain(stiffness.across.iter_mut().zip(&masses.across)) {
+        for i in 0..LANES {
+            k[i] += x * m[i];
+        }
+    }
+    (stiffness, masses)
 }
 
 impl Cables for Reduced {
@@ -108,9 +129,13 @@ impl Cables for Whole<'_> {
 
     fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane> {
         let group = &self.groups[group];
-        let all: Vec<_> = motions.iter().map(|(plane, across)| group.moved(*plane, *across)).collect();
-        pairs(&all, |a, b| {
-            let [plane, across] = group.mass(a, b);
+        let all: Vec<_> = motions
+            .iter()
+            .map(|(plane, across)| group.moved(*plane, *across))
+            .map(|motion| (group.weighed(&motion), motion))
+            .collect();
+        pairs(&all, |(_, a), (weighed, _)| {
+            let [plane, across] = group.mass(a, weighed);
             from_fn(|i| plane[i] + across[i])
         })
     }

@@ -1,7 +1,7 @@
 //! The pencil at a shift, factored: bubbles first, then the platform.
 
 use super::pencil::{Motion, Pencil};
-use crate::cable::exact::abreast::{Kept, LANES};
+use crate::cable::exact::abreast::Kept;
 use crate::math::Mat6;
 
 pub(super) struct Factor {
@@ -21,8 +21,8 @@ impl Factor {
         let mut bubbles = Vec::with_capacity(pencil.arms.len());
         let mut negative = 0;
         let not_positive = |pivot: f64| usize::from(pivot.is_nan() || pivot <= 0.0);
-        for (i, arm) in pencil.arms.iter().enumerate() {
-            let (k, lane) = (&kept[i / LANES], i % LANES);
+        for arm in &pencil.arms {
+            let (k, lane) = (&kept[arm.group], arm.lane);
             let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = k.of(lane);
             negative += 2 * not_positive(k.least_pivot[lane]) + not_positive(qq) + not_positive(bb);
             let (inverse, inverse_across) = (1.0 / qq, 1.0 / bb);

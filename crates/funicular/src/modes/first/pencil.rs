@@ -1,7 +1,7 @@
 //! The whole robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
 use super::cables::{Reduced, Whole, degree_of_start};
-use super::search::{EXACT, Found, NEAR, lowest};
+use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
 use crate::cable::exact::abreast::{ACROSS, Abreast, IN_PLANE, Kept, LANES, Lane};
 use crate::catenary::space::HangingCable;
@@ -27,6 +27,9 @@ pub(super) struct Pencil {
 /// A cable that has mass, its axes as scaled vectors.
 pub(super) struct Arm {
     cable: usize,
+    /// Where its matrices are.
+    pub(super) group: usize,
+    pub(super) lane: usize,
     pub(super) normal: Vec6,
     pub(super) along: Vec6,
     pub(super) out: Vec6,
@@ -73,15 +76,18 @@ impl Motion {
     /// The kept unknowns of a group of arms.
     pub(super) fn lanes(&self, arms: &[Arm], group: usize) -> ([Lane; IN_PLANE], [Lane; ACROSS]) {
         let (mut plane, mut across) = ([[0.0; LANES]; IN_PLANE], [[0.0; LANES]; ACROSS]);
-        let range = group * LANES..arms.len().min((group + 1) * LANES);
-        for (i, (arm, [q, p])) in arms[range.clone()].iter().zip(&self.bubbles[range]).enumerate() {
-            let [n, e, b] = arm.end(&self.platform);
+        for (arm, [q, p]) in arms.iter().zip(&self.bubbles).filter(|(arm, _)| arm.group == group) {
+            let ([n, e, b], i) = (arm.end(&self.platform), arm.lane);
             (plane[0][i], plane[1][i], plane[2][i]) = (n, e, *q);
             (across[0][i], across[1][i]) = (b, *p);
         }
         (plane, across)
     }
 }
+
+/// Tangents that are drawn before all unknowns are looked at, and the relative change of x that ends it.
+const MOST_TANGENTS: usize = 3;
+const CLOSE_ENOUGH: f64 = 0.2;
 
 impl Pencil {
     /// None if a cable is none that this way knows.
@@ -103,16 +109,18 @@ impl Pencil {
             massive.push((i, hanging));
             curves.push((&hanging.catenary, mass_per_length));
         }
-        let groups = curves.chunks(LANES).map(Abreast::new).collect::<Option<Vec<_>>>()?;
-        let arm = |(at, (cable, hanging)): (usize, (usize, &HangingCable))| {
+        let groups = Abreast::groups(&curves)?;
+        let arm = |group: usize, lane: usize| {
+            let (cable, hanging): (usize, &HangingCable) = massive[groups[group].members()[lane]];
             let (level_w, up_w) = hanging.axes_w();
-            let [cos, sin] = groups[at / LANES].axis(at % LANES);
+            let [cos, sin] = groups[group].axis(lane);
             let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
             let lever = equilibrium.cables[cable].lever_w / ell;
             let along = |u| motions.reduced(&wrench_of(&u, &lever));
-            Arm { cable, normal: along(n), along: along(e), out: along(e.cross(&n)) }
+            Arm { cable, group, lane, normal: along(n), along: along(e), out: along(e.cross(&n)) }
         };
-        let arms = massive.into_iter().enumerate().map(arm).collect();
+        let places = |group: usize| (0..groups[group].members().len()).map(move |lane| (group, lane));
+        let arms = (0..groups.len()).flat_map(places).map(|(group, lane)| arm(group, lane)).collect();
         let (freedoms, cable_count) = (motions.count(), robot.cables.len());
         Some(Self { freedoms, motions, ell, constant, mass, arms, groups, cable_count })
     }
@@ -120,14 +128,41 @@ impl Pencil {
     /// None if the equilibrium is unstable, or the search does not end.
     pub(super) fn first(&mut self) -> Option<First> {
         let mut groups = std::mem::take(&mut self.groups);
+        let cut = groups.iter().any(Abreast::is_cut);
         let mut start = Reduced::of(&mut groups);
-        let motion = self.any_motion(&start.mass, 0);
         let metric = start.mass.clone();
-        let near = lowest(self, &mut start, &metric, 0.0, vec![motion], &NEAR)?;
+        let motion = self.any_motion(&metric, 0);
+        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if cut { &ROUGH } else { &NEAR })?;
+        if cut {
+            near = self.nearer(near, &mut start, &mut groups)?;
+        }
         let degrees = groups.iter().map(|group| degree_of_start(group) + 1).collect();
         let mut whole = Whole { groups: &mut groups, degrees };
-        let found = lowest(self, &mut whole, &metric, near.square, near.motions, &EXACT)?;
+        // Below rather than above, where another motion may be the nearest.
+        let x = if cut { 0.95 * near.square } else { near.square };
+        near.motions.truncate(1);
+        let found = lowest(self, &mut whole, &start.mass, x, near.motions, &EXACT)?;
         Some(self.report(&found))
+    }
+
+    /// A better start where cables are cut: at rest, what has been eliminated moves otherwise than at the frequency, which
+    /// comes out too high by a third or half.
+    fn nearer(&self, mut near: Found, start: &mut Reduced, groups: &mut [Abreast]) -> Option<Found> {
+        let mut x = 0.7 * near.square;
+        for _ in 0..MOST_TANGENTS {
+            if start.follow(groups, x) {
+                let metric = start.mass.clone();
+                near.motions.truncate(1);
+                near = lowest(self, start, &metric, 0.75 * x, near.motions, &ROUGH)?;
+                if (near.square - x).abs() < CLOSE_ENOUGH * x {
+                    break;
+                }
+                x = near.square;
+            } else {
+                x *= 0.7;
+            }
+        }
+        Some(near)
     }
 
     /// Not at right angles to any mode that somebody built; another one for each number.
@@ -138,9 +173,12 @@ impl Pencil {
             if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
         };
         let platform = Vec6::from_fn(|i, _| if i < self.freedoms { part(i) } else { 0.0 });
-        let bubbles = (0..self.arms.len())
-            .map(|i| {
-                let (mass, lane) = (&masses[i / LANES], i % LANES);
+        let bubbles = self
+            .arms
+            .iter()
+            .enumerate()
+            .map(|(i, arm)| {
+                let (mass, lane) = (&masses[arm.group], arm.lane);
                 let [q, p] = [mass.plane[5][lane], mass.across[2][lane]].map(|m| (self.mass[(0, 0)] / m).sqrt());
                 [q * part(2 * i + 6), p * part(2 * i + 7)]
             })
@@ -155,9 +193,8 @@ impl Pencil {
             .arms
             .iter()
             .zip(&y.bubbles)
-            .enumerate()
-            .map(|(i, (arm, [q, p]))| {
-                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = masses[i / LANES].of(i % LANES);
+            .map(|(arm, [q, p])| {
+                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = masses[arm.group].of(arm.lane);
                 let [n, e, b] = arm.end(&y.platform);
                 platform += arm.wrench([nn * n + en * e + qn * q, en * n + ee * e + qe * q, oo * b + bo * p]);
                 [qn * n + qe * e + qq * q, bo * b + bb * p]

@@ -3,7 +3,7 @@
 use super::cables::Cables;
 use super::factor::Factor;
 use super::pencil::{Motion, Pencil};
-use crate::cable::exact::abreast::{Kept, LANES, place};
+use crate::cable::exact::abreast::{Kept, place};
 use crate::math::DMat;
 
 /// How far a search goes.
@@ -20,6 +20,9 @@ pub(super) struct Aim {
 pub(super) const EXACT: Aim = Aim { width: 1e-9, steps: 6, checked: true };
 /// Where a step costs little.
 pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
+
+/// One shift, at rest or well below: as good as cables allow whose unknowns follow as at another frequency.
+pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
 
 /// Evaluations after which the slow way is faster.
 const MOST_EVALUATIONS: usize = 40;
@@ -52,7 +55,7 @@ pub(super) fn lowest(
     aim: &Aim,
 ) -> Option<Found> {
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
-    let mut kept = Vec::with_capacity(pencil.arms.len().div_ceil(LANES));
+    let mut kept = Vec::with_capacity(metric.len());
     let mut before = f64::INFINITY;
     let mut refined = false;
     for _ in 0..MOST_EVALUATIONS {
@@ -66,7 +69,9 @@ pub(super) fn lowest(
             high = high.min(x);
         }
         if factor.negative > 1 {
-            motions.extend((motions.len()..BLOCK).map(|number| pencil.any_motion(metric, number)));
+            motions.extend(
+                (motions.len()..factor.negative.clamp(2, BLOCK)).map(|number| pencil.any_motion(metric, number)),
+            );
         }
         let found = improved(pencil, cables, metric, &factor, x, motions, aim);
         let quotient = found.square;
@@ -94,8 +99,8 @@ pub(super) fn lowest(
         low = if low < high { low } else { 0.9 * high };
         x = match () {
             () if leads => next,
-            () if low > 0.0 => 0.5 * (low + high),
-            () => 0.5 * high,
+            () if low > 0.0 => 0.25 * low + 0.75 * high,
+            () => 0.75 * high,
         };
     }
     None
@@ -147,9 +152,9 @@ fn improved(
     }
     let work = |i: usize, j: usize| motions[i].dot(&images[j]);
     let mut arms = vec![Vec::with_capacity(pencil.arms.len()); place(count, 0)];
-    for group in 0..pencil.arms.len().div_ceil(LANES) {
+    for group in 0..metric.len() {
         let ends: Vec<_> = motions.iter().map(|motion| motion.lanes(&pencil.arms, group)).collect();
-        let lanes = LANES.min(pencil.arms.len() - group * LANES);
+        let lanes = pencil.arms.iter().filter(|arm| arm.group == group).count();
         for (arms, masses) in arms.iter_mut().zip(cables.mass(group, &ends)) {
             arms.extend_from_slice(&masses[..lanes]);
         }

@@ -1,15 +1,13 @@
 //! One element of each of several cables: its matrices, and their elimination.
 
+use super::lanes::{Lane, Lanes, Part, ZERO};
 use super::tables::{MASSES, RULES, TRIPLES};
-use super::{LANES, Lane, ZERO};
 use crate::catenary::Catenary;
+use pulp::Simd;
 use std::array::from_fn;
 
 /// Components of C in the plane, and out of it: (nn, en, ee, oo).
 const PARTS: usize = 4;
-
-/// As many functions as usual searches end with; room for them saves copies.
-const LIKELY_FUNCTIONS: usize = 12;
 
 /// Place in a lower triangle by rows.
 #[inline(always)]
@@ -18,21 +16,21 @@ pub(crate) const fn place(row: usize, column: usize) -> usize {
 }
 
 /// Stiffness and mass of an element of each cable over its hats and bubbles.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Element {
     /// Degree that the matrices have.
     degree: usize,
-    /// Legendre coefficients of C over half the length [N/m], by degree.
-    coefficients: Vec<[Lane; PARTS]>,
+    /// Legendre coefficients of C over half the length [N/m], the parts of each degree.
+    coefficients: Lanes,
     /// Lower triangle by rows, unknowns n, e of each function: hats, then bubbles, ascending.
-    plane: Vec<Lane>,
+    plane: Lanes,
     /// The same out of plane.
-    across: Vec<Lane>,
+    across: Lanes,
     /// Half the mass [kg].
     half_mass: Lane,
     /// The factors at the last frequency: rows of eliminated unknowns, the inverses of their pivots on the diagonal.
-    pub(super) plane_factor: Vec<Lane>,
-    pub(super) across_factor: Vec<Lane>,
+    pub(super) plane_factor: Lanes,
+    pub(super) across_factor: Lanes,
     /// Functions of the factors.
     functions: usize,
 }
@@ -71,38 +69,38 @@ impl Shapes {
 impl Element {
     /// With so many Legendre terms of C, by Gauss's rule.
     #[inline(always)]
-    pub(super) fn new(s: &Shapes, terms: usize) -> Self {
-        let mut coefficients = vec![[ZERO; PARTS]; terms];
+    pub(super) fn new<S: Simd>(simd: S, s: &Shapes, terms: usize) -> Self {
+        let mut coefficients = Lanes::zeros(PARTS * terms);
         // With as many points as terms, what is left out comes back in the last term at most.
-        for (xi, weighted) in &RULES[terms - 1] {
-            let along: Lane = from_fn(|i| s.along[i] + xi * s.along_change[i]);
-            let normal: Lane = from_fn(|i| s.normal[i] + xi * s.normal_change[i]);
-            let square: Lane = from_fn(|i| along[i] * along[i] + normal[i] * normal[i]);
-            let tension = square.map(f64::sqrt);
-            let ea = &s.axial_stiffness;
-            let part: Lane = from_fn(|i| s.inverse_half[i] * ea[i] / (ea[i] + tension[i]));
-            let across: Lane = from_fn(|i| part[i] * tension[i]);
-            let extra: Lane = from_fn(|i| part[i] * ea[i] / square[i]);
-            let parts: [Lane; PARTS] = [
-                from_fn(|i| across[i] + extra[i] * normal[i] * normal[i]),
-                from_fn(|i| extra[i] * along[i] * normal[i]),
-                from_fn(|i| across[i] + extra[i] * along[i] * along[i]),
-                across,
-            ];
-            for (sums, weight) in coefficients.iter_mut().zip(weighted) {
-                for (sum, part) in sums.iter_mut().zip(&parts) {
-                    add_scaled(sum, *weight, part);
+        let rule = &RULES[terms - 1];
+        let mut at_points = Lanes::zeros(PARTS * terms);
+        for part in Part::all(simd) {
+            for (xi, parts) in rule.points.iter().zip(at_points.chunks_exact_mut(PARTS)) {
+                for (lane, value) in parts.iter_mut().zip(s.integrands(part, *xi)) {
+                    part.set(lane, value);
+                }
+            }
+            for (weights, sums) in rule.weights.iter().zip(coefficients.chunks_exact_mut(PARTS)) {
+                let mut sum = [part.splat(0.0); PARTS];
+                for (weight, parts) in weights.iter().zip(at_points.chunks_exact(PARTS)) {
+                    let weight = part.splat(*weight);
+                    for k in 0..PARTS {
+                        sum[k] = part.mul_add(weight, part.of(&parts[k]), sum[k]);
+                    }
+                }
+                for k in 0..PARTS {
+                    part.set(&mut sums[k], sum[k]);
                 }
             }
         }
         Self {
             degree: 0,
             coefficients,
-            plane: Vec::with_capacity(place(2 * LIKELY_FUNCTIONS, 0)),
-            across: Vec::with_capacity(place(LIKELY_FUNCTIONS, 0)),
+            plane: Lanes::new(),
+            across: Lanes::new(),
             half_mass: s.half_mass,
-            plane_factor: Vec::new(),
-            across_factor: Vec::new(),
+            plane_factor: Lanes::new(),
+            across_factor: Lanes::new(),
             functions: 0,
         }
     }
@@ -110,34 +108,40 @@ impl Element {
     /// Adds rows of the stiffness up to a degree: `∫ C N_a′ N_b′` over products of slopes. H hats; the slope of the second
     /// is minus that of the first.
     #[inline(always)]
-    fn refine<const H: usize>(&mut self, degree: usize) {
+    fn refine<S: Simd, const H: usize>(&mut self, simd: S, degree: usize) {
         let Self { coefficients, plane, across, .. } = self;
         let functions = |degree: usize| if degree == 0 { 0 } else { degree + H - 1 };
         for f in functions(self.degree)..functions(degree) {
-            let row = plane.len();
+            let (row, row_across) = (plane.len(), across.len());
             plane.resize(row + 4 * f + 3, ZERO);
+            across.resize(row_across + f + 1, ZERO);
             let (of_n, of_e) = plane[row..].split_at_mut(2 * f + 1);
+            let of_b = &mut across[row_across..];
             let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
-            for j in 0..=f {
-                let (high, low) = (slope(f), slope(j));
-                let mut sums = [ZERO; PARTS];
-                for (factor, c) in TRIPLES.of(high, low).iter().zip(coefficients.iter().skip(high - low).step_by(2)) {
-                    for (sum, c) in sums.iter_mut().zip(c) {
-                        add_scaled(sum, *factor, c);
+            for part in Part::all(simd) {
+                for j in 0..=f {
+                    let (high, low) = (slope(f), slope(j));
+                    let mut sums = [part.splat(0.0); PARTS];
+                    let every_second =
+                        coefficients[PARTS * (high - low).min(coefficients.len() / PARTS)..].chunks_exact(PARTS);
+                    for (factor, c) in TRIPLES.of(high, low).iter().zip(every_second.step_by(2)) {
+                        let factor = part.splat(*factor);
+                        for k in 0..PARTS {
+                            sums[k] = part.mul_add(factor, part.of(&c[k]), sums[k]);
+                        }
                     }
-                }
-                if H == 2 && (f == 1) != (j == 1) {
-                    for sum in &mut sums {
-                        *sum = sum.map(|entry| -entry);
+                    if H == 2 && (f == 1) != (j == 1) {
+                        sums = sums.map(|sum| part.neg(sum));
                     }
+                    let [nn, en, ee, oo] = sums;
+                    part.set(&mut of_n[2 * j], nn);
+                    if j < f {
+                        part.set(&mut of_n[2 * j + 1], en);
+                    }
+                    part.set(&mut of_e[2 * j], en);
+                    part.set(&mut of_e[2 * j + 1], ee);
+                    part.set(&mut of_b[j], oo);
                 }
-                let [nn, en, ee, oo] = sums;
-                of_n[2 * j] = nn;
-                if j < f {
-                    of_n[2 * j + 1] = en;
-                }
-                (of_e[2 * j], of_e[2 * j + 1]) = (en, ee);
-                across.push(oo);
             }
         }
         self.degree = self.degree.max(degree);
@@ -145,14 +149,15 @@ impl Element {
 
     /// Factors K − xM at a degree, down to `plane` and `across` unknowns.
     #[inline(always)]
-    pub(super) fn factorise<const H: usize>(
+    pub(super) fn factorise<S: Simd, const H: usize>(
         &mut self,
+        simd: S,
         x: f64,
         degree: usize,
         (plane_kept, across_kept): (usize, usize),
         least_pivot: &mut Lane,
     ) {
-        self.refine::<H>(degree);
+        self.refine::<S, H>(simd, degree);
         let functions = degree + H - 1;
         let inertia: Lane = from_fn(|i| x * self.half_mass[i]);
         let Self { plane, across, plane_factor, across_factor, .. } = self;
@@ -160,57 +165,103 @@ impl Element {
         plane_factor.extend_from_slice(&plane[..place(2 * functions, 0)]);
         across_factor.clear();
         across_factor.extend_from_slice(&across[..place(functions, 0)]);
-        take_inertia::<2, H>(plane_factor, functions, &inertia);
-        take_inertia::<1, H>(across_factor, functions, &inertia);
-        eliminate(plane_factor, 2 * functions, plane_kept, least_pivot);
-        eliminate(across_factor, functions, across_kept, least_pivot);
+        for part in Part::all(simd) {
+            take_inertia::<S, 2, H>(part, plane_factor, functions, &inertia);
+            take_inertia::<S, 1, H>(part, across_factor, functions, &inertia);
+            eliminate(part, plane_factor, 2 * functions, plane_kept, least_pivot);
+            eliminate(part, across_factor, functions, across_kept, least_pivot);
+        }
         self.functions = functions;
     }
 
     /// Amplitudes of all functions, in plane and across, that follow the kept ones.
     #[inline(always)]
-    pub(super) fn moved(&self, plane: &[Lane], across: &[Lane]) -> [Vec<Lane>; 2] {
+    pub(super) fn moved<S: Simd>(&self, simd: S, plane: &[Lane], across: &[Lane]) -> [Lanes; 2] {
         let Self { plane_factor, across_factor, functions, .. } = self;
-        [substitute(plane_factor, 2 * functions, plane), substitute(across_factor, *functions, across)]
+        [substitute(simd, plane_factor, 2 * functions, plane), substitute(simd, across_factor, *functions, across)]
     }
 
-    /// `aᵀ M b` in plane and out of plane, added to the sums.
+    /// M a in plane and out of plane, over half the mass.
     #[inline(always)]
-    pub(super) fn weigh<const H: usize>(&self, a: &[Vec<Lane>; 2], b: &[Vec<Lane>; 2], sums: &mut [Lane; 2]) {
-        let parts = [weigh::<2, H>(&a[0], &b[0]), weigh::<1, H>(&a[1], &b[1])];
-        for (sum, part) in sums.iter_mut().zip(&parts) {
-            *sum = from_fn(|i| sum[i] + part[i] * self.half_mass[i]);
+    pub(super) fn weighed<S: Simd, const H: usize>(&self, simd: S, [plane, across]: &[Lanes; 2]) -> [Lanes; 2] {
+        let mut all = [Lanes::zeros(plane.len()), Lanes::zeros(across.len())];
+        for part in Part::all(simd) {
+            weigh::<S, 2, H>(part, plane, &mut all[0]);
+            weigh::<S, 1, H>(part, across, &mut all[1]);
         }
+        all
+    }
+
+    /// `aᵀ M b` in plane and out of plane, from a and what [`weighed`](Self::weighed) makes of b.
+    #[inline(always)]
+    pub(super) fn mass<S: Simd>(&self, simd: S, a: &[Lanes; 2], weighed: &[Lanes; 2]) -> [Lane; 2] {
+        let mut masses = [ZERO; 2];
+        for part in Part::all(simd) {
+            let half_mass = part.of(&self.half_mass);
+            for ((mass, a), b) in masses.iter_mut().zip(a).zip(weighed) {
+                part.set(mass, part.mul(half_mass, part.dot(a, b)));
+            }
+        }
+        masses
+    }
+}
+
+impl Shapes {
+    /// C over half the length at ξ: its parts.
+    #[inline(always)]
+    fn integrands<S: Simd>(&self, part: Part<S>, xi: f64) -> [S::f64s; PARTS] {
+        let simd = part.simd;
+        let of = |lane: &Lane| part.of(lane);
+        let xi = part.splat(xi);
+        let along = part.mul_add(xi, of(&self.along_change), of(&self.along));
+        let normal = part.mul_add(xi, of(&self.normal_change), of(&self.normal));
+        let square = part.mul_add(along, along, part.mul(normal, normal));
+        let tension = simd.sqrt_f64s(square);
+        let ea = of(&self.axial_stiffness);
+        let scale = simd.div_f64s(part.mul(of(&self.inverse_half), ea), simd.add_f64s(ea, tension));
+        let across = part.mul(scale, tension);
+        let extra = simd.div_f64s(part.mul(scale, ea), square);
+        let by_normal = part.mul(extra, normal);
+        [
+            part.mul_add(by_normal, normal, across),
+            part.mul(by_normal, along),
+            part.mul_add(part.mul(extra, along), along, across),
+            across,
+        ]
     }
 }
 
 /// Takes x M off the stiffness of D components a function.
 #[inline(always)]
-fn take_inertia<const D: usize, const H: usize>(matrix: &mut [Lane], functions: usize, inertia: &Lane) {
-    for k in 0..functions {
-        for (j, mass) in MASSES.row::<H>(k) {
-            for d in 0..D {
-                add_scaled(&mut matrix[place(D * k + d, D * j + d)], -mass, inertia);
-            }
+fn take_inertia<S: Simd, const D: usize, const H: usize>(
+    part: Part<S>,
+    matrix: &mut [Lane],
+    functions: usize,
+    inertia: &Lane,
+) {
+    let inertia = part.neg(part.of(inertia));
+    MASSES.each::<H>(functions, |k, j, mass| {
+        let mass = part.mul(part.splat(mass), inertia);
+        for d in 0..D {
+            let entry = &mut matrix[place(D * k + d, D * j + d)];
+            part.set(entry, part.simd.add_f64s(part.of(entry), mass));
         }
-    }
+    });
 }
 
 /// Eliminates the unknowns from the last of `n` down to number `kept`, two at a time; their rows keep what
 /// [`substitute`] needs.
 #[inline(always)]
-pub(super) fn eliminate(matrix: &mut [Lane], n: usize, kept: usize, least_pivot: &mut Lane) {
+fn eliminate<S: Simd>(part: Part<S>, matrix: &mut [Lane], n: usize, kept: usize, least_pivot: &mut Lane) {
     let mut t = n;
     if (n - kept) % 2 == 1 {
         t -= 1;
         let (above, pivot_row) = matrix[..place(t + 1, 0)].split_at_mut(place(t, 0));
-        let inverse = invert_pivot(pivot_row, t, least_pivot);
+        let inverse = part.neg(invert_pivot(part, pivot_row, t, least_pivot));
         for row in 0..t {
-            let factor: Lane = from_fn(|i| pivot_row[row][i] * inverse[i]);
+            let factor = part.mul(part.of(&pivot_row[row]), inverse);
             for (entry, a) in above[place(row, 0)..=place(row, row)].iter_mut().zip(&*pivot_row) {
-                for i in 0..LANES {
-                    entry[i] -= factor[i] * a[i];
-                }
+                part.set(entry, part.mul_add(factor, part.of(a), part.of(entry)));
             }
         }
     }
@@ -218,77 +269,60 @@ pub(super) fn eliminate(matrix: &mut [Lane], n: usize, kept: usize, least_pivot:
         t -= 2;
         let (above, rows) = matrix[..place(t + 2, 0)].split_at_mut(place(t, 0));
         let (second, first) = rows.split_at_mut(t + 1);
-        let inverse = invert_pivot(first, t + 1, least_pivot);
-        let factor: Lane = from_fn(|i| first[t][i] * inverse[i]);
+        let inverse = part.neg(invert_pivot(part, first, t + 1, least_pivot));
+        let factor = part.mul(part.of(&first[t]), inverse);
         for (entry, a) in second.iter_mut().zip(&*first) {
-            for i in 0..LANES {
-                entry[i] -= factor[i] * a[i];
-            }
+            part.set(entry, part.mul_add(factor, part.of(a), part.of(entry)));
         }
-        let inverse_second = invert_pivot(second, t, least_pivot);
+        let inverse_second = part.neg(invert_pivot(part, second, t, least_pivot));
         for row in 0..t {
-            let p: Lane = from_fn(|i| first[row][i] * inverse[i]);
-            let q: Lane = from_fn(|i| second[row][i] * inverse_second[i]);
+            let p = part.mul(part.of(&first[row]), inverse);
+            let q = part.mul(part.of(&second[row]), inverse_second);
             let entries = &mut above[place(row, 0)..=place(row, row)];
             for ((entry, a), b) in entries.iter_mut().zip(&*first).zip(&*second) {
-                for i in 0..LANES {
-                    entry[i] -= p[i] * a[i] + q[i] * b[i];
-                }
+                let once = part.mul_add(p, part.of(a), part.of(entry));
+                part.set(entry, part.mul_add(q, part.of(b), once));
             }
         }
     }
 }
 
 #[inline(always)]
-fn invert_pivot(row: &mut [Lane], at: usize, least_pivot: &mut Lane) -> Lane {
-    let pivot = &mut row[at];
-    for i in 0..LANES {
-        least_pivot[i] = if pivot[i] < least_pivot[i] { pivot[i] } else { least_pivot[i] };
-        pivot[i] = 1.0 / pivot[i];
-    }
-    *pivot
+fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Lane], at: usize, least_pivot: &mut Lane) -> S::f64s {
+    let pivot = part.of(&row[at]);
+    let least = part.of(least_pivot);
+    let lower = part.simd.less_than_f64s(pivot, least);
+    part.set(least_pivot, part.simd.select_f64s(lower, pivot, least));
+    let inverse = part.inverse(pivot);
+    part.set(&mut row[at], inverse);
+    inverse
 }
 
 /// The eliminated unknowns, at rest but for what the kept ones do to them.
 #[inline(always)]
-pub(super) fn substitute(factor: &[Lane], n: usize, kept: &[Lane]) -> Vec<Lane> {
-    let mut all = vec![ZERO; n];
+fn substitute<S: Simd>(simd: S, factor: &[Lane], n: usize, kept: &[Lane]) -> Lanes {
+    let mut all = Lanes::zeros(n);
     all[..kept.len()].copy_from_slice(kept);
-    for t in kept.len()..n {
-        let row = &factor[place(t, 0)..=place(t, t)];
-        let mut sum = ZERO;
-        for (a, u) in row[..t].iter().zip(&all) {
-            sum = from_fn(|i| sum[i] + a[i] * u[i]);
+    for part in Part::all(simd) {
+        for t in kept.len()..n {
+            let row = &factor[place(t, 0)..=place(t, t)];
+            let sum = part.dot(&row[..t], &all[..t]);
+            part.set(&mut all[t], part.neg(part.mul(sum, part.of(&row[t]))));
         }
-        all[t] = from_fn(|i| -sum[i] * row[t][i]);
     }
     all
 }
 
 #[inline(always)]
-fn weigh<const D: usize, const H: usize>(a: &[Lane], b: &[Lane]) -> Lane {
-    let mut sum = ZERO;
-    for k in 0..a.len() / D {
-        for (j, mass) in MASSES.row::<H>(k) {
-            for d in 0..D {
-                add_product(&mut sum, mass, &a[D * k + d], &b[D * j + d]);
-                if j != k {
-                    add_product(&mut sum, mass, &a[D * j + d], &b[D * k + d]);
-                }
+fn weigh<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Lane], into: &mut [Lane]) {
+    MASSES.each::<H>(a.len() / D, |k, j, mass| {
+        let mass = part.splat(mass);
+        for d in 0..D {
+            let (k, j) = (D * k + d, D * j + d);
+            part.add_scaled(&mut into[k], mass, &a[j]);
+            if j != k {
+                part.add_scaled(&mut into[j], mass, &a[k]);
             }
         }
-    }
-    sum
-}
-
-// Read whole, then written whole: what may alias between lanes would be worked on one by one.
-
-#[inline(always)]
-fn add_scaled(sum: &mut Lane, factor: f64, a: &Lane) {
-    *sum = from_fn(|i| sum[i] + factor * a[i]);
-}
-
-#[inline(always)]
-fn add_product(sum: &mut Lane, factor: f64, a: &Lane, b: &Lane) {
-    *sum = from_fn(|i| sum[i] + factor * a[i] * b[i]);
+    });
 }

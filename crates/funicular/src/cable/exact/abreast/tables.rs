@@ -15,20 +15,27 @@ pub(super) struct Masses {
 }
 
 impl Masses {
-    /// The entries of a row up to the diagonal, for elements with H hats: that at −1, and then that at 1 or none.
+    /// All entries of the lower triangle, for elements with H hats (that at −1, and then that at 1 or none) and so many
+    /// functions, at least two beyond the hats.
     #[inline(always)]
-    pub(super) fn row<const H: usize>(&self, function: usize) -> impl Iterator<Item = (usize, f64)> + use<H> {
-        let f = function;
+    pub(super) fn each<const H: usize>(&self, functions: usize, mut visit: impl FnMut(usize, usize, f64)) {
+        for f in 0..H {
+            visit(f, f, self.own[0]);
+        }
+        for f in H..functions {
+            visit(f, f, self.own[f + 1 - H]);
+        }
         // Bubbles meet the hats in their first two.
-        let (below, other) = match (f + 1).saturating_sub(H) {
-            _ if f == 0 => (None, None),
-            0 => (Some((0, 1.0 / 3.0)), None),
-            1 => (Some((0, self.first)), Some((1, self.first))),
-            2 => (Some((0, self.two_below[2])), Some((1, -self.two_below[2]))),
-            k => (Some((f - 2, self.two_below[k])), None),
-        };
-        let own = if f < H { self.own[0] } else { self.own[f + 1 - H] };
-        [Some((f, own)), below, other.filter(|_| H == 2)].into_iter().flatten()
+        visit(H, 0, self.first);
+        visit(H + 1, 0, self.two_below[2]);
+        if H == 2 {
+            visit(1, 0, 1.0 / 3.0);
+            visit(H, 1, self.first);
+            visit(H + 1, 1, -self.two_below[2]);
+        }
+        for f in H + 2..functions {
+            visit(f, f - 2, self.two_below[f + 1 - H]);
+        }
     }
 }
 
@@ -84,18 +91,25 @@ pub(super) static TRIPLES: LazyLock<Triples> = LazyLock::new(|| {
     Triples { starts, values }
 });
 
-/// A Gauss rule: points ξ, and their weights times (2l + 1)/2 P_l(ξ).
-pub(super) type Rule = Vec<(f64, Vec<f64>)>;
+/// A Gauss rule.
+pub(super) struct Rule {
+    /// ξ.
+    pub(super) points: Vec<f64>,
+    /// For each l the weights of the points times (2l + 1)/2 P_l(ξ).
+    pub(super) weights: Vec<Vec<f64>>,
+}
 
 /// Gauss's rules of 1, 2, … points.
 pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
     (1..=MOST_TERMS)
-        .map(|points| {
-            let expanded = |(xi, weight): (f64, f64)| {
-                let p = legendre::orthonormal(xi, points - 1);
-                (xi, p.iter().enumerate().map(|(l, p)| weight * p * (l as f64 + 0.5).sqrt()).collect())
+        .map(|count| {
+            let (points, weights): (Vec<f64>, Vec<f64>) = legendre::gauss(count).into_iter().unzip();
+            let polynomials: Vec<_> = points.iter().map(|xi| legendre::orthonormal(*xi, count - 1)).collect();
+            let of_degree = |l: usize| {
+                let weighted = |(p, weight): (&Vec<f64>, &f64)| weight * p[l] * (l as f64 + 0.5).sqrt();
+                polynomials.iter().zip(&weights).map(weighted).collect()
             };
-            legendre::gauss(points).into_iter().map(expanded).collect()
+            Rule { points, weights: (0..count).map(of_degree).collect() }
         })
         .collect()
 });

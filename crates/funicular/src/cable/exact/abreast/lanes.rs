@@ -1,0 +1,137 @@
+//! Numbers side by side, a register at a time, and memory for them.
+
+use super::LANES;
+use pulp::Simd;
+use std::cell::RefCell;
+use std::ops::{Deref, DerefMut};
+
+/// One number a cable or element.
+pub(crate) type Lane = [f64; LANES];
+
+pub(super) const ZERO: Lane = [0.0; LANES];
+
+/// The share of one register in every lane; what the compiler makes of loops over lanes may go across them instead.
+#[derive(Clone, Copy)]
+pub(super) struct Part<S: Simd> {
+    pub(super) simd: S,
+    at: usize,
+}
+
+impl<S: Simd> Part<S> {
+    /// All shares.
+    #[inline(always)]
+    pub(super) fn all(simd: S) -> impl Iterator<Item = Self> {
+        (0..LANES / S::F64_LANES).map(move |at| Self { simd, at })
+    }
+
+    #[inline(always)]
+    pub(super) fn of(self, lane: &Lane) -> S::f64s {
+        S::as_simd_f64s(lane).0[self.at]
+    }
+
+    #[inline(always)]
+    pub(super) fn set(self, lane: &mut Lane, value: S::f64s) {
+        S::as_mut_simd_f64s(lane).0[self.at] = value;
+    }
+
+    #[inline(always)]
+    pub(super) fn splat(self, value: f64) -> S::f64s {
+        self.simd.splat_f64s(value)
+    }
+
+    /// a b + c, rounded once.
+    #[inline(always)]
+    pub(super) fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
+        self.simd.mul_add_f64s(a, b, c)
+    }
+
+    #[inline(always)]
+    pub(super) fn mul(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.mul_f64s(a, b)
+    }
+
+    #[inline(always)]
+    pub(super) fn neg(self, a: S::f64s) -> S::f64s {
+        self.simd.neg_f64s(a)
+    }
+
+    #[inline(always)]
+    pub(super) fn add_scaled(self, sum: &mut Lane, factor: S::f64s, a: &Lane) {
+        let value = self.mul_add(factor, self.of(a), self.of(sum));
+        self.set(sum, value);
+    }
+
+    /// `Σ a b`, lane by lane.
+    #[inline(always)]
+    pub(super) fn dot(self, a: &[Lane], b: &[Lane]) -> S::f64s {
+        // Two sums, of which neither waits for the other.
+        let mut sums = [self.splat(0.0); 2];
+        let (a_pairs, b_pairs) = (a.chunks_exact(2), b.chunks_exact(2));
+        if let ([a], [b]) = (a_pairs.remainder(), b_pairs.remainder()) {
+            sums[0] = self.mul(self.of(a), self.of(b));
+        }
+        for (a, b) in a_pairs.zip(b_pairs) {
+            for k in 0..2 {
+                sums[k] = self.mul_add(self.of(&a[k]), self.of(&b[k]), sums[k]);
+            }
+        }
+        self.simd.add_f64s(sums[0], sums[1])
+    }
+
+    #[inline(always)]
+    pub(super) fn inverse(self, a: S::f64s) -> S::f64s {
+        self.simd.div_f64s(self.splat(1.0), a)
+    }
+}
+
+/// Lanes in memory that the thread keeps for the next robot: given back to the system with each, they would cost as much
+/// as a tenth of the search.
+#[derive(Debug, Default)]
+pub(super) struct Lanes(Vec<Lane>);
+
+thread_local! {
+    static SPARE: RefCell<Vec<Vec<Lane>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Most pieces of memory that a thread keeps.
+const MOST_SPARE: usize = 128;
+
+impl Lanes {
+    pub(super) fn new() -> Self {
+        Self(SPARE.with_borrow_mut(Vec::pop).unwrap_or_default())
+    }
+
+    pub(super) fn zeros(count: usize) -> Self {
+        let mut lanes = Self::new();
+        lanes.resize(count, ZERO);
+        lanes
+    }
+}
+
+impl Drop for Lanes {
+    fn drop(&mut self) {
+        let mut lanes = std::mem::take(&mut self.0);
+        lanes.clear();
+        // At the end of a thread there is nobody to keep it.
+        let _ = SPARE.try_with(|spare| {
+            let mut spare = spare.borrow_mut();
+            if spare.len() < MOST_SPARE {
+                spare.push(lanes);
+            }
+        });
+    }
+}
+
+impl Deref for Lanes {
+    type Target = Vec<Lane>;
+
+    fn deref(&self) -> &Vec<Lane> {
+        &self.0
+    }
+}
+
+impl DerefMut for Lanes {
+    fn deref_mut(&mut self) -> &mut Vec<Lane> {
+        &mut self.0
+    }
+}
