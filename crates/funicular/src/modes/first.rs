@@ -135,27 +135,26 @@ mod tests {
     use crate::statics::{self, StaticModel};
 
     #[test]
-    fn poses_whose_cables_are_taut_never_need_the_slow_way() {
+    fn usual_poses_taut_or_slack_never_need_the_slow_way() {
         let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
-        let mut poses = 0;
+        let mut poses = [0; 2];
         for i in 0..5 {
             for j in 0..5 {
                 for k in 0..5 {
                     let [x, y, z] = [(i, 0.5), (j, 0.25), (k, 0.4)].map(|(at, step)| (f64::from(at) - 2.0) * step);
                     let pose = Pose::new([x, y, z + 1.0], [0.5, -0.5, 1.0]);
                     let Ok(rest) = statics::inverse(&robot, &pose, StaticModel::Catenary) else { continue };
-                    let taut = |state: &statics::CableState| {
-                        let catenary = &state.hanging.as_ref().unwrap().catenary;
-                        catenary.weight() < 2.0 * catenary.horizontal_force()
-                    };
-                    if rest.cables.iter().all(taut) {
-                        poses += 1;
+                    let catenaries = rest.cables.iter().map(|state| &state.hanging.as_ref().unwrap().catenary);
+                    let slackness = catenaries.map(|c| c.weight() / c.horizontal_force()).fold(0.0, f64::max);
+                    // Beyond, loops hang down far below the robot.
+                    if slackness < 1000.0 {
+                        poses[usize::from(slackness > 3.0)] += 1;
                         let found = Pencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
                         assert!(found.is_some(), "{x}, {y}, {z}");
                     }
                 }
             }
         }
-        assert!(poses > 60, "{poses}");
+        assert!(poses.iter().all(|count| *count > 25), "{poses:?}");
     }
 }
