@@ -33,7 +33,7 @@
   function axis(title, more) {
     return Object.assign({
       title: { text: plain(title), standoff: 8, font: { size: 13 } }, tickfont: { size: 12 }, showline: true, linecolor: "#444444", mirror: true,
-      ticks: "outside", tickcolor: "#444444", showgrid: false, zeroline: false,
+      ticks: "outside", tickcolor: "#444444", showgrid: false, zeroline: false, exponentformat: "power", minexponent: 6,
     }, more);
   }
   function layout(more) {
@@ -48,7 +48,7 @@
   function scaled(value) { return state.log ? Math.log10(value) : value; }
   function scale(least, greatest) {
     const quantity = header.quantities[state.quantity];
-    const low = scaled(least), high = scaled(greatest), bar = { title: { text: plain(quantity.title), side: "right", font: { size: 12 } }, thickness: 14, tickfont: { size: 11 }, outlinewidth: 0 };
+    const low = scaled(least), high = scaled(greatest), bar = { exponentformat: "power", minexponent: 6, title: { text: plain(quantity.title), side: "right", font: { size: 12 } }, thickness: 14, tickfont: { size: 11 }, outlinewidth: 0 };
     if (state.log) {
       const ticks = [];
       for (let decade = Math.floor(low); decade <= high; decade++) {
@@ -56,6 +56,12 @@
           const value = digit * Math.pow(10, decade);
           if (Math.log10(value) >= low && Math.log10(value) <= high) { ticks.push(value); }
         });
+      }
+      // Within a decade there may be hardly any of these: then round numbers between both ends.
+      if (ticks.length < 3 && greatest > least) {
+        const round = nice({ low: least, high: greatest }, (greatest - least) / 5);
+        ticks.length = 0;
+        for (let value = round.start; value <= greatest; value += round.size) { ticks.push(value); }
       }
       bar.tickvals = ticks.map(Math.log10);
       bar.ticktext = ticks.map(short);
@@ -97,7 +103,8 @@
   function drawSlice(found) {
     const x = axes[found.h].values, y = axes[found.v].values, name = header.quantities[state.quantity];
     const numbers = found.raw.flat().filter(function (value) { return value !== null; });
-    const own = { least: Math.min.apply(null, numbers), greatest: Math.max.apply(null, numbers) };
+    const own = { least: Infinity, greatest: -Infinity };
+    numbers.forEach(function (value) { own.least = Math.min(own.least, value); own.greatest = Math.max(own.greatest, value); });
     const span = control("whole").checked || numbers.length === 0 || own.least === own.greatest ? name : own;
     const range = scale(span.least, span.greatest);
     const text = found.z.map(function (line, j) {
@@ -152,11 +159,16 @@
   }
 
   function drawHistogram() {
-    const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.greatest - quantity.least) / n || 1;
-    const middle = quantity.bins.map(function (_, k) { return quantity.least + (k + 0.5) * width; });
-    page.show(plot("histogram"), [{ type: "bar", x: middle, y: quantity.bins, width: width, marker: { color: "#0072b2", line: { color: "#ffffff", width: 0.6 } }, hovertemplate: "about %{x:.4g}<br>%{y} rows<extra></extra>" }],
-      layout({ xaxis: axis(quantity.title, {}), yaxis: axis("rows", { rangemode: "tozero" }), bargap: 0, showlegend: false, margin: { l: 62, r: 14, t: 14, b: 52 } }));
-    place.querySelector("[data-count]").textContent = quantity.count + " rows have it.";
+    const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.greatest - quantity.least) / n;
+    // All rows with one value are one bar, with room at both sides.
+    const single = !(width > 0), room = Math.abs(quantity.least) || 1, none = quantity.count === 0;
+    const middle = single ? [quantity.least] : quantity.bins.map(function (_, k) { return quantity.least + (k + 0.5) * width; });
+    const bars = single ? [quantity.count] : quantity.bins;
+    const nothing = { text: "no row has this number", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 14 } };
+    page.show(plot("histogram"), none ? [] : [{ type: "bar", x: middle, y: bars, width: single ? 0.02 * room : width, marker: { color: "#0072b2", line: { color: "#ffffff", width: 0.6 } }, hovertemplate: "about %{x:.4g}<br>%{y} rows<extra></extra>" }],
+      layout({ xaxis: axis(quantity.title, none ? { showticklabels: false, ticks: "" } : single ? { range: [quantity.least - room / 4, quantity.least + room / 4] } : {}), yaxis: axis("rows", none ? { showticklabels: false, ticks: "" } : { rangemode: "tozero" }),
+        annotations: none ? [nothing] : [], bargap: 0, showlegend: false, margin: { l: 62, r: 14, t: 34, b: 52 } }));
+    place.querySelector("[data-count]").textContent = quantity.count + (quantity.count === 1 ? " row has it." : " rows have it.");
   }
 
   function drawSpace() {

@@ -176,9 +176,10 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     key
 }
 
-/// A number with at most four digits, without zeros behind.
+/// A number with at most four digits, without zeros behind; what is left of a zero by rounding is zero.
 fn brief(value: f64) -> String {
-    short(value, 4).replace('-', "−")
+    const ROUNDING: f64 = 1e-12;
+    short(if value.abs() < ROUNDING { 0.0 } else { value }, 4).replace('-', "−")
 }
 
 /// Name of an axis with its unit: `x [m]`, `platform mass [kg]`.
@@ -186,7 +187,7 @@ fn axis_title(name: &str, unit: &str) -> String {
     // The unit of a value of the robot file is in its key.
     let ending = format!("_{}", unit.replace('/', "_per_").replace(' ', "_"));
     let stem = name.strip_suffix(&ending).unwrap_or(name);
-    with_unit(stem, unit)
+    with_unit(&stem.replace(['.', '_'], " ").replace(['"', '\''], ""), unit)
 }
 
 /// Least and greatest of every quantity, and where.

@@ -74,6 +74,33 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     fs::write(&path, "x_m,y_m,z_m\n0,0,0.5\n0,zero,0.5\n").unwrap();
     let output = run(&poses);
     assert!(stderr(&output).contains("line 3, column `y_m`: `zero` is not a number"), "{}", stderr(&output));
+    fs::write(&path, "x_m,y_m,z_m\n").unwrap();
+    assert!(stderr(&run(&poses)).contains("has a header and no poses"));
+}
+
+#[test]
+fn rows_are_never_written_over_what_they_are_computed_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("poses.csv");
+    let poses = "x_m,y_m,z_m\n0,0,0.5\n";
+    fs::write(&path, poses).unwrap();
+    let path = path.to_str().unwrap();
+    let output = run(&["map", "ROBOT", "--poses", path, "-o", path]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("which they are computed from; choose another name"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(path).unwrap(), poses);
+}
+
+#[test]
+fn springs_that_are_all_slack_are_no_pose_to_compare_with() {
+    // At the least tensions of a robot in a horizontal plane its ropes are longer than their chords.
+    let robot = robot("kntu-planar.toml");
+    let asked = ["--pose", "0.2,0.1,0,0,0,10", "--grid", "x=0.2", "--quantity", "pose-error", "--format", "csv"];
+    let text = succeed(&[&["map", &robot], &asked[..]].concat());
+    assert_eq!(column(&text, "status"), ["no-comparison"]);
+    assert_eq!(column(&text, "spring_from_catenary_distance_m"), [""]);
+    let reason = &column(&text, "reason")[0];
+    assert!(reason.contains("with spring cables of the same lengths: the equilibrium does not hold"), "{reason}");
 }
 
 /// A map that takes a while, with its file.
@@ -215,7 +242,12 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("sweep ROBOT --vary platform.mass_kg", "it has no `=`"),
         ("sweep ROBOT --vary platfrom.mass_kg=1:2:3", "did you mean `platform`"),
         ("sweep ROBOT --vary platform.mass_kg=-1:2:3", "it must be positive"),
-        ("sweep ROBOT --vary platform.mass_kgs=1:2:3", "mass_kg"),
+        ("sweep ROBOT --vary platform.mass_kgs=1:2:3", "did you mean `mass_kg`?"),
+        (
+            "sweep ROBOT --vary platform.mass_kg=10:20:3 --mass-kg 12",
+            "changes nothing: another option sets the same value",
+        ),
+        ("sweep ROBOT --vary cables.1.unstrained_length_m=6:7:3 --pose 0,0,0.5", "changes nothing"),
         ("merge no-such-file.parquet -o a.parquet", "cannot read no-such-file.parquet"),
     ] {
         let output = run(&line.split(' ').collect::<Vec<_>>());
