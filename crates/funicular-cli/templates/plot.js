@@ -39,7 +39,7 @@
   function layout(more) {
     return Object.assign({
       font: { family: "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", size: 13, color: INK },
-      paper_bgcolor: "#ffffff", plot_bgcolor: "#ffffff", margin: { l: 62, r: 14, t: 44, b: 52 }, autosize: true, hovermode: "closest",
+      paper_bgcolor: "#ffffff", plot_bgcolor: "#ffffff", margin: { l: 62, r: 14, t: 62, b: 52 }, autosize: true, hovermode: "closest",
       legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom", font: { size: 12 } },
     }, more);
   }
@@ -66,7 +66,9 @@
       bar.tickvals = ticks.map(Math.log10);
       bar.ticktext = ticks.map(short);
     }
-    return { low: low, high: high > low ? high : low + 1, bar: bar };
+    // Where all numbers are one, the bar has it in its middle.
+    const room = high > low ? 0 : 0.05 * Math.abs(low) || 0.5;
+    return { low: low - room, high: high + room, bar: bar };
   }
 
   function slice() {
@@ -80,7 +82,7 @@
         line.push(isNaN(value) ? null : scaled(value));
         numbers.push(isNaN(value) ? null : value);
         code.push(status[cell]);
-        if (isNaN(value) && infeasible(status[cell])) { crosses.x.push(x); crosses.y.push(y); }
+        if (isNaN(value) && infeasible(status[cell]) && i % thin(h) === 0 && j % thin(v) === 0) { crosses.x.push(x); crosses.y.push(y); }
       });
       z.push(line);
       raw.push(numbers);
@@ -88,6 +90,8 @@
     });
     return { h: h, v: v, z: z, raw: raw, codes: codes, crosses: crosses };
   }
+  // Crosses and gaps between cells are for grids whose cells are many pixels wide; no more than some fifty crosses a side.
+  function thin(axis) { return Math.ceil(axes[axis].values.length / 50); }
   function known(code) { return header.statuses.find(function (one) { return one.code === code; }); }
   function infeasible(code) { const one = known(code); return one !== undefined && !one.feasible; }
   function reason(code) { const one = known(code); return one ? one.name : "not in the file"; }
@@ -119,7 +123,7 @@
       traces.push({ type: "contour", x: x, y: y, z: found.z, zmin: range.low, zmax: range.high, autocontour: false, showlegend: false, connectgaps: false, showscale: false, hoverinfo: "skip",
         contours: Object.assign(nice(lines, step), { coloring: "none", showlabels: !state.log, labelfont: { size: 10, color: INK } }), line: { color: "rgba(20,20,20,0.65)", width: 1 } });
     }
-    const many = x.length * y.length > 2500;
+    const many = x.length * y.length > 1000;
     traces.push({ type: "scatter", mode: "markers", x: found.crosses.x, y: found.crosses.y, name: "infeasible", hoverinfo: "skip", showlegend: true,
       marker: { symbol: "x-thin", size: many ? 4 : 6, color: "#8a8a8a", line: { color: "#8a8a8a", width: 1 } } });
     page.show(plot("slice"), traces, layout({
@@ -142,8 +146,8 @@
     });
     const colours = [];
     list.forEach(function (one, k) { colours.push([k / last, one.colour], [(k + 1) / last, one.colour]); });
-    const text = found.codes.map(function (line) { return line.map(reason); });
-    const traces = [{ type: "heatmap", x: x, y: y, z: z, text: text, colorscale: colours, zmin: -0.5, zmax: last - 0.5, showscale: false, xgap: 0.5, ygap: 0.5,
+    const text = found.codes.map(function (line) { return line.map(reason); }), gap = thin(found.h) > 1 || thin(found.v) > 1 ? 0 : 0.5;
+    const traces = [{ type: "heatmap", x: x, y: y, z: z, text: text, colorscale: colours, zmin: -0.5, zmax: last - 0.5, showscale: false, xgap: gap, ygap: gap,
       hovertemplate: plain(axes[found.h].name) + " %{x}, " + plain(axes[found.v].name) + " %{y}<br>%{text}<extra></extra>" }];
     list.forEach(function (one) {
       traces.push({ type: "scatter", mode: "markers", x: [null], y: [null], name: one.name + " (" + one.rows + ")", hoverinfo: "skip", marker: { symbol: "square", size: 11, color: one.colour, line: { color: "#8a8a8a", width: 0.5 } } });

@@ -57,7 +57,8 @@ impl<'a> Variations<'a> {
                 && first == other
             {
                 return Err(format!(
-                    "{option} {} changes nothing: another option sets the same value; leave one of them out",
+                    "{option} {} changes nothing: no part of the robot uses this value, or another option sets it; leave one of \
+                     them out",
                     axis.path.text
                 ));
             }
@@ -184,7 +185,11 @@ mod tests {
         };
         let path = "platform.mass_kg";
         assert_eq!(varied(&[path], None), None);
-        assert!(varied(&[path], Some(15.0)).unwrap().contains("changes nothing: another option sets the same value"));
+        assert!(
+            varied(&[path], Some(15.0))
+                .unwrap()
+                .contains("changes nothing: no part of the robot uses this value, or another option sets it")
+        );
         assert!(varied(&[path, "platform.\"mass_kg\""], None).unwrap().contains("given twice"));
         assert!(varied(&["platform.mas_kg"], None).unwrap().contains("did you mean `mass_kg`?"));
     }

@@ -60,6 +60,8 @@ struct PlotPage<'a> {
     slices: Option<Slices>,
     curves: Vec<Figure>,
     robot_text: &'a str,
+    /// What was asked, as the file has it.
+    plan: String,
     label: &'a str,
     command_line: &'a str,
 }
@@ -97,6 +99,7 @@ pub(crate) fn plot(input: &PlotInput) -> anyhow::Result<Page> {
         slices,
         curves,
         robot_text: &record.robot_file,
+        plan: serde_json::to_string_pretty(&record.plan).context("the plan could not be written")?,
         label: &input.label,
         command_line: &input.command_line,
     };

@@ -227,7 +227,8 @@ fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure
         }
     };
     let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
-    let more = json!({"showlegend": members.len() > 1});
+    // Above the legend there is room for the buttons of a figure.
+    let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
     Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
 }
 

@@ -1,6 +1,6 @@
 //! Grids of two axes and more: what the page's own script draws slices, sets and points from.
 
-use super::rows::{Rows, label, with_unit};
+use super::rows::{NOT_COMPUTED, Rows, label, with_unit};
 use super::{axis_title, status};
 use crate::page::figure::colour;
 use crate::page::packed;
@@ -71,7 +71,7 @@ impl Slices {
                 .collect(),
             axes: (0..axes.len()).map(title).collect(),
             in_space: space.is_some(),
-            points: rows.shown(),
+            points: rows.status.iter().filter(|code| **code != NOT_COMPUTED).count(),
         }
     }
 }
