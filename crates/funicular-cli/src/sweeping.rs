@@ -13,7 +13,7 @@ use crate::table::counted;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
 use funicular::sweep::{Options, Outcome, Plan, Points};
-use funicular_files::{Asked, Begin, CsvRows, Opened, Record, Source};
+use funicular_files::{Asked, Begin, CsvRows, Opened, Record, Source, SweepFile};
 use std::io::{self, BufWriter};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -154,18 +154,8 @@ fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
 }
 
 fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZeroUsize) -> Result<()> {
+    refuse_output(job, path)?;
     let run = job.run;
-    if run.format == Some(Format::Csv) {
-        bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
-    }
-    let same =
-        |input: &Path| path.canonicalize().ok().is_some_and(|to| input.canonicalize().is_ok_and(|from| from == to));
-    if job.inputs.iter().any(|input| same(input)) {
-        bail!(
-            "refusing to write the rows over {}, which they are computed from; choose another name for -o",
-            path.display()
-        );
-    }
     let begin = match (run.resume, run.discard) {
         (true, _) => Begin::Resume,
         (_, true) => Begin::Discard,
@@ -176,7 +166,12 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     let mut work = match funicular_files::Job::open(path, record, begin)? {
         Opened::Done => {
             errors::note(&format!("{} holds all of {} already", path.display(), counted(rows, "row")));
-            return Ok(());
+            if run.format.is_none() {
+                return Ok(());
+            }
+            let mut summary = Summary::new(job, plan.columns());
+            SweepFile::open(path)?.each(|chunk| summary.add(chunk))?;
+            return summary.print(run.format);
         }
         Opened::Work(work) => work,
     };
@@ -201,6 +196,25 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     work.finish()?;
     errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
     if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
+}
+
+/// Refuses what is no place for rows, whatever its ending.
+fn refuse_output(job: &Job, path: &Path) -> Result<()> {
+    if path.as_os_str() == "-" {
+        bail!("rows go to standard output with --format csv and without -o");
+    }
+    if job.run.format == Some(Format::Csv) {
+        bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
+    }
+    let same =
+        |input: &Path| path.canonicalize().ok().is_some_and(|to| input.canonicalize().is_ok_and(|from| from == to));
+    if job.inputs.iter().any(|input| same(input)) {
+        bail!(
+            "refusing to write the rows over {}, which they are computed from; choose another name for -o",
+            path.display()
+        );
+    }
+    Ok(())
 }
 
 /// The sink of a summary.

@@ -109,7 +109,7 @@ impl ParquetFile {
         let file = File::open(path).map_err(unreadable)?;
         let reader = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| match Format::of(path) {
             Ok(Format::Csv | Format::Vti) => FilesError::NotParquet { path: path.to_owned() },
-            _ => not_ours(&format!("it is no Parquet file ({error})")),
+            _ => not_ours(&format!("it is no Parquet file, or only the beginning of one ({error})")),
         })?;
         let metadata = reader.metadata().file_metadata();
         let pairs = metadata.key_value_metadata();

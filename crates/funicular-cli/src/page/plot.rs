@@ -204,7 +204,8 @@ fn numbers(rows: &Rows) -> Table {
             return format!("{} {unit}", brief(*value)).trim_end().to_owned();
         }
         let parts = rows.axes.iter().zip(rows.at(row));
-        let parts: Vec<String> = parts.map(|(axis, value)| format!("{} = {}", axis.name, brief(value))).collect();
+        let parts: Vec<String> =
+            parts.map(|(axis, value)| format!("{}\u{a0}=\u{a0}{}", axis.name, brief(value))).collect();
         parts.join(", ")
     };
     let mut table = Table::new(

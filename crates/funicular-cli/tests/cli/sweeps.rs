@@ -198,6 +198,10 @@ fn parts_of_a_map_are_merged_into_the_same_file() {
         succeed(&["merge", &parts[2], &parts[0], &parts[1], "-o", &merged]);
         assert!(fs::read(merged).unwrap() == fs::read(file(&format!("whole.{ending}"))).unwrap(), "{ending}");
     }
+    // A whole file is summarised as the run was that made it.
+    let again = ["-o", &file("whole.parquet"), "--resume", "--format", "json"];
+    let grid = ["map", &robot, "--grid", "x=-6:6:31", "--grid", "y=-4:4:9", "--quantity", "tension-max"];
+    assert_eq!(succeed(&[&grid[..], &again].concat()), succeed(&[&grid[..], &["--format", "json"]].concat()));
     let output = run(&["merge", &parts[0], &parts[1], "-o", &file("no.parquet")]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("part 3/3 is missing"), "{}", stderr(&output));
@@ -237,6 +241,7 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("map ROBOT --grid x=0:1:5 -o rows.txt", "names no format: .parquet, .csv or .vti"),
         ("map ROBOT --grid x=0:1:5 -o no/such/folder/a.csv", "there is no directory"),
         ("map ROBOT --grid x=0:1:5 -o /dev/null", "names no format"),
+        ("map ROBOT --grid x=0:1:5 -o -", "--format csv and without -o"),
         ("map ROBOT --grid x=0:1:5 --resume", "--output-file"),
         ("map ROBOT --grid x=0:1:5 --part 3/2 -o a.parquet", "is no part"),
         ("map ROBOT --grid x=0:1:5 --threads 0", "is not a number of threads"),
