@@ -45,17 +45,15 @@ impl<'a> Variations<'a> {
                 Steps::Range { from, to, .. } => vec![*from, *to],
                 Steps::List(values) => values.clone(),
             };
-            let mut robots = Vec::new();
-            for value in &tried {
-                let robot = variations.robot(&[axis.path.with(option, *value)])?;
-                // Two that differ are enough to compare.
-                if robots.len() < 2 && tried.first().is_none_or(|first| robots.is_empty() || first != value) {
-                    robots.push(robot);
-                }
+            let mut first = None;
+            let (mut values_differ, mut robots_differ) = (false, false);
+            for value in tried {
+                let robot = variations.robot(&[axis.path.with(option, value)])?;
+                let (of_first, first) = first.get_or_insert_with(|| (value.to_bits(), robot.clone()));
+                values_differ |= *of_first != value.to_bits();
+                robots_differ |= *first != robot;
             }
-            if let [first, other] = &robots[..]
-                && first == other
-            {
+            if values_differ && !robots_differ {
                 return Err(format!(
                     "{option} {} changes nothing: no part of the robot uses this value, or another option sets it; leave one of \
                      them out",
