@@ -134,7 +134,11 @@ fn work_is_not_lost_unasked_and_not_mixed() {
     assert!(matches!(Job::open(&path, record.clone(), Begin::Resume), Ok(Opened::Done)));
     let mut other = record.clone();
     other.plan.insert("mass_kg".to_owned(), json!(3));
-    assert!(message(open(&path, &other, Begin::Resume)).contains("its mass_kg is 1.5"), "a file of another sweep");
+    assert!(
+        message(open(&path, &other, Begin::Resume))
+            .contains("its mass_kg: 1.5, here: 3; choose another file, or replace this one"),
+        "a file of another sweep"
+    );
 }
 
 #[test]
