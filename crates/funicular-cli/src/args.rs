@@ -15,7 +15,7 @@ use funicular::statics::StaticModel;
 use funicular_files::edit::Assignment;
 pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
 use std::path::PathBuf;
-pub(crate) use sweep::{MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs, WhatArgs};
+pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs, WhatArgs};
 use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.

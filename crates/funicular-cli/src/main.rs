@@ -9,6 +9,7 @@ mod import;
 mod json;
 mod output;
 mod page;
+mod poses;
 mod progress;
 mod robot_file;
 mod state;

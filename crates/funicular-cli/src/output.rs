@@ -145,10 +145,14 @@ pub(crate) fn open_to_all(folder: &Path) -> io::Result<()> {
 
 fn to_stdout(bytes: &[u8]) -> Result<()> {
     let mut out = io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
-        // Kept bare: whoever reads has seen enough, and that is no error.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(error.into()),
-        other => other.context("cannot write to standard output"),
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(of_stdout)
+}
+
+/// An error of standard output. A closed pipe is kept bare: whoever reads has seen enough, and that is no error.
+pub(crate) fn of_stdout(error: io::Error) -> anyhow::Error {
+    match error.kind() {
+        io::ErrorKind::BrokenPipe => error.into(),
+        _ => anyhow::Error::new(error).context("cannot write to standard output"),
     }
 }
 

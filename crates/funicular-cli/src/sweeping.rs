@@ -4,15 +4,16 @@ pub(crate) mod again;
 mod summary;
 
 use crate::args::Format;
-use crate::args::{ModelArgs, OutputArgs, RunArgs, StateArgs, TensionArgs, WhatArgs};
+use crate::args::{EachArgs, OutputArgs, RunArgs};
 use crate::errors::{self, Interrupted};
-use crate::output::Sink;
+use crate::output::{self, Sink};
 use crate::progress::Progress;
 use crate::state;
+use crate::table::counted;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
-use funicular::sweep::{Options, Outcome, Plan, Points, Quantity};
-use funicular_files::{Asked, Begin, CsvRows, Opened, Record, Source};
+use funicular::sweep::{Options, Outcome, Plan, Points};
+use funicular_files::{Asked, Begin, CsvRows, Opened, Record, Source, SweepFile};
 use std::io::{self, BufWriter};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -24,24 +25,24 @@ pub(crate) struct Job<'a> {
     pub(crate) command: &'static str,
     /// One of its robots.
     pub(crate) robot: &'a Robot,
-    pub(crate) robot_path: &'a Path,
     pub(crate) robot_file: String,
+    /// Files that are read, and not to be written over.
+    pub(crate) inputs: &'a [&'a Path],
     pub(crate) points: &'a dyn Points,
     pub(crate) source: Source<'a>,
-    pub(crate) asked: Asked<'a>,
+    pub(crate) point: &'a EachArgs,
     pub(crate) run: &'a RunArgs,
 }
 
+/// A robot of the file with what the options set.
+pub(crate) fn adjusted(robot: Robot, point: &EachArgs) -> Result<Robot> {
+    state::with_limits(&state::with_options(robot, &point.state)?, &point.tensions)
+}
+
 /// The options of every point.
-pub(crate) fn options(
-    robot: &Robot,
-    state: &StateArgs,
-    tensions: &TensionArgs,
-    model: &ModelArgs,
-    what: &WhatArgs,
-) -> Result<Options> {
-    let static_model = state.static_model.into();
-    let rule = state::rule(tensions)?;
+pub(crate) fn options(robot: &Robot, point: &EachArgs) -> Result<Options> {
+    let static_model = point.state.static_model.into();
+    let rule = state::rule(&point.tensions)?;
     let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
     if rule.is_some() && cables <= freedoms {
         bail!(
@@ -52,21 +53,17 @@ pub(crate) fn options(
     Ok(Options {
         static_model,
         tension_rule: rule.unwrap_or_default(),
-        linearisation: state::linearisation(model, static_model),
-        highest_hz: what.up_to_hz,
+        linearisation: state::linearisation(&point.model, static_model),
+        highest_hz: point.what.up_to_hz,
     })
 }
 
 /// What was asked, for the files.
-pub(crate) fn asked<'a>(
-    options: &'a Options,
-    state: &'a StateArgs,
-    tensions: &'a TensionArgs,
-    quantities: &'a [Quantity],
-) -> Asked<'a> {
+pub(crate) fn asked<'a>(options: &'a Options, point: &'a EachArgs) -> Asked<'a> {
+    let EachArgs { what, state, tensions, .. } = point;
     Asked {
         options,
-        quantities,
+        quantities: &what.quantity,
         wanted_tension_n: tensions.wanted_tension_n.as_ref().map(|wanted| &wanted.0[..]),
         min_tension_n: tensions.min_tension_n,
         max_tension_n: tensions.max_tension_n,
@@ -100,8 +97,10 @@ fn listen() -> Result<()> {
 /// Computes all of it.
 pub(crate) fn run(job: &Job) -> Result<()> {
     let Job { run, .. } = job;
-    let plan = Plan::new(job.points, job.robot, job.asked.quantities, job.asked.options)?;
-    let record = Record::of(&plan, job.robot_file.clone(), &job.robot.name, job.source, &job.asked, run.part);
+    let options = options(job.robot, job.point)?;
+    let asked = asked(&options, job.point);
+    let plan = Plan::new(job.points, job.robot, asked.quantities, asked.options)?;
+    let record = Record::of(&plan, job.robot_file.clone(), &job.robot.name, job.source, &asked, run.part);
     let threads = match run.threads {
         Some(threads) => threads,
         None => std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
@@ -109,20 +108,35 @@ pub(crate) fn run(job: &Job) -> Result<()> {
     match &run.output_file {
         Some(path) => to_file(job, &plan, record, path, threads),
         None if run.format == Some(Format::Csv) => to_stdout(&plan, threads),
-        None => {
-            listen()?;
-            let mut summary = Summary::new(job, plan.columns());
-            let mut progress = Progress::with_rate(plan.rows(), "rows");
-            let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| {
-                progress.advance(chunk.rows());
-                summary.add(&chunk);
-                anyhow::Ok(())
-            })?;
-            drop(progress);
-            if outcome != Outcome::Complete {
-                return Err(Interrupted(format!("stopped after {} of {} rows", summary.rows, plan.rows())).into());
-            }
-            summary.print(run.format)
+        None => to_summary(job, &plan, threads),
+    }
+}
+
+/// Rows counted, and forgotten.
+fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
+    listen()?;
+    let mut summary = Summary::new(job, plan.columns());
+    let mut progress = Progress::with_rate(plan.rows(), "rows");
+    let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| {
+        progress.advance(chunk.rows());
+        summary.add(&chunk);
+        anyhow::Ok(())
+    })?;
+    drop(progress);
+    refuse_stopped(plan, outcome)?;
+    summary.print(job.run.format)
+}
+
+/// Rows that were kept nowhere, and are not all there.
+fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
+    match outcome {
+        Outcome::Complete => Ok(()),
+        Outcome::Cancelled { next } => {
+            let (done, rows) = ((next * plan.chunk_rows()).min(plan.rows()), plan.rows());
+            Err(Interrupted(format!(
+                "stopped after {done} of {rows} rows, which no file keeps: give -o to go on later"
+            ))
+            .into())
         }
     }
 }
@@ -130,27 +144,18 @@ pub(crate) fn run(job: &Job) -> Result<()> {
 /// Rows as CSV, as they come.
 fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     listen()?;
-    let mut out = CsvRows::new(BufWriter::new(io::stdout().lock()), plan.columns())?;
-    let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
-    // An error is kept bare: whoever reads may have seen enough.
-    out.finish()?;
-    match outcome {
-        Outcome::Complete => Ok(()),
-        Outcome::Cancelled { next } => {
-            let done = (next * plan.chunk_rows()).min(plan.rows());
-            Err(Interrupted(format!("stopped after {done} of {} rows", plan.rows())).into())
-        }
-    }
+    let write = || {
+        let mut out = CsvRows::new(BufWriter::new(io::stdout().lock()), plan.columns())?;
+        let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
+        out.finish()?;
+        Ok(outcome)
+    };
+    refuse_stopped(plan, write().map_err(output::of_stdout)?)
 }
 
 fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZeroUsize) -> Result<()> {
+    refuse_output(job, path)?;
     let run = job.run;
-    if run.format == Some(Format::Csv) {
-        bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
-    }
-    if path.canonicalize().ok().is_some_and(|to| job.robot_path.canonicalize().is_ok_and(|from| from == to)) {
-        bail!("refusing to write the result over the robot file {}; choose another name for -o", path.display());
-    }
     let begin = match (run.resume, run.discard) {
         (true, _) => Begin::Resume,
         (_, true) => Begin::Discard,
@@ -160,8 +165,13 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     let rows = record.rows_of(range.clone());
     let mut work = match funicular_files::Job::open(path, record, begin)? {
         Opened::Done => {
-            errors::note(&format!("{} holds all {rows} rows already", path.display()));
-            return Ok(());
+            errors::note(&format!("{} holds all of {} already", path.display(), counted(rows, "row")));
+            if run.format.is_none() {
+                return Ok(());
+            }
+            let mut summary = Summary::new(job, plan.columns());
+            SweepFile::open(path)?.each(|chunk| summary.add(chunk))?;
+            return summary.print(run.format);
         }
         Opened::Work(work) => work,
     };
@@ -180,20 +190,31 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     })?;
     drop(progress);
     if outcome != Outcome::Complete {
-        let (done, journal) = (work.done(), work.journal().display().to_string());
-        let written = if work.interrupt()? {
-            format!("; {} has them, marked as incomplete", path.display())
-        } else {
-            String::new()
-        };
-        return Err(Interrupted(format!(
-            "stopped: {done} of {rows} rows are safe in {journal}{written}; the same command with --resume goes on"
-        ))
-        .into());
+        let safe = work.interrupt()?;
+        return Err(Interrupted(format!("stopped: {safe}; the same command with --resume goes on")).into());
     }
     work.finish()?;
-    errors::note(&format!("{rows} rows in {}", path.display()));
+    errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
     if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
+}
+
+/// Refuses what is no place for rows, whatever its ending.
+fn refuse_output(job: &Job, path: &Path) -> Result<()> {
+    if path.as_os_str() == "-" {
+        bail!("rows go to standard output with --format csv and without -o");
+    }
+    if job.run.format == Some(Format::Csv) {
+        bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
+    }
+    let same =
+        |input: &Path| path.canonicalize().ok().is_some_and(|to| input.canonicalize().is_ok_and(|from| from == to));
+    if job.inputs.iter().any(|input| same(input)) {
+        bail!(
+            "refusing to write the rows over {}, which they are computed from; choose another name for -o",
+            path.display()
+        );
+    }
+    Ok(())
 }
 
 /// The sink of a summary.

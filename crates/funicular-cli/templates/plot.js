@@ -33,13 +33,13 @@
   function axis(title, more) {
     return Object.assign({
       title: { text: plain(title), standoff: 8, font: { size: 13 } }, tickfont: { size: 12 }, showline: true, linecolor: "#444444", mirror: true,
-      ticks: "outside", tickcolor: "#444444", showgrid: false, zeroline: false,
+      ticks: "outside", tickcolor: "#444444", showgrid: false, zeroline: false, exponentformat: "power", minexponent: 6,
     }, more);
   }
   function layout(more) {
     return Object.assign({
       font: { family: "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", size: 13, color: INK },
-      paper_bgcolor: "#ffffff", plot_bgcolor: "#ffffff", margin: { l: 62, r: 14, t: 44, b: 52 }, autosize: true, hovermode: "closest",
+      paper_bgcolor: "#ffffff", plot_bgcolor: "#ffffff", margin: { l: 62, r: 14, t: 62, b: 52 }, autosize: true, hovermode: "closest",
       legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom", font: { size: 12 } },
     }, more);
   }
@@ -48,7 +48,7 @@
   function scaled(value) { return state.log ? Math.log10(value) : value; }
   function scale(least, greatest) {
     const quantity = header.quantities[state.quantity];
-    const low = scaled(least), high = scaled(greatest), bar = { title: { text: plain(quantity.title), side: "right", font: { size: 12 } }, thickness: 14, tickfont: { size: 11 }, outlinewidth: 0 };
+    const low = scaled(least), high = scaled(greatest), bar = { exponentformat: "power", minexponent: 6, title: { text: plain(quantity.title), side: "right", font: { size: 12 } }, thickness: 14, tickfont: { size: 11 }, outlinewidth: 0 };
     if (state.log) {
       const ticks = [];
       for (let decade = Math.floor(low); decade <= high; decade++) {
@@ -57,10 +57,18 @@
           if (Math.log10(value) >= low && Math.log10(value) <= high) { ticks.push(value); }
         });
       }
+      // Within a decade there may be hardly any of these: then round numbers between both ends.
+      if (ticks.length < 3 && greatest > least) {
+        const round = nice({ low: least, high: greatest }, (greatest - least) / 5);
+        ticks.length = 0;
+        for (let value = round.start; value <= greatest; value += round.size) { ticks.push(value); }
+      }
       bar.tickvals = ticks.map(Math.log10);
       bar.ticktext = ticks.map(short);
     }
-    return { low: low, high: high > low ? high : low + 1, bar: bar };
+    // Where all numbers are one, the bar has it in its middle.
+    const room = high > low ? 0 : 0.05 * Math.abs(low) || 0.5;
+    return { low: low - room, high: high + room, bar: bar };
   }
 
   function slice() {
@@ -74,7 +82,7 @@
         line.push(isNaN(value) ? null : scaled(value));
         numbers.push(isNaN(value) ? null : value);
         code.push(status[cell]);
-        if (isNaN(value) && infeasible(status[cell])) { crosses.x.push(x); crosses.y.push(y); }
+        if (isNaN(value) && infeasible(status[cell]) && i % thin(h) === 0 && j % thin(v) === 0) { crosses.x.push(x); crosses.y.push(y); }
       });
       z.push(line);
       raw.push(numbers);
@@ -82,6 +90,8 @@
     });
     return { h: h, v: v, z: z, raw: raw, codes: codes, crosses: crosses };
   }
+  // Crosses and gaps between cells are for grids whose cells are many pixels wide; no more than some fifty crosses a side.
+  function thin(axis) { return Math.ceil(axes[axis].values.length / 50); }
   function known(code) { return header.statuses.find(function (one) { return one.code === code; }); }
   function infeasible(code) { const one = known(code); return one !== undefined && !one.feasible; }
   function reason(code) { const one = known(code); return one ? one.name : "not in the file"; }
@@ -97,7 +107,8 @@
   function drawSlice(found) {
     const x = axes[found.h].values, y = axes[found.v].values, name = header.quantities[state.quantity];
     const numbers = found.raw.flat().filter(function (value) { return value !== null; });
-    const own = { least: Math.min.apply(null, numbers), greatest: Math.max.apply(null, numbers) };
+    const own = { least: Infinity, greatest: -Infinity };
+    numbers.forEach(function (value) { own.least = Math.min(own.least, value); own.greatest = Math.max(own.greatest, value); });
     const span = control("whole").checked || numbers.length === 0 || own.least === own.greatest ? name : own;
     const range = scale(span.least, span.greatest);
     const text = found.z.map(function (line, j) {
@@ -112,7 +123,7 @@
       traces.push({ type: "contour", x: x, y: y, z: found.z, zmin: range.low, zmax: range.high, autocontour: false, showlegend: false, connectgaps: false, showscale: false, hoverinfo: "skip",
         contours: Object.assign(nice(lines, step), { coloring: "none", showlabels: !state.log, labelfont: { size: 10, color: INK } }), line: { color: "rgba(20,20,20,0.65)", width: 1 } });
     }
-    const many = x.length * y.length > 2500;
+    const many = x.length * y.length > 1000;
     traces.push({ type: "scatter", mode: "markers", x: found.crosses.x, y: found.crosses.y, name: "infeasible", hoverinfo: "skip", showlegend: true,
       marker: { symbol: "x-thin", size: many ? 4 : 6, color: "#8a8a8a", line: { color: "#8a8a8a", width: 1 } } });
     page.show(plot("slice"), traces, layout({
@@ -135,8 +146,8 @@
     });
     const colours = [];
     list.forEach(function (one, k) { colours.push([k / last, one.colour], [(k + 1) / last, one.colour]); });
-    const text = found.codes.map(function (line) { return line.map(reason); });
-    const traces = [{ type: "heatmap", x: x, y: y, z: z, text: text, colorscale: colours, zmin: -0.5, zmax: last - 0.5, showscale: false, xgap: 0.5, ygap: 0.5,
+    const text = found.codes.map(function (line) { return line.map(reason); }), gap = thin(found.h) > 1 || thin(found.v) > 1 ? 0 : 0.5;
+    const traces = [{ type: "heatmap", x: x, y: y, z: z, text: text, colorscale: colours, zmin: -0.5, zmax: last - 0.5, showscale: false, xgap: gap, ygap: gap,
       hovertemplate: plain(axes[found.h].name) + " %{x}, " + plain(axes[found.v].name) + " %{y}<br>%{text}<extra></extra>" }];
     list.forEach(function (one) {
       traces.push({ type: "scatter", mode: "markers", x: [null], y: [null], name: one.name + " (" + one.rows + ")", hoverinfo: "skip", marker: { symbol: "square", size: 11, color: one.colour, line: { color: "#8a8a8a", width: 0.5 } } });
@@ -152,11 +163,16 @@
   }
 
   function drawHistogram() {
-    const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.greatest - quantity.least) / n || 1;
-    const middle = quantity.bins.map(function (_, k) { return quantity.least + (k + 0.5) * width; });
-    page.show(plot("histogram"), [{ type: "bar", x: middle, y: quantity.bins, width: width, marker: { color: "#0072b2", line: { color: "#ffffff", width: 0.6 } }, hovertemplate: "about %{x:.4g}<br>%{y} rows<extra></extra>" }],
-      layout({ xaxis: axis(quantity.title, {}), yaxis: axis("rows", { rangemode: "tozero" }), bargap: 0, showlegend: false, margin: { l: 62, r: 14, t: 14, b: 52 } }));
-    place.querySelector("[data-count]").textContent = quantity.count + " rows have it.";
+    const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.greatest - quantity.least) / n;
+    // All rows with one value are one bar, with room at both sides.
+    const single = !(width > 0), room = Math.abs(quantity.least) || 1, none = quantity.count === 0;
+    const middle = single ? [quantity.least] : quantity.bins.map(function (_, k) { return quantity.least + (k + 0.5) * width; });
+    const bars = single ? [quantity.count] : quantity.bins;
+    const nothing = { text: "no row has this number", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 14 } };
+    page.show(plot("histogram"), none ? [] : [{ type: "bar", x: middle, y: bars, width: single ? 0.02 * room : width, marker: { color: "#0072b2", line: { color: "#ffffff", width: 0.6 } }, hovertemplate: "about %{x:.4g}<br>%{y} rows<extra></extra>" }],
+      layout({ xaxis: axis(quantity.title, none ? { showticklabels: false, ticks: "" } : single ? { range: [quantity.least - room / 4, quantity.least + room / 4] } : {}), yaxis: axis("rows", none ? { showticklabels: false, ticks: "" } : { rangemode: "tozero" }),
+        annotations: none ? [nothing] : [], bargap: 0, showlegend: false, margin: { l: 62, r: 14, t: 34, b: 52 } }));
+    place.querySelector("[data-count]").textContent = quantity.count + (quantity.count === 1 ? " row has it." : " rows have it.");
   }
 
   function drawSpace() {

@@ -54,6 +54,11 @@ impl Path {
         self.keys.last().map_or("", String::as_str)
     }
 
+    /// Whether another leads to the same value, however it is quoted.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.keys == other.keys
+    }
+
     /// A number for the value there, as the user's `option` asked.
     pub fn with(&self, option: &'static str, value: f64) -> Assignment {
         let text = format!("{}={value}", self.text);

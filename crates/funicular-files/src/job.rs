@@ -3,7 +3,7 @@
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::whole::{Temporary, is_regular_or_new};
-use crate::{FilesError, Format, Record, Rows, vti, with_ending, write_whole};
+use crate::{FilesError, Format, Record, Rows, behind_link, vti, with_ending, write_whole};
 use funicular::sweep::Chunk;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,8 +43,7 @@ impl Job {
     /// [`FilesError`]: a place that cannot be written, a format that does not fit, work of an earlier run that nobody asked
     /// to resume, or work of another sweep.
     pub fn open(path: &Path, record: Record, begin: Begin) -> Result<Opened, FilesError> {
-        // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
-        let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let path = &behind_link(path);
         let format = Format::of(path)?;
         check_place(path, format, &record)?;
         let partial = with_ending(path, ".partial");
@@ -115,12 +114,12 @@ impl Job {
         Ok(())
     }
 
-    /// Writes the rows there are, marked as incomplete, and keeps the journal; whether the file was written. A whole
-    /// file that is there, and an image, which has no holes, are not.
+    /// Writes the rows there are, and keeps the journal; what is safe where, in a sentence. A whole file that is there is
+    /// not replaced, nor any .csv, which does not say whether it is whole; an image has no holes and is not written.
     ///
     /// # Errors
     /// [`FilesError::Write`]; the journal stays.
-    pub fn interrupt(mut self) -> Result<bool, FilesError> {
+    pub fn interrupt(mut self) -> Result<String, FilesError> {
         self.journal.sync().map_err(|source| self.failed(&self.journal.path, source))?;
         let replaces_nothing = match self.format {
             Format::Parquet => !self.path.exists() || ParquetFile::open(&self.path).is_ok_and(|file| !file.complete),
@@ -128,20 +127,25 @@ impl Job {
             Format::Vti => false,
         };
         if !replaces_nothing || self.done() == 0 {
-            return Ok(false);
+            return Ok(self.safe());
         }
         write_whole(&self.path, self.format, self.journal.record(), &self.journal, false)
             .map_err(|source| self.failed(&self.path, source))?;
-        Ok(true)
+        let mark = match self.format {
+            Format::Csv => "which does not say that it is incomplete",
+            Format::Parquet | Format::Vti => "marked as incomplete",
+        };
+        Ok(format!("{}; {} has them, {mark}", self.safe(), self.path.display()))
+    }
+
+    /// What the journal holds, in words.
+    fn safe(&self) -> String {
+        let rows = self.journal.record().rows_of(self.journal.record().range());
+        format!("{} of {rows} rows are safe in {}", self.done(), self.journal.path.display())
     }
 
     fn failed(&self, path: &Path, cause: std::io::Error) -> FilesError {
-        let rows = self.journal.record().rows_of(self.journal.record().range());
-        let saved = format!(
-            "{} of {rows} rows are safe in {}: make room, then go on with --resume",
-            self.done(),
-            self.journal.path.display()
-        );
+        let saved = format!("{}: make room, then go on with --resume", self.safe());
         FilesError::Write { path: path.to_owned(), saved, cause }
     }
 }
@@ -172,7 +176,8 @@ pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Resul
 fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
     let file = ParquetFile::open(path)?;
     if let Some(difference) = record.difference(&file.json, &file.robot_file) {
-        return Err(FilesError::Foreign { path: path.to_owned(), difference });
+        let advice = "choose another file, or replace this one without --resume";
+        return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
     Ok(file.complete && file.part == record.part && file.rows == record.rows_of(record.range()))
 }
@@ -187,12 +192,19 @@ fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal,
         Begin::Anew | Begin::Resume => journal::look(&file, &record).map_err(unreadable)?,
     };
     match found {
-        Found::Nothing => Journal::begin(partial, file, record).map_err(unwritable),
+        Found::Nothing => Journal::begin(partial, file, record).map_err(|source| {
+            // Nothing is in it that anyone could go on with.
+            let _ = fs::remove_file(partial);
+            unwritable(source)
+        }),
         Found::Foreign => Err(FilesError::NoJournal { path: path() }),
         Found::Chunks { done, rows, .. } if begin == Begin::Anew => {
             Err(FilesError::Unfinished { journal: path(), done, rows })
         }
-        Found::Chunks { difference: Some(difference), .. } => Err(FilesError::Foreign { path: path(), difference }),
+        Found::Chunks { difference: Some(difference), .. } => {
+            let advice = "choose another file, or begin anew with --discard";
+            Err(FilesError::Foreign { path: path(), difference, advice })
+        }
         Found::Chunks { end, next, .. } => Journal::go_on(partial, file, record, end, next).map_err(unwritable),
     }
 }

@@ -95,12 +95,14 @@ pub enum FilesError {
         path: PathBuf,
     },
     /// A file or journal of something else.
-    #[error("{} belongs to another sweep: {difference}", .path.display())]
+    #[error("{} belongs to another sweep: {difference}; {advice}", .path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
         /// What differs.
         difference: Difference,
+        /// What to do.
+        advice: &'static str,
     },
     /// A file without what a sweep writes into it.
     #[error("{} was not written by a sweep of funicular: {reason}", .path.display())]
@@ -109,6 +111,12 @@ pub enum FilesError {
         path: PathBuf,
         /// What is missing or wrong.
         reason: String,
+    },
+    /// Rows in a format that does not say what they are.
+    #[error("{} holds rows alone, without robot and plan: write the sweep to a .parquet file and give that", .path.display())]
+    NotParquet {
+        /// The file.
+        path: PathBuf,
     },
     /// A grid that ParaView's images do not have.
     #[error("{}: {reason}; write .parquet or .csv", .path.display())]
@@ -189,6 +197,12 @@ fn write_whole(path: &Path, format: Format, record: &Record, rows: &dyn Rows, co
         fs::rename(&beside, path)
     };
     write().inspect_err(|_| drop(fs::remove_file(&beside)))
+}
+
+/// Through a symbolic link to the file it stands for: that one is to be replaced, not the link. Any other path is as the
+/// user gave it.
+fn behind_link(path: &Path) -> PathBuf {
+    if path.is_symlink() { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() }
 }
 
 /// The name of a file with more behind it.

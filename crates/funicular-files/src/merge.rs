@@ -2,10 +2,10 @@
 
 use crate::parquet::ParquetFile;
 use crate::record::SCHEMA;
-use crate::whole::{Temporary, is_regular_or_new};
-use crate::{FilesError, Format, Part, Record, Rows, vti, write_whole};
+use crate::{FilesError, Format, Part, Record, Rows, behind_link, job, write_whole};
 use funicular::sweep::{Chunk, Column, Kind};
 use serde_json::Value;
+use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -15,14 +15,10 @@ use std::path::{Path, PathBuf};
 /// [`FilesError`]: files that are no parts, parts that are missing, double, incomplete or of another sweep.
 pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     let format = Format::of(to)?;
-    let place = |reason: &str| FilesError::Place { path: to.to_owned(), reason: reason.to_owned() };
-    if !is_regular_or_new(to) {
-        return Err(place("it is no regular file"));
-    }
-    Temporary::beside(to).map_err(|error| place(&crate::told(&error)))?;
     let same = |path: &Path| path.canonicalize().ok().zip(to.canonicalize().ok()).is_some_and(|(a, b)| a == b);
     if parts.iter().any(|part| same(part)) {
-        return Err(place("it is one of the parts; choose another name"));
+        let reason = "it is one of the parts; choose another name".to_owned();
+        return Err(FilesError::Place { path: to.to_owned(), reason });
     }
     let mut files = Vec::with_capacity(parts.len());
     for path in parts {
@@ -32,25 +28,14 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
         return Err(FilesError::Parts("there are no parts to merge".to_owned()));
     };
     let record = record_of(first, first_path)?;
+    job::check_place(to, format, &record)?;
     let mut found: Vec<(Part, ParquetFile)> = Vec::with_capacity(files.len());
     for (path, file) in files {
         found.push((checked(&record, path, &file, &found)?, file));
     }
     found.sort_by_key(|(part, _)| part.number);
-    let of = found[0].0.of;
-    let missing: Vec<String> =
-        (1..=of).filter(|k| !found.iter().any(|(part, _)| part.number == *k)).map(|k| format!("{k}/{of}")).collect();
-    if !missing.is_empty() {
-        const SHOWN: usize = 10;
-        let more = if missing.len() > SHOWN { ", …" } else { "" };
-        let (noun, is) = if missing.len() == 1 { ("part", "is") } else { ("parts", "are") };
-        let listed = missing.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
-        return Err(FilesError::Parts(format!("{noun} {listed}{more} {is} missing: give all {of} parts")));
-    }
-    if format == Format::Vti {
-        vti::check(&record).map_err(|reason| FilesError::NoImage { path: to.to_owned(), reason })?;
-    }
-    let to = to.canonicalize().unwrap_or_else(|_| to.to_owned());
+    refuse_missing(&found)?;
+    let to = behind_link(to);
     let rows = Parts { record: &record, parts: &found };
     write_whole(&to, format, &record, &rows, true).map_err(|cause| FilesError::Write {
         path: to.clone(),
@@ -58,6 +43,21 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
         cause,
     })?;
     Ok(record.rows)
+}
+
+/// Names the parts that are not there.
+fn refuse_missing(found: &[(Part, ParquetFile)]) -> Result<(), FilesError> {
+    const SHOWN: usize = 10;
+    let of = found.first().map_or(0, |(part, _)| part.of);
+    let there: HashSet<usize> = found.iter().map(|(part, _)| part.number).collect();
+    let missing: Vec<String> = (1..=of).filter(|k| !there.contains(k)).map(|k| format!("{k}/{of}")).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let more = if missing.len() > SHOWN { ", …" } else { "" };
+    let (noun, is) = if missing.len() == 1 { ("part", "is") } else { ("parts", "are") };
+    let listed = missing.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+    Err(FilesError::Parts(format!("{noun} {listed}{more} {is} missing: give all {of} parts")))
 }
 
 /// The part that a file is, if it fits what was found before.
@@ -69,7 +69,8 @@ fn checked(
 ) -> Result<Part, FilesError> {
     let shown = path.display();
     if let Some(difference) = record.difference(&file.json, &file.robot_file) {
-        return Err(FilesError::Foreign { path: path.to_owned(), difference });
+        let advice = "merge the parts of one command";
+        return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
     let Some(part) = file.part else {
         return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without --part")));

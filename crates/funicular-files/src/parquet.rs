@@ -1,7 +1,7 @@
 //! Rows as Parquet, with units, robot and plan.
 
 use crate::arrow::{self, Builders};
-use crate::{FilesError, Part, Record, Rows};
+use crate::{FilesError, Format, Part, Record, Rows};
 use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use ::parquet::basic::Compression;
@@ -102,9 +102,15 @@ impl ParquetFile {
     /// Reads what the file says of itself.
     pub(crate) fn open(path: &Path) -> Result<Self, FilesError> {
         let not_ours = |reason: &str| FilesError::NotOurs { path: path.to_owned(), reason: reason.to_owned() };
-        let file = File::open(path).map_err(|cause| FilesError::Read { path: path.to_owned(), cause })?;
-        let reader = ParquetRecordBatchReaderBuilder::try_new(file)
-            .map_err(|error| not_ours(&format!("it is no Parquet file ({error})")))?;
+        let unreadable = |cause| FilesError::Read { path: path.to_owned(), cause };
+        if path.is_dir() {
+            return Err(unreadable(io::Error::new(io::ErrorKind::IsADirectory, "it is a directory; give the file")));
+        }
+        let file = File::open(path).map_err(unreadable)?;
+        let reader = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| match Format::of(path) {
+            Ok(Format::Csv | Format::Vti) => FilesError::NotParquet { path: path.to_owned() },
+            _ => not_ours(&format!("it is no Parquet file, or only the beginning of one ({error})")),
+        })?;
         let metadata = reader.metadata().file_metadata();
         let pairs = metadata.key_value_metadata();
         let get = |key: &str| {

@@ -26,10 +26,6 @@ impl SweepFile {
     /// # Errors
     /// [`FilesError`]: a file that cannot be read, or that no sweep of this version has written.
     pub fn open(path: &Path) -> Result<Self, FilesError> {
-        if path.is_dir() {
-            let cause = io::Error::new(io::ErrorKind::IsADirectory, "it is a directory; give the file");
-            return Err(FilesError::Read { path: path.to_owned(), cause });
-        }
         let file = ParquetFile::open(path)?;
         let mut record = record_of(&file, path)?;
         record.part = file.part;

@@ -79,7 +79,7 @@ impl Difference {
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { what, theirs, ours } = self;
-        write!(f, "its {what} is {theirs}, here it is {ours}")
+        write!(f, "its {what}: {theirs}, here: {ours}")
     }
 }
 
@@ -185,7 +185,7 @@ fn line_difference(theirs: &str, ours: &str) -> Difference {
         let (left, right) = (a.next(), b.next());
         if left != right || left.is_none() {
             let line = |line: Option<&str>| line.map_or("missing".to_owned(), |line| format!("`{}`", line.trim()));
-            return Difference { what: format!("robot file, line {number},"), theirs: line(left), ours: line(right) };
+            return Difference { what: format!("robot file, line {number}"), theirs: line(left), ours: line(right) };
         }
     }
 }

@@ -144,7 +144,7 @@ impl Table {
     pub fn write(&self, path: &Path) -> Result<(), FilesError> {
         let format = Format::of(path)?;
         crate::job::check_place(path, format, &self.record)?;
-        let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let path = &crate::behind_link(path);
         write_whole(path, format, &self.record, self, self.is_complete()).map_err(|cause| FilesError::Write {
             path: path.clone(),
             saved: "the rows are still in memory".to_owned(),

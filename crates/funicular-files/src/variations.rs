@@ -31,10 +31,11 @@ impl<'a> Variations<'a> {
     /// after it was read.
     ///
     /// # Errors
-    /// A text for the user, if an end of one of the variations alone makes no robot.
+    /// A text for the user: a value that varies twice, an end of one of the variations alone that makes no robot, or a
+    /// value that changes nothing, since what is done to every robot sets it, too.
     pub fn new(text: String, axes: Vec<Variation>, option: &'static str, adjust: Adjust<'a>) -> Result<Self, String> {
         for (i, axis) in axes.iter().enumerate() {
-            if axes[..i].iter().any(|other| other.path.text == axis.path.text) {
+            if axes[..i].iter().any(|other| other.path.is_same(&axis.path)) {
                 return Err(format!("{option} {} is given twice", axis.path.text));
             }
         }
@@ -44,8 +45,20 @@ impl<'a> Variations<'a> {
                 Steps::Range { from, to, .. } => vec![*from, *to],
                 Steps::List(values) => values.clone(),
             };
+            let mut first = None;
+            let (mut values_differ, mut robots_differ) = (false, false);
             for value in tried {
-                variations.robot(&[axis.path.with(option, value)])?;
+                let robot = variations.robot(&[axis.path.with(option, value)])?;
+                let (of_first, first) = first.get_or_insert_with(|| (value.to_bits(), robot.clone()));
+                values_differ |= *of_first != value.to_bits();
+                robots_differ |= *first != robot;
+            }
+            if values_differ && !robots_differ {
+                return Err(format!(
+                    "{option} {} changes nothing: no part of the robot uses this value, or another option sets it; leave one of \
+                     them out",
+                    axis.path.text
+                ));
             }
         }
         Ok(variations)
@@ -68,7 +81,9 @@ impl<'a> Variations<'a> {
         let text = edit::apply(&self.text, assignments).map_err(|error| error.to_string())?;
         let robot = Robot::from_toml(&text).map_err(|error| {
             let set: Vec<&str> = assignments.iter().map(Assignment::text).collect();
-            format!("with {}: {error}", set.join(" and "))
+            let help = error.issues().first().and_then(|issue| issue.help.as_deref());
+            let help = help.map_or_else(String::new, |help| format!("; {help}"));
+            format!("with {}: {error}{help}", set.join(" and "))
         })?;
         (self.adjust)(robot)
     }
@@ -114,8 +129,9 @@ impl Points for Variations<'_> {
 
 /// The unit that ends the name of a key; the longest that fits.
 fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 14] = [
-        ("_n_s_per_m", "N s/m"),
+    const UNITS: [(&str, &str); 15] = [
+        ("_n_per_m", "N/m"),
+        ("_n_s_m", "N s/m"),
         ("_n_m_s", "N m s"),
         ("_n_s_m2", "N s/m2"),
         ("_kg_per_m", "kg/m"),
@@ -131,4 +147,48 @@ fn unit(key: &str) -> &'static str {
         ("_m", "m"),
     ];
     UNITS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_is_the_one_that_ends_the_key() {
+        for (key, expected) in [
+            ("mass_kg", "kg"),
+            ("mass_kg_per_m", "kg/m"),
+            ("diameter_m", "m"),
+            ("drag_area_m2", "m2"),
+            ("load_n_per_m", "N/m"),
+            ("axial_stiffness_n", "N"),
+            ("youngs_modulus_pa", "Pa"),
+            ("translational_damping_n_s_m", "N s/m"),
+            ("rotational_damping_n_m_s", "N m s"),
+            ("viscous_damping_n_s_m2", "N s/m2"),
+            ("damping_ratio", "1"),
+        ] {
+            assert_eq!(unit(key), expected, "{key}");
+        }
+    }
+
+    #[test]
+    fn a_value_that_another_option_sets_and_one_given_twice_are_refused() {
+        let text = include_str!("../../../robots/yuan2014-4mm.toml");
+        let varied = |paths: &[&str], mass: Option<f64>| {
+            let steps = Steps::range(10.0, 20.0, 3).unwrap();
+            let axes = paths.iter().map(|path| Variation { path: edit::path(path).unwrap(), steps: steps.clone() });
+            let adjust = Box::new(move |robot: Robot| Ok(mass.map_or(robot.clone(), |mass| robot.with_mass(mass))));
+            Variations::new(text.to_owned(), axes.collect(), "--vary", adjust).err()
+        };
+        let path = "platform.mass_kg";
+        assert_eq!(varied(&[path], None), None);
+        assert!(
+            varied(&[path], Some(15.0))
+                .unwrap()
+                .contains("changes nothing: no part of the robot uses this value, or another option sets it")
+        );
+        assert!(varied(&[path, "platform.\"mass_kg\""], None).unwrap().contains("given twice"));
+        assert!(varied(&["platform.mas_kg"], None).unwrap().contains("did you mean `mass_kg`?"));
+    }
 }

@@ -121,11 +121,11 @@ fn work_is_not_lost_unasked_and_not_mixed() {
     let said = other(&|record| record.robot_file = record.robot_file.replace("mass_kg = ", "mass_kg = 1"));
     assert!(said.contains("robot file, line ") && said.contains("`mass_kg = "), "{said}");
     let said = other(&|record| record.plan["grid"][1]["count"] = json!(4));
-    assert!(said.ends_with("its grid, item 2, count is 3, here it is 4"), "{said}");
+    assert!(said.contains("its grid, item 2, count: 3, here: 4; choose another file"), "{said}");
     let said = other(&|record| drop(record.plan.insert("mass_kg".to_owned(), json!(2.5))));
-    assert!(said.ends_with("its mass_kg is 1.5, here it is 2.5"), "{said}");
+    assert!(said.contains("its mass_kg: 1.5, here: 2.5; choose another file"), "{said}");
     let said = other(&|record| record.part = Some(Part { number: 1, of: 2 }));
-    assert!(said.contains("its part is missing"), "{said}");
+    assert!(said.contains("its part: missing, here: \"1/2\""), "{said}");
 
     fs::write(partial(&path), "my notes").unwrap();
     assert!(message(open(&path, &record, Begin::Resume)).contains("is no journal of funicular"));
@@ -134,7 +134,11 @@ fn work_is_not_lost_unasked_and_not_mixed() {
     assert!(matches!(Job::open(&path, record.clone(), Begin::Resume), Ok(Opened::Done)));
     let mut other = record.clone();
     other.plan.insert("mass_kg".to_owned(), json!(3));
-    assert!(message(open(&path, &other, Begin::Resume)).contains("its mass_kg is 1.5"), "a file of another sweep");
+    assert!(
+        message(open(&path, &other, Begin::Resume))
+            .contains("its mass_kg: 1.5, here: 3; choose another file, or replace this one"),
+        "a file of another sweep"
+    );
 }
 
 #[test]
@@ -147,7 +151,7 @@ fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
         for chunk in &chunks[job.next()..][..more] {
             job.add(chunk).unwrap();
         }
-        assert!(job.interrupt().unwrap());
+        assert!(job.interrupt().unwrap().ends_with("a.parquet has them, marked as incomplete"));
     }
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
     assert_eq!(reader.metadata().file_metadata().num_rows(), 16 * 3);
@@ -156,7 +160,7 @@ fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
     assert!(fs::read(&path).unwrap() == expected);
     let mut job = open(&path, &record, Begin::Discard).unwrap();
     job.add(&chunks[0]).unwrap();
-    assert!(!job.interrupt().unwrap());
+    assert!(job.interrupt().unwrap().ends_with("a.parquet.partial"));
     assert!(fs::read(&path).unwrap() == expected, "a whole file stays");
 }
 
@@ -188,7 +192,7 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
     let mut other = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
     other.plan.insert("mass_kg".to_owned(), json!(9));
     complete_part(open(&at("other.parquet"), &other, Begin::Anew).unwrap(), &chunks, &other);
-    assert!(refused(&["1-3", "other", "3-3"]).contains("its mass_kg is 9"));
+    assert!(refused(&["1-3", "other", "3-3"]).contains("its mass_kg: 9"));
     let unfinished = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
     let mut job = open(&at("unfinished.parquet"), &unfinished, Begin::Anew).unwrap();
     job.add(&chunks[job.next()]).unwrap();
@@ -196,6 +200,15 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
     assert!(refused(&["1-3", "unfinished", "3-3"]).contains("(part 2/3) is incomplete"));
     fs::write(at("text.parquet"), "no").unwrap();
     assert!(refused(&["text"]).contains("was not written by a sweep"));
+    fs::write(at("text.csv"), "x_m\n1\n").unwrap();
+    let said = merge(&[at("text.csv")], &at("refused.parquet")).unwrap_err().to_string();
+    assert!(said.contains("write the sweep to a .parquet file"), "{said}");
+    let mut permissions = fs::metadata(at("merged.parquet")).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(at("merged.parquet"), permissions).unwrap();
+    let parts: Vec<PathBuf> = (1..=3).map(|k| at(&format!("{k}-3.parquet"))).collect();
+    let said = merge(&parts, &at("merged.parquet")).unwrap_err().to_string();
+    assert!(said.contains("it is read-only"), "{said}");
     assert!(!at("refused.parquet").exists());
 }
 

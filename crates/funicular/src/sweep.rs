@@ -98,7 +98,7 @@ pub enum SweepError {
         axis: &'static str,
     },
     /// Nothing to compute.
-    #[error("there are no points to compute")]
+    #[error("there are no points to compute: give at least one")]
     NoPoints,
     /// Too much to compute.
     #[error(
@@ -109,7 +109,7 @@ pub enum SweepError {
         count: String,
     },
     /// Nothing asked.
-    #[error("no quantity is asked for")]
+    #[error("no quantity is asked for: name one, as tension-max")]
     NoQuantity,
     /// A column twice.
     #[error("the column `{column}` would be there twice: ask for each quantity once")]
@@ -118,7 +118,7 @@ pub enum SweepError {
         column: String,
     },
     /// A quantity that the static model does not have.
-    #[error("`{quantity}` does not exist with the static model {model:?}: use the default, catenary")]
+    #[error("`{quantity}` does not exist with the static model `{}`: use the default, catenary", .model.name())]
     NotWithModel {
         /// Name of the quantity.
         quantity: String,

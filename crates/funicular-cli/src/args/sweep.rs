@@ -22,13 +22,7 @@ pub(crate) struct MapArgs {
     pub(crate) poses: Option<PathBuf>,
 
     #[command(flatten)]
-    pub(crate) what: WhatArgs,
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) point: EachArgs,
     #[command(flatten)]
     pub(crate) run: RunArgs,
 }
@@ -43,6 +37,15 @@ pub(crate) struct SweepArgs {
     pub(crate) vary: Vec<Variation>,
 
     #[command(flatten)]
+    pub(crate) point: EachArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+}
+
+/// How every point is computed.
+#[derive(Debug, Args)]
+pub(crate) struct EachArgs {
+    #[command(flatten)]
     pub(crate) what: WhatArgs,
     #[command(flatten)]
     pub(crate) state: StateArgs,
@@ -50,8 +53,6 @@ pub(crate) struct SweepArgs {
     pub(crate) tensions: TensionArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) run: RunArgs,
 }
 
 /// What is asked of every point.

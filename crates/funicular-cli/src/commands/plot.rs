@@ -26,7 +26,14 @@ pub(crate) fn run(args: &PlotArgs) -> Result<()> {
     }
     let target = Target::open(Some(&to), None)?;
     if file.rows == 0 {
-        bail!("{} has no rows yet: let the sweep go on with --resume", args.file.display());
+        let shown = args.file.display();
+        match file.record.part.filter(|_| file.complete) {
+            Some(part) => bail!(
+                "{shown} is part {part} of {}, which has none of them: plot what `funicular merge` makes of all parts",
+                counted(file.record.rows, "row")
+            ),
+            None => bail!("{shown} has no rows yet: let the sweep go on with --resume"),
+        }
     }
     let tracking = tracking(&file);
     let waiting = Waiting::for_("the pictures");

@@ -38,7 +38,7 @@ pub(crate) mod colour {
 #[derive(Template)]
 #[template(path = "figure.html")]
 pub(crate) struct Figure {
-    id: &'static str,
+    id: String,
     height: usize,
     caption: String,
     json: String,
@@ -49,7 +49,7 @@ pub(crate) struct Figure {
 impl Figure {
     /// From plotly's traces and layout; `layout` is completed by the common style.
     pub(crate) fn new(
-        id: &'static str,
+        id: impl Into<String>,
         height: usize,
         caption: impl Into<String>,
         data: &[Value],
@@ -68,7 +68,7 @@ impl Figure {
         merge(&mut full, layout);
         // Inside a script element only `<` can end it or open a comment; it occurs in strings alone.
         let json = json!({"data": data, "layout": full}).to_string().replace('<', "\\u003c");
-        Self { id, height, caption: caption.into(), json, scene }
+        Self { id: id.into(), height, caption: caption.into(), json, scene }
     }
 }
 

@@ -60,6 +60,8 @@ struct PlotPage<'a> {
     slices: Option<Slices>,
     curves: Vec<Figure>,
     robot_text: &'a str,
+    /// What was asked, as the file has it.
+    plan: String,
     label: &'a str,
     command_line: &'a str,
 }
@@ -97,6 +99,7 @@ pub(crate) fn plot(input: &PlotInput) -> anyhow::Result<Page> {
         slices,
         curves,
         robot_text: &record.robot_file,
+        plan: serde_json::to_string_pretty(&record.plan).context("the plan could not be written")?,
         label: &input.label,
         command_line: &input.command_line,
     };
@@ -176,9 +179,10 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     key
 }
 
-/// A number with at most four digits, without zeros behind.
+/// A number with at most four digits, without zeros behind; what is left of a zero by rounding is zero.
 fn brief(value: f64) -> String {
-    short(value, 4).replace('-', "−")
+    const ROUNDING: f64 = 1e-12;
+    short(if value.abs() < ROUNDING { 0.0 } else { value }, 4).replace('-', "−")
 }
 
 /// Name of an axis with its unit: `x [m]`, `platform mass [kg]`.
@@ -186,7 +190,7 @@ fn axis_title(name: &str, unit: &str) -> String {
     // The unit of a value of the robot file is in its key.
     let ending = format!("_{}", unit.replace('/', "_per_").replace(' ', "_"));
     let stem = name.strip_suffix(&ending).unwrap_or(name);
-    with_unit(stem, unit)
+    with_unit(&stem.replace(['.', '_'], " ").replace(['"', '\''], ""), unit)
 }
 
 /// Least and greatest of every quantity, and where.
@@ -200,7 +204,8 @@ fn numbers(rows: &Rows) -> Table {
             return format!("{} {unit}", brief(*value)).trim_end().to_owned();
         }
         let parts = rows.axes.iter().zip(rows.at(row));
-        let parts: Vec<String> = parts.map(|(axis, value)| format!("{} = {}", axis.name, brief(value))).collect();
+        let parts: Vec<String> =
+            parts.map(|(axis, value)| format!("{}\u{a0}=\u{a0}{}", axis.name, brief(value))).collect();
         parts.join(", ")
     };
     let mut table = Table::new(

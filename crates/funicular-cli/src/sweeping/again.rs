@@ -1,9 +1,8 @@
 //! The sweep of a file again: its robots and options, from what the file says of itself.
 
-use super::{asked, options};
+use super::{adjusted, asked, options};
 use crate::args::values::{self, Lengths, PoseNumbers, Tensions};
-use crate::args::{LoadArgs, ModelArgs, StateArgs, TensionArgs, TermArgs, WhatArgs};
-use crate::state;
+use crate::args::{EachArgs, LoadArgs, ModelArgs, StateArgs, TensionArgs, TermArgs, WhatArgs};
 use clap::ValueEnum;
 use funicular::math::Vec3;
 use funicular::sweep::Options;
@@ -30,28 +29,22 @@ impl Again {
         let axes: Vec<Variation> = axes
             .map(|(path, steps)| Ok(Variation { path: edit::path(&path)?, steps }))
             .collect::<Result<_, String>>()?;
-        let state = state_of(plan).ok_or_else(unknown)?;
-        let tensions = tensions_of(plan);
+        let mut point = point_of(plan).ok_or_else(unknown)?;
         let adjust = {
-            let (state, tensions) = (state_of(plan).ok_or_else(unknown)?, tensions_of(plan));
-            Box::new(move |robot| {
-                let robot = state::with_options(robot, &state).map_err(|error| format!("{error:#}"))?;
-                state::with_limits(&robot, &tensions).map_err(|error| format!("{error:#}"))
-            })
+            let point = point_of(plan).ok_or_else(unknown)?;
+            Box::new(move |robot| adjusted(robot, &point).map_err(|error| format!("{error:#}")))
         };
         let points = Variations::new(record.robot_file.clone(), axes, "--vary", adjust)?;
         let robot = points.first()?;
         // What chooses among tensions where there is nothing to choose is refused as an option, and not one.
-        let mut rule = tensions;
         if robot.cables.len() > robot.platform.freedoms.count() {
             let name = text(plan, "tension_rule").ok_or_else(unknown)?;
-            rule.tension_rule = Some(ValueEnum::from_str(name, false).map_err(|_| unknown())?);
+            point.tensions.tension_rule = Some(ValueEnum::from_str(name, false).map_err(|_| unknown())?);
         }
-        let (model, what) = (model_of(plan).ok_or_else(unknown)?, what_of(plan).ok_or_else(unknown)?);
-        let options = options(&robot, &state, &rule, &model, &what).map_err(|error| format!("{error:#}"))?;
+        let options = options(&robot, &point).map_err(|error| format!("{error:#}"))?;
         // The proof that nothing was left out.
         let mut ours = Map::new();
-        asked(&options, &state, &rule, &what.quantity).describe(&mut ours);
+        asked(&options, &point).describe(&mut ours);
         let theirs = plan.iter().filter(|(key, _)| !["command", "robot", "grid"].contains(&key.as_str()));
         if ours == theirs.map(|(key, value)| (key.clone(), value.clone())).collect::<Map<_, _>>() {
             Ok(Self { points, options })
@@ -78,6 +71,10 @@ fn vector(plan: &Map<String, Value>, key: &str) -> Option<Vec3> {
         [x, y, z] => Some(Vec3::new(x, y, z)),
         _ => None,
     }
+}
+
+fn point_of(plan: &Map<String, Value>) -> Option<EachArgs> {
+    Some(EachArgs { what: what_of(plan)?, state: state_of(plan)?, tensions: tensions_of(plan), model: model_of(plan)? })
 }
 
 fn state_of(plan: &Map<String, Value>) -> Option<StateArgs> {

@@ -3,7 +3,7 @@
 use super::{Job, sink};
 use crate::args::Format;
 use crate::output::Results;
-use crate::table::{Table, short, significant};
+use crate::table::{Table, counted, short, significant};
 use anyhow::Result;
 use funicular::sweep::{CODES, Chunk, Column, Kind, Values};
 use serde::Serialize;
@@ -17,6 +17,8 @@ pub(crate) struct Summary {
     command: &'static str,
     pub(crate) rows: usize,
     feasible: usize,
+    /// Names of what `least_at` and `greatest_at` give.
+    coordinates: Vec<String>,
     /// Rows of each status, those that occur, in the order of the codes.
     status: Vec<StatusCount>,
     ranges: Vec<Range>,
@@ -24,9 +26,6 @@ pub(crate) struct Summary {
     warnings: Vec<String>,
     #[serde(skip)]
     columns: Vec<Column>,
-    /// Columns in front of `feasible`.
-    #[serde(skip)]
-    coordinates: usize,
     /// The coordinates of the first row, and which of them are others elsewhere.
     #[serde(skip)]
     first: Vec<f64>,
@@ -55,6 +54,8 @@ struct Range {
 
 impl Summary {
     pub(super) fn new(job: &Job, columns: &[Column]) -> Self {
+        let in_front = columns.iter().take_while(|column| column.kind == Kind::Real);
+        let coordinates: Vec<String> = in_front.map(|column| column.name.clone()).collect();
         Self {
             robot: job.robot.name.clone(),
             command: job.command,
@@ -64,17 +65,18 @@ impl Summary {
             ranges: Vec::new(),
             warnings: Vec::new(),
             columns: columns.to_vec(),
-            coordinates: columns.iter().take_while(|column| column.kind == Kind::Real).count(),
             first: Vec::new(),
-            varies: columns.iter().take_while(|column| column.kind == Kind::Real).map(|_| false).collect(),
+            varies: vec![false; coordinates.len()],
+            coordinates,
         }
     }
 
     /// Counts the rows of a chunk in.
     pub(super) fn add(&mut self, chunk: &Chunk) {
         self.rows += chunk.rows();
+        let head = self.coordinates.len();
         let at = |row: usize| -> Vec<f64> {
-            chunk.columns[..self.coordinates]
+            chunk.columns[..head]
                 .iter()
                 .filter_map(|column| if let Values::Real(values) = column { values[row] } else { None })
                 .collect()
@@ -87,8 +89,7 @@ impl Summary {
                 *varies |= first.to_bits() != value.to_bits();
             }
         }
-        let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] =
-            &chunk.columns[self.coordinates..self.coordinates + 3]
+        let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3]
         else {
             unreachable!("feasible, status and reason follow the coordinates")
         };
@@ -102,7 +103,7 @@ impl Summary {
                 self.status.push(StatusCount { code, rows: 1, first_reason });
             }
         }
-        for (column, values) in self.columns.iter().zip(&chunk.columns).skip(self.coordinates + 3) {
+        for (column, values) in self.columns.iter().zip(&chunk.columns).skip(head + 3) {
             let Values::Real(values) = values else { continue };
             for (row, value) in values.iter().enumerate() {
                 let Some(value) = *value else { continue };
@@ -154,10 +155,15 @@ impl Results for Summary {
 
     fn text(&self) -> String {
         let share = 100.0 * self.feasible as f64 / self.rows.max(1) as f64;
-        let mut text =
-            format!("{}: {} rows, {} feasible ({} %)\n", self.robot, self.rows, self.feasible, short(share, 4));
-        if !self.ranges.is_empty() {
-            let place = format!("at {}", self.chosen(self.columns.iter().map(|column| column.name.clone())));
+        let rows = counted(self.rows, "row");
+        let mut text = format!("{}: {rows}, {} feasible ({} %)\n", self.robot, self.feasible, short(share, 4));
+        if !self.ranges.is_empty() && !self.varies.contains(&true) {
+            let mut table = Table::new(&["", "value"]);
+            self.ranges.iter().for_each(|range| table.row(vec![range.column.clone(), significant(range.least, 5)]));
+            text += "\n";
+            text += &table.to_string();
+        } else if !self.ranges.is_empty() {
+            let place = format!("at {}", self.chosen(self.coordinates.iter().cloned()));
             let mut table = Table::new(&["", "least", &place, "greatest", &place]);
             for range in &self.ranges {
                 let at = |place: &[f64]| self.chosen(place.iter().map(|value| short(*value, 5)));

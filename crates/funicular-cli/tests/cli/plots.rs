@@ -121,7 +121,7 @@ fn a_sweep_of_one_value_becomes_curves_whose_modes_are_followed() {
     let (page, notes) = page_of(line);
     assert_eq!(notes, "");
     let modes = figure(&page, "figure-modes");
-    assert_eq!(modes["layout"]["xaxis"]["title"]["text"], "platform.mass [kg]");
+    assert_eq!(modes["layout"]["xaxis"]["title"]["text"], "platform mass [kg]");
     let points = modes["data"].as_array().unwrap().last().unwrap();
     assert_eq!(points["x"].as_array().unwrap().len(), 60 * 8);
     assert!(points["marker"]["color"].as_array().unwrap().iter().any(|share| share.as_f64().unwrap() > 75.0));
@@ -155,6 +155,23 @@ fn a_trajectory_is_drawn_over_its_path_and_infeasible_rows_are_shaded() {
 }
 
 #[test]
+fn a_row_between_two_that_are_infeasible_is_a_point() {
+    let folder = tempfile::tempdir().unwrap();
+    let poses = folder.path().join("poses.csv");
+    let rows: Vec<String> =
+        (0..70).map(|i| format!("{},0,0.5", if i == 40 { 0.0 } else { 9.0 + f64::from(i) })).collect();
+    fs::write(&poses, format!("x_m,y_m,z_m\n{}\n", rows.join("\n"))).unwrap();
+    let file = text(&folder.path().join("path.parquet"));
+    succeed(&["map", "ROBOT", "--poses", &text(&poses), "--quantity", "tension-max", "-o", &file]);
+    let output = run(&["plot", &file, "-o", "-"]);
+    let figure = figure(stdout(&output), "figure-1");
+    let data = figure["data"].as_array().unwrap();
+    assert_eq!((data.len(), &data[1]["mode"]), (2, &Value::from("markers")));
+    assert_eq!(data[1]["y"].as_array().unwrap().len(), 1);
+    assert!((data[1]["y"][0].as_f64().unwrap() - data[0]["y"][40].as_f64().unwrap()).abs() < 1e-9);
+}
+
+#[test]
 fn other_models_and_options_are_followed_as_they_were_computed() {
     for rest in [
         "--pose 0.1,0,0.5 --cable-model closed-form",
@@ -176,7 +193,7 @@ fn two_values_become_slices_without_a_view_in_space() {
         page_of("sweep ROBOT --vary platform.mass_kg=10.55:80:6 --vary materials.rope-4mm.diameter_m=0.003:0.005:4");
     let (header, status, _) = slices(&page);
     assert_eq!(status.len(), 24);
-    assert_eq!(header["axes"][1]["title"], "materials.rope-4mm.diameter [m]");
+    assert_eq!(header["axes"][1]["title"], "materials rope-4mm diameter [m]");
     assert!(header["space"].is_null());
 }
 

@@ -70,10 +70,40 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     assert_eq!(column(&text, "x_m"), ["0.25", "0.0"]);
     let summary = json(&poses);
     assert_eq!((summary["command"].as_str(), summary["feasible"].as_u64()), (Some("map"), Some(2)));
+    let coordinates = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
+    assert_eq!(summary["coordinates"], serde_json::json!(coordinates));
+    assert_eq!(summary["ranges"][0]["least_at"].as_array().unwrap().len(), coordinates.len());
     assert!(succeed(&poses).contains("2 rows, 2 feasible (100 %)"));
     fs::write(&path, "x_m,y_m,z_m\n0,0,0.5\n0,zero,0.5\n").unwrap();
     let output = run(&poses);
     assert!(stderr(&output).contains("line 3, column `y_m`: `zero` is not a number"), "{}", stderr(&output));
+    fs::write(&path, "x_m,y_m,z_m\n").unwrap();
+    assert!(stderr(&run(&poses)).contains("has a header and no poses"));
+}
+
+#[test]
+fn rows_are_never_written_over_what_they_are_computed_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("poses.csv");
+    let poses = "x_m,y_m,z_m\n0,0,0.5\n";
+    fs::write(&path, poses).unwrap();
+    let path = path.to_str().unwrap();
+    let output = run(&["map", "ROBOT", "--poses", path, "-o", path]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("which they are computed from; choose another name"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(path).unwrap(), poses);
+}
+
+#[test]
+fn springs_that_are_all_slack_are_no_pose_to_compare_with() {
+    // At the least tensions of a robot in a horizontal plane its ropes are longer than their chords.
+    let robot = robot("kntu-planar.toml");
+    let asked = ["--pose", "0.2,0.1,0,0,0,10", "--grid", "x=0.2", "--quantity", "pose-error", "--format", "csv"];
+    let text = succeed(&[&["map", &robot], &asked[..]].concat());
+    assert_eq!(column(&text, "status"), ["no-comparison"]);
+    assert_eq!(column(&text, "spring_from_catenary_distance_m"), [""]);
+    let reason = &column(&text, "reason")[0];
+    assert!(reason.contains("with spring cables of the same lengths: the equilibrium does not hold"), "{reason}");
 }
 
 /// A map that takes a while, with its file.
@@ -168,6 +198,10 @@ fn parts_of_a_map_are_merged_into_the_same_file() {
         succeed(&["merge", &parts[2], &parts[0], &parts[1], "-o", &merged]);
         assert!(fs::read(merged).unwrap() == fs::read(file(&format!("whole.{ending}"))).unwrap(), "{ending}");
     }
+    // A whole file is summarised as the run was that made it.
+    let again = ["-o", &file("whole.parquet"), "--resume", "--format", "json"];
+    let grid = ["map", &robot, "--grid", "x=-6:6:31", "--grid", "y=-4:4:9", "--quantity", "tension-max"];
+    assert_eq!(succeed(&[&grid[..], &again].concat()), succeed(&[&grid[..], &["--format", "json"]].concat()));
     let output = run(&["merge", &parts[0], &parts[1], "-o", &file("no.parquet")]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("part 3/3 is missing"), "{}", stderr(&output));
@@ -207,6 +241,7 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("map ROBOT --grid x=0:1:5 -o rows.txt", "names no format: .parquet, .csv or .vti"),
         ("map ROBOT --grid x=0:1:5 -o no/such/folder/a.csv", "there is no directory"),
         ("map ROBOT --grid x=0:1:5 -o /dev/null", "names no format"),
+        ("map ROBOT --grid x=0:1:5 -o -", "--format csv and without -o"),
         ("map ROBOT --grid x=0:1:5 --resume", "--output-file"),
         ("map ROBOT --grid x=0:1:5 --part 3/2 -o a.parquet", "is no part"),
         ("map ROBOT --grid x=0:1:5 --threads 0", "is not a number of threads"),
@@ -215,7 +250,9 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("sweep ROBOT --vary platform.mass_kg", "it has no `=`"),
         ("sweep ROBOT --vary platfrom.mass_kg=1:2:3", "did you mean `platform`"),
         ("sweep ROBOT --vary platform.mass_kg=-1:2:3", "it must be positive"),
-        ("sweep ROBOT --vary platform.mass_kgs=1:2:3", "mass_kg"),
+        ("sweep ROBOT --vary platform.mass_kgs=1:2:3", "did you mean `mass_kg`?"),
+        ("sweep ROBOT --vary platform.mass_kg=10:20:3 --mass-kg 12", "or another option sets it"),
+        ("sweep ROBOT --vary cables.1.unstrained_length_m=6:7:3 --pose 0,0,0.5", "changes nothing"),
         ("merge no-such-file.parquet -o a.parquet", "cannot read no-such-file.parquet"),
     ] {
         let output = run(&line.split(' ').collect::<Vec<_>>());

@@ -171,16 +171,9 @@ impl PyWork {
 
     /// Ends it early: what is safe, in a sentence; None in memory.
     fn interrupt(&mut self, py: Python<'_>) -> PyResult<Option<String>> {
-        let rows = self.whole.record.rows;
-        let done = self.done()?;
-        let Some(Place::File(job, path)) = self.into.take() else { return Ok(None) };
-        let journal = job.journal().display().to_string();
-        let written = py.detach(|| job.interrupt()).map_err(|error| errors::files(&error))?;
-        let written =
-            if written { format!("; {} has them, marked as incomplete", path.display()) } else { String::new() };
-        Ok(Some(format!(
-            "{done} of {rows} rows are safe in {journal}{written}; the same call with `resume=True` goes on"
-        )))
+        let Some(Place::File(job, _)) = self.into.take() else { return Ok(None) };
+        let safe = py.detach(|| job.interrupt()).map_err(|error| errors::files(&error))?;
+        Ok(Some(format!("{safe}; the same call with `resume=True` goes on")))
     }
 }
 

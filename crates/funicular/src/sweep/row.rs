@@ -188,8 +188,7 @@ impl Row<'_> {
         match found {
             Ok(lowest) => {
                 if !lowest.certified {
-                    let reason = "the count does not confirm the lowest natural frequencies";
-                    self.missing.get_or_insert_with(|| Status::new("not-certified", reason));
+                    self.missing.get_or_insert_with(not_certified);
                 }
                 Some(&lowest.modes)
             }
@@ -220,13 +219,21 @@ impl Row<'_> {
         out.extend((0..n).map(|k| Value::real(inverse.map(|compliance| 1.0 / compliance[(k, k)]))));
     }
 
-    /// Poses of springs and of rigid cables of the same unstrained lengths, each against the others.
+    /// Poses of springs and of rigid cables of the same unstrained lengths, each against the others. An equilibrium that
+    /// does not hold the platform, as one of springs that are all slack, is no pose to compare with.
     fn pose_error(&mut self, out: &mut Vec<Value>) {
         let lengths: Vec<f64> = self.rest.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let with = |model| {
-            statics::forward(self.robot, &lengths, model, Some(&self.rest.pose))
-                .map(|found| found.pose)
-                .map_err(|error| Status::new("no-comparison", &error))
+        let with = |model: StaticModel| {
+            let none = |reason: &str| {
+                let reason = format!("with {} cables of the same lengths: {reason}", model.name());
+                Status::new("no-comparison", &reason)
+            };
+            let found = statics::forward(self.robot, &lengths, model, Some(&self.rest.pose));
+            let found = found.map_err(|error| none(&error.to_string()))?;
+            match found.stability {
+                Stability::Unstable { .. } => Err(none("the equilibrium does not hold the platform")),
+                Stability::Stable { .. } | Stability::Rigid => Ok(found.pose),
+            }
         };
         let spring = with(StaticModel::Spring);
         let distance = |from: &_, to: &_| PoseDifference::between(from, to).distance;
@@ -244,16 +251,19 @@ impl Row<'_> {
     }
 
     /// First frequency with another cable model over the exact one, less one.
-    fn model_error(&self, model: CableModel) -> Result<f64, Status> {
+    fn model_error(&mut self, model: CableModel) -> Result<f64, Status> {
         let Options { linearisation, highest_hz, .. } = *self.options;
+        let (robot, rest) = (self.robot, self.rest);
         let first = |cable_model| {
             let asked = Linearisation { cable_model, ..linearisation };
-            frequency::lowest(self.robot, self.rest, asked, 1, highest_hz)
+            frequency::lowest(robot, rest, asked, 1, highest_hz)
         };
-        let of = |found: &Result<Lowest, Status>| match found {
-            Ok(lowest) => lowest.modes.first().map(|mode| mode.0).ok_or_else(|| {
-                Status::new("not-certified", "the count does not confirm the lowest natural frequencies")
-            }),
+        let mut certified = true;
+        let mut of = |found: &Result<Lowest, Status>| match found {
+            Ok(lowest) => {
+                certified &= lowest.certified;
+                lowest.modes.first().map(|mode| mode.0).ok_or_else(not_certified)
+            }
             Err(status) => Err(status.clone()),
         };
         let exact = if linearisation.cable_model == CableModel::Exact && self.most > 0 {
@@ -263,7 +273,11 @@ impl Row<'_> {
         } else {
             of(self.exact.get_or_init(|| first(CableModel::Exact)))?
         };
-        Ok(of(&first(model))? / exact - 1.0)
+        let simpler = of(&first(model))?;
+        if !certified {
+            self.missing.get_or_insert_with(not_certified);
+        }
+        Ok(simpler / exact - 1.0)
     }
 
     /// Least eigenvalue of the scaled static stiffness with another cable model over that of the catenary, less one.
@@ -275,8 +289,19 @@ impl Row<'_> {
             let stiffness: Mat6 = dynamics.dynamic_stiffness(0.0);
             Ok::<f64, Status>(inertia::eigen(&stiffness, dynamics.freedoms()).0[0])
         };
-        Ok(least(model)? / least(CableModel::CatenaryTangent)? - 1.0)
+        let exact = least(CableModel::CatenaryTangent)?;
+        if exact <= 0.0 {
+            return Err(Status::new(
+                "unstable",
+                "the least stiffness is not positive: nothing can be compared with it",
+            ));
+        }
+        Ok(least(model)? / exact - 1.0)
     }
+}
+
+fn not_certified() -> Status {
+    Status::new("not-certified", "the count does not confirm the lowest natural frequencies")
 }
 
 /// Least over largest singular value of the matrix of the cables' directions, moments over ℓ, in the platform's

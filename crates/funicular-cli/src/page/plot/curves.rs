@@ -18,25 +18,8 @@ const COLOURS: [&str; 7] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
 const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
 
-/// Identifiers of figures: as many as there are kinds of quantities.
-const IDS: [&str; 16] = [
-    "figure-1",
-    "figure-2",
-    "figure-3",
-    "figure-4",
-    "figure-5",
-    "figure-6",
-    "figure-7",
-    "figure-8",
-    "figure-9",
-    "figure-10",
-    "figure-11",
-    "figure-12",
-    "figure-13",
-    "figure-14",
-    "figure-15",
-    "figure-16",
-];
+/// Most figures of a page; a quantity beyond them is in the table.
+const MOST_FIGURES: usize = 16;
 
 /// Relative difference of frequencies that are the same.
 const SAME: f64 = 1e-9;
@@ -76,7 +59,6 @@ fn is_frequency(series: &Series) -> bool {
 /// One figure for each kind of quantity, the natural frequencies first.
 pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
     let along = along(rows);
-    let mut ids = IDS.into_iter();
     let mut figures = Vec::new();
     if let Some(tracking) = tracking {
         figures.push(campbell(rows, &along, tracking));
@@ -92,8 +74,8 @@ pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
             None => families.push((family, vec![series])),
         }
     }
-    // Beyond the last identifier there is the table.
-    figures.extend(families.iter().zip(ids.by_ref()).map(|((_, members), id)| curves(id, rows, &along, members)));
+    let ids = (1..=MOST_FIGURES).map(|number| format!("figure-{number}"));
+    figures.extend(families.iter().zip(ids).map(|((_, members), id)| curves(id, rows, &along, members)));
     figures
 }
 
@@ -178,7 +160,8 @@ fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
     let room = if ends[1] > ends[0] { 0.015 * (ends[1] - ends[0]) } else { 0.5 };
     let base = json!({
         "xaxis": axis(&plain(&along.title), json!({"range": [ends[0] - room, ends[1] + room]})),
-        "yaxis": axis(&plain(y), json!({})),
+        // Thousands as numbers: a letter behind a number is no unit of a paper.
+        "yaxis": axis(&plain(y), json!({"exponentformat": "power", "minexponent": 6})),
         "shapes": bands(rows, along),
     });
     with(base, more)
@@ -188,8 +171,19 @@ fn shading(rows: &Rows, along: &Along) -> &'static str {
     if bands(rows, along).is_empty() { "" } else { " Grey: infeasible." }
 }
 
+/// Points of numbers between two that are missing: a line has no length there.
+fn alone(along: &Along, series: &Series, colour: &str) -> Value {
+    let there = |i: Option<usize>| i.and_then(|i| series.values.get(i)).is_some_and(|value| value.is_finite());
+    let alone = (0..series.values.len()).filter(|&i| there(Some(i)) && !there(i.checked_sub(1)) && !there(Some(i + 1)));
+    let (x, y): (Vec<f64>, Vec<f64>) = alone.map(|i| (along.x[i], series.values[i])).unzip();
+    json!({
+        "type": "scatter", "mode": "markers", "name": plain(&label(&series.name)), "x": rounded(&x), "y": rounded(&y),
+        "showlegend": false, "marker": {"size": 5, "color": colour},
+    })
+}
+
 /// Lines through the numbers; broken where there is none.
-fn curves(id: &'static str, rows: &Rows, along: &Along, members: &[&Series]) -> Figure {
+fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure {
     let few = along.x.len() <= 60;
     let data: Vec<Value> = members
         .iter()
@@ -198,14 +192,20 @@ fn curves(id: &'static str, rows: &Rows, along: &Along, members: &[&Series]) -> 
             let colour = COLOURS[i % COLOURS.len()];
             let dash = DASHES[i / COLOURS.len() % DASHES.len()];
             let mut trace = line(&plain(&label(&series.name)), &along.x, &series.values, colour, dash);
-            // A number between two that are missing would be no line.
             if few {
                 trace = with(trace, json!({"mode": "lines+markers", "marker": {"size": 4, "color": colour}}));
             }
             let hover = format!("{} %{{x}}<br>%{{y:.5g}} {}", plain(&along.short), plain(&series.unit));
-            with(trace, json!({"hovertemplate": hover, "connectgaps": false}))
+            let more = json!({"hovertemplate": hover, "connectgaps": false, "legendgroup": series.name});
+            let trace = with(trace, more.clone());
+            if few {
+                return vec![trace];
+            }
+            let alone = with(alone(along, series, colour), more);
+            [Some(trace), Some(alone).filter(|alone| alone["x"] != json!([]))].into_iter().flatten().collect()
         })
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let unit = &members[0].unit;
     let (y, caption) = match members {
         [one] => (with_unit(&label(&one.name), unit), format!("{}: {}.", label(&one.name), one.about)),
@@ -226,9 +226,16 @@ fn curves(id: &'static str, rows: &Rows, along: &Along, members: &[&Series]) -> 
             (with_unit(&word, unit), format!("{}.", said.join("; ")))
         }
     };
-    let caption = format!("{caption}{}", shading(rows, along));
-    let more = json!({"showlegend": members.len() > 1});
+    let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
+    // Above the legend there is room for the buttons of a figure.
+    let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
     Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
+}
+
+/// A caption begins with a capital.
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Natural frequencies, every branch of modes a line, coloured by the platform's share of the energy.

@@ -65,7 +65,7 @@ pub(super) struct Rows {
     /// The axes of a grid that vary, the fastest first; none for a list.
     pub(super) axes: Vec<Axis>,
     /// Name, unit and value of those that do not.
-    pub(super) fixed: Vec<(String, String, f64)>,
+    pub(super) fixed: Vec<Fixed>,
     pub(super) is_list: bool,
     /// Coordinates of kept rows of a list: name, unit, values.
     pub(super) coordinates: Vec<(String, String, Vec<f64>)>,
@@ -127,24 +127,12 @@ impl Rows {
         let numbers = columns.iter().skip(coordinates + 3);
         let (numbers, words): (Vec<&Column>, Vec<&Column>) = numbers.partition(|column| column.kind == Kind::Real);
         let grid = record.plan.get("grid").map(|json| Grid::from_json(json).ok_or_else(|| anyhow::anyhow!(damaged)));
+        let grid = grid.transpose()?;
         let is_list = grid.is_none();
-        let (mut axes, mut fixed) = (Vec::new(), Vec::new());
-        if let Some(grid) = grid.transpose()? {
-            let product = grid.0.iter().fold(1_usize, |product, axis| product.saturating_mul(axis.1.count()));
-            if product != record.rows {
-                bail!(damaged);
-            }
-            // A point mass has axes of its grid that are no columns.
-            for (name, steps) in grid.0 {
-                let unit = columns[..coordinates].iter().find(|c| c.name == name || short_name(c) == name);
-                let unit = unit.map_or_else(String::new, |column| column.unit.to_string());
-                match steps.count() {
-                    1 => fixed.push((name, unit, steps.at(0))),
-                    _ => axes.push(Axis { name, unit, steps, every: 1 }),
-                }
-            }
-            fixed.retain(|(_, unit, _)| !unit.is_empty());
+        if grid.as_ref().is_some_and(|grid| points_of(grid) != record.rows) {
+            bail!(damaged);
         }
+        let (mut axes, fixed) = grid.map_or_else(Default::default, |grid| split(grid, &columns[..coordinates]));
         let mut every = 1;
         if axes.len() < 2 {
             let rows = file.rows.max(1);
@@ -290,6 +278,30 @@ impl Rows {
     pub(super) fn shown(&self) -> usize {
         self.status.len()
     }
+}
+
+/// Number of points of a grid.
+fn points_of(grid: &Grid) -> usize {
+    grid.0.iter().fold(1, |product, axis| product.saturating_mul(axis.1.count()))
+}
+
+/// Name, unit and value of an axis that does not vary.
+type Fixed = (String, String, f64);
+
+/// The axes of a grid that vary, and those that do not.
+fn split(grid: Grid, coordinates: &[Column]) -> (Vec<Axis>, Vec<Fixed>) {
+    let (mut axes, mut fixed) = (Vec::new(), Vec::new());
+    for (name, steps) in grid.0 {
+        let column = coordinates.iter().find(|column| column.name == name || short_name(column) == name);
+        let unit = column.map_or_else(String::new, |column| column.unit.to_string());
+        match steps.count() {
+            1 => fixed.push((name, unit, steps.at(0))),
+            _ => axes.push(Axis { name, unit, steps, every: 1 }),
+        }
+    }
+    // A point mass has axes of its grid that are no columns.
+    fixed.retain(|(_, unit, _)| !unit.is_empty());
+    (axes, fixed)
 }
 
 enum Slot {

@@ -1,6 +1,6 @@
 //! Grids of two axes and more: what the page's own script draws slices, sets and points from.
 
-use super::rows::{Rows, label, with_unit};
+use super::rows::{NOT_COMPUTED, Rows, label, with_unit};
 use super::{axis_title, status};
 use crate::page::figure::colour;
 use crate::page::packed;
@@ -47,8 +47,8 @@ impl Slices {
                 "least": if series.count > 0 { series.least.0 } else { 0.0 },
                 "greatest": if series.count > 0 { series.greatest.0 } else { 0.0 },
             })).collect::<Vec<_>>(),
-            "statuses": rows.counts.iter().enumerate().map(|(i, count)| json!({
-                "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code, i),
+            "statuses": rows.counts.iter().map(|count| json!({
+                "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code),
             })).collect::<Vec<_>>(),
             "feasible": CODES.iter().filter(|code| !code.1.starts_with("infeasible")).map(|code| code.0).collect::<Vec<_>>(),
         });
@@ -71,27 +71,43 @@ impl Slices {
                 .collect(),
             axes: (0..axes.len()).map(title).collect(),
             in_space: space.is_some(),
-            points: rows.shown(),
+            points: rows.status.iter().filter(|code| **code != NOT_COMPUTED).count(),
         }
     }
 }
 
-/// Light for what is good, strong colours for what is not; the same for a status on every page where there are few.
-fn colour_of(code: u8, place: usize) -> &'static str {
-    const OTHERS: [&str; 6] =
-        [colour::VERMILION, colour::PURPLE, colour::BLUE, colour::ORANGE, colour::GREEN, colour::BLACK];
+/// Light for what is feasible, strong colours for what is not; the same for a status on every page.
+fn colour_of(code: u8) -> &'static str {
     match super::status(code).0 {
         "ok" => "#cfe8f7",
+        "slack" => "#8fcdf0",
+        "unstable" => "#a6dcc8",
+        "no-frequency" => "#f5d9a0",
+        "not-certified" => "#faecc9",
+        "no-comparison" => "#e3d9ee",
         "would-push" => colour::VERMILION,
         "beyond-limits" => colour::PURPLE,
         "not-converged" => colour::BLACK,
         "singular" => colour::BLUE,
-        "slack" => colour::SKY,
-        "no-frequency" | "not-certified" => colour::ORANGE,
-        "unstable" => colour::GREEN,
-        _ => OTHERS[place % OTHERS.len()],
+        "out-of-plane" => colour::GREEN,
+        "coinciding-ends" => colour::ORANGE,
+        "bad-robot" => "#7a4b1e",
+        _ => colour::GREY,
     }
 }
 
 /// What draws them.
 pub(super) const SCRIPT: &str = include_str!("../../../templates/plot.js");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_status_has_a_colour_of_its_own() {
+        let colours: Vec<&str> = (0..CODES.len()).map(|code| colour_of(u8::try_from(code).unwrap())).collect();
+        for (i, colour) in colours.iter().enumerate() {
+            assert!(!colours[..i].contains(colour), "{}: {colour}", CODES[i].0);
+        }
+    }
+}

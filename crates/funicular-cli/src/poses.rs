@@ -1,0 +1,99 @@
+//! Poses of a CSV file.
+
+use crate::args::values::finite;
+use crate::errors;
+use anyhow::{Context, Result, anyhow, bail};
+use funicular::robot::{Freedoms, Robot};
+use std::fs::File;
+use std::path::Path;
+
+/// The columns of a file of poses.
+const COLUMNS: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
+
+/// Position [m] and roll, pitch, yaw [degrees] of every line. Columns of other names are left alone, and named.
+///
+/// # Errors
+/// A file that cannot be read or has no poses, a column that is missing, is there twice or is one of a pose in another
+/// unit, a value that is no number, an angle of a point mass.
+pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
+    let shown = path.display();
+    let file = File::open(path).with_context(|| format!("cannot read the poses {shown}"))?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let header = reader.headers().with_context(|| format!("cannot read the poses {shown}"))?.clone();
+    let places = places(&header).map_err(|reason| anyhow!("{shown} {reason}"))?;
+    let mut poses = Vec::new();
+    for record in reader.records() {
+        let record = record.with_context(|| format!("cannot read the poses {shown}"))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let mut pose = [0.0; 6];
+        for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
+            let Some(place) = place else { continue };
+            *value = finite(record.get(place).unwrap_or_default())
+                .map_err(|reason| anyhow!("{shown}, line {line}, column `{column}`: {reason}"))?;
+        }
+        if robot.platform.freedoms == Freedoms::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
+            bail!("{shown}, line {line}: a point mass has no orientation; leave out the angles");
+        }
+        poses.push(pose);
+    }
+    if poses.is_empty() {
+        bail!("{shown} has a header and no poses: give one a line below it");
+    }
+    Ok(poses)
+}
+
+/// Where each column is; one of another name is told of, and refused if it may be meant for one of a pose.
+fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
+    let mut places = [None; 6];
+    let mut others = Vec::new();
+    for (i, name) in header.iter().map(|name| name.trim_start_matches('\u{feff}')).enumerate() {
+        if let Some(k) = COLUMNS.iter().position(|column| *column == name) {
+            if places[k].replace(i).is_some() {
+                return Err(format!("has the column `{name}` twice: keep the one that is meant"));
+            }
+        } else {
+            others.push(name);
+        }
+    }
+    let all = COLUMNS.join(", ");
+    if let Some(missing) = (0..3).find(|&k| places[k].is_none()) {
+        let missing = COLUMNS[missing];
+        return Err(format!(
+            "has no column `{missing}`: the first line names, separated by commas, {all}; angles may be left out"
+        ));
+    }
+    let stem = |name: &str| name.split('_').next().unwrap_or_default().to_lowercase();
+    let meant = |name: &str| (0..6).find(|&k| places[k].is_none() && stem(COLUMNS[k]) == stem(name));
+    if let Some((name, k)) = others.iter().find_map(|name| Some((name, meant(name)?))) {
+        let column = COLUMNS[k];
+        return Err(format!(
+            "has a column `{name}` and no `{column}`: give the angle in degrees as `{column}`, or drop the column"
+        ));
+    }
+    if !others.is_empty() {
+        errors::note(&format!("columns that are no part of a pose are left alone: {}", others.join(", ")));
+    }
+    Ok(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_found_in_any_order_and_those_of_a_pose_in_another_unit_refused() {
+        let of = |line: &str| places(&csv::StringRecord::from(line.split(',').collect::<Vec<_>>()));
+        assert_eq!(of("t_s,z_m,x_m,y_m,yaw_deg"), Ok([Some(2), Some(3), Some(1), None, None, Some(4)]));
+        assert_eq!(of("\u{feff}x_m,y_m,z_m,x_dot_m_s"), Ok([Some(0), Some(1), Some(2), None, None, None]));
+        for (line, says) in [
+            ("x_m,y_m", "has no column `z_m`"),
+            ("x_m;y_m;z_m", "separated by commas"),
+            ("x_m,y_m,z_m,x_m", "the column `x_m` twice"),
+            ("x_m,y_m,z_m,yaw_rad", "has a column `yaw_rad` and no `yaw_deg`"),
+            ("x_m,y_m,z_m,Roll", "give the angle in degrees as `roll_deg`"),
+        ] {
+            let error = of(line).unwrap_err();
+            assert!(error.contains(says), "{error}");
+        }
+    }
+}
