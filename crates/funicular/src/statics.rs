@@ -289,6 +289,28 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
+    /// The tensions of a robot with more cables than freedoms do not come to rest.
+    #[error(
+        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: a step still changes them by \
+         {change:.3e} of their size (limit {limit:.0e}), the scaled residual is {residual:.3e}; raise the least tensions \
+         (`minimum_tension_n`, `--min-tension-n`)"
+    )]
+    Unsettled {
+        /// Iterations taken.
+        iterations: usize,
+        /// Change of the tensions in the last step, over their size; infinite if no step could be made.
+        change: f64,
+        /// Change asked.
+        limit: f64,
+        /// Scaled residual reached.
+        residual: f64,
+        /// Position of the pose [m].
+        x: f64,
+        /// Position of the pose [m].
+        y: f64,
+        /// Position of the pose [m].
+        z: f64,
+    },
     /// The search did not reach the tolerance.
     #[error(
         "no equilibrium found in {iterations} iterations: scaled residual {residual:.3e} (limit {limit:.0e}) at position \
@@ -331,7 +353,7 @@ impl StaticsError {
             Self::NothingToStiffen => "nothing-to-stiffen",
             Self::OneIdeal => "one-ideal",
             Self::NotNearest { .. } => "not-nearest",
-            Self::NotConverged { .. } => "not-converged",
+            Self::NotConverged { .. } | Self::Unsettled { .. } => "not-converged",
         }
     }
 
@@ -344,6 +366,7 @@ impl StaticsError {
                 | Self::BeyondLimits(_)
                 | Self::NotNearest { .. }
                 | Self::NotConverged { .. }
+                | Self::Unsettled { .. }
         )
     }
 }

@@ -502,12 +502,37 @@ proptest! {
                 Ok(held) => check(&robot, held),
                 Err(StaticsError::BeyondLimits(miss)) => prop_assert!(miss.by > 0.0),
                 Err(StaticsError::Singular) => {}
-                Err(StaticsError::NotConverged { .. }) if minimum < weight => continue,
+                Err(StaticsError::Unsettled { .. }) if minimum < weight => continue,
                 Err(other) => prop_assert!(false, "{}: {other}", rule.name()),
             }
             verdicts.push(held.is_ok());
         }
         prop_assert!(verdicts.windows(2).all(|pair| pair[0] == pair[1]), "{verdicts:?}");
+    }
+}
+
+/// In the plane nothing weighs: limits far above what the cables need, and a minimum that only says "not slack".
+#[test]
+fn a_minimum_of_next_to_nothing_is_met() {
+    let robot = Robot::from_toml(include_str!("../../../../robots/kntu-planar.toml")).unwrap();
+    let pose = Pose::new([0.0; 3], [0.0; 3]);
+    for minimum in [1e-9, 1e-6, 1e-3, 1e-2, 0.1] {
+        let robot = robot.with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(60.0) });
+        for model in [StaticModel::Spring, StaticModel::Catenary] {
+            for rule in [TensionRule::Lowest, TensionRule::Middle, TensionRule::Stiffest] {
+                let held = statics::distribute(&robot, &pose, model, &rule);
+                let held = held.unwrap_or_else(|error| panic!("{minimum} N, {model:?}, {}: {error}", rule.name()));
+                assert!(held.residual <= statics::RESIDUAL_LIMIT, "{:e}", held.residual);
+                for (i, cable) in held.cables.iter().enumerate() {
+                    let margin = TensionRange::of(&robot, i, &cable.chord_w()).margin(cable);
+                    assert!(
+                        margin.distance() >= -1e-6 * minimum,
+                        "{minimum} N, {model:?}, {}: {margin:?}",
+                        rule.name()
+                    );
+                }
+            }
+        }
     }
 }
 

@@ -77,6 +77,11 @@ impl Solutions {
         self.basis[self.freedoms * self.cables + i..].iter().step_by(self.cables)
     }
 
+    /// Direction `k`, a column of N.
+    pub(super) fn direction(&self, k: usize) -> &[f64] {
+        &self.basis[(self.freedoms + k) * self.cables..][..self.cables]
+    }
+
     /// Components `Nᵀ σ` of a vector along the directions.
     pub(super) fn along(&self, sigma: impl Fn(usize) -> f64) -> Vec<f64> {
         self.basis[self.freedoms * self.cables..]

@@ -2,7 +2,7 @@
 
 use crate::catenary::space::HangingCable;
 use crate::catenary::{Catenary, Rope};
-use crate::math::{Mat6, Vec3, Vec6};
+use crate::math::{Mat3, Mat6, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::TensionRange;
 use crate::statics::{LoadedCable, StaticModel, add_congruent, add_lever_term, scaled, wrench_of};
@@ -36,22 +36,24 @@ pub(super) struct Tension {
 }
 
 impl Line {
-    /// Cable `i`; its ends must not coincide.
+    /// Cable `i`, taut enough for its slope to be that of a taut cable; its ends must not coincide.
     pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, ell: f64) -> Self {
         let cable = LoadedCable::at(robot, i, pose, model);
         let attachment_w = pose.point_w(&cable.attachment_p);
         let chord_w = cable.anchor_w - attachment_w;
-        let hanging = cable.hang(pose, chord_w.norm());
+        let range = TensionRange::of(robot, i, &chord_w);
         let slackest = Catenary::SLACKEST * cable.load.size * chord_w.norm();
+        let tau = range.minimum.max(6.0 * slackest);
+        let hanging = cable.hang_with_tension(pose, tau);
         Self {
             lever_w: attachment_w - pose.position_w,
             ell,
             span: hanging.catenary.span(),
             rise: chord_w.dot(&cable.load.up_w),
-            range: TensionRange::of(robot, i, &chord_w),
+            range,
             slackest,
-            tau: f64::NAN,
-            length_rate: 0.0,
+            tau,
+            length_rate: 1.0 / hanging.catenary.parallel_tension_by_length(),
             hanging,
         }
     }
@@ -134,23 +136,68 @@ impl Line {
         if self.rise > 0.0 { [start, end] } else { [end, start] }
     }
 
-    /// Its share of the scaled stiffness of the platform.
-    pub(super) fn stiffness(&self) -> Mat6 {
-        let mut total = Mat6::zeros();
-        add_congruent(&mut total, &self.hanging.tangent_w(), &self.lever_w);
-        add_lever_term(&mut total, &self.hanging.force_on_start_w(), &self.lever_w);
-        scaled(&total, self.ell)
+    /// Wrench of a force on the platform at its attachment; moments over ℓ.
+    pub(super) fn wrench(&self, force_w: &Vec3) -> Vec6 {
+        wrench_of(force_w, &(self.lever_w / self.ell))
     }
 
-    /// Derivative of [`Self::stiffness`] by τ, by central differences.
-    pub(super) fn stiffness_by_tension(&self) -> Mat6 {
-        // Balances the error of the difference, its square, with the rounding of the stiffness over it.
-        let step = 1e-5 * self.tau.abs().max(1e-9 * self.rope().axial_stiffness);
-        let [less, more] = [-step, step].map(|step| {
-            let mut line = self.clone();
-            line.set(self.tau + step);
-            line.stiffness()
-        });
-        (more - less) / (2.0 * step)
+    /// What a share of the stiffness makes of a scaled motion of the platform: the wrench, scaled, of its symmetric part.
+    pub(super) fn applied(&self, share: &Share, motion: &Vec6) -> Vec6 {
+        let lever = self.lever_w / self.ell;
+        let turn: Vec3 = motion.fixed_rows::<3>(3).into();
+        let moved = motion.fixed_rows::<3>(0) + turn.cross(&lever);
+        let mut wrench = self.wrench(&(share.stiffness_w * moved));
+        let force = share.force_w;
+        let moment = (force.cross(&lever.cross(&turn)) + lever.cross(&force.cross(&turn))) * (0.5 / self.ell);
+        let mut view = wrench.fixed_rows_mut::<3>(3);
+        view -= moment;
+        wrench
     }
+
+    /// First and second derivative of its share by τ, by central differences.
+    pub(super) fn rates(&self) -> Rates {
+        // The error of the differences is its square, the rounding of the second ones over its square: they are alike.
+        let step = 1e-4 * self.tau.abs().max(1e-9 * self.rope().axial_stiffness);
+        let [less, more] = [-step, step].map(|step| Share::of(&self.hanging.at_parallel_tension(self.tau + step)));
+        let (here, once, twice) = (Share::of(&self.hanging), 0.5 / step, 1.0 / (step * step));
+        Rates {
+            first: Share {
+                stiffness_w: (more.stiffness_w - less.stiffness_w) * once,
+                force_w: (more.force_w - less.force_w) * once,
+            },
+            second: Share {
+                stiffness_w: (more.stiffness_w - here.stiffness_w * 2.0 + less.stiffness_w) * twice,
+                force_w: (more.force_w - here.force_w * 2.0 + less.force_w) * twice,
+            },
+        }
+    }
+
+    /// Derivative of its share of the scaled stiffness of the platform by τ.
+    pub(super) fn stiffness_by_tension(&self) -> Mat6 {
+        let Share { stiffness_w, force_w } = self.rates().first;
+        let mut total = Mat6::zeros();
+        add_congruent(&mut total, &stiffness_w, &self.lever_w);
+        add_lever_term(&mut total, &force_w, &self.lever_w);
+        scaled(&total, self.ell)
+    }
+}
+
+/// What a cable adds to the platform's stiffness: the stiffness of its end and the force at its lever arm, world axes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Share {
+    pub stiffness_w: Mat3,
+    pub force_w: Vec3,
+}
+
+impl Share {
+    fn of(hanging: &HangingCable) -> Self {
+        Self { stiffness_w: hanging.tangent_w(), force_w: hanging.force_on_start_w() }
+    }
+}
+
+/// Derivatives of a [`Share`] by τ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rates {
+    pub first: Share,
+    pub second: Share,
 }

@@ -20,6 +20,9 @@ pub(super) struct Active {
 /// Normals shorter than this, of columns of an orthogonal matrix, are rounding: the unknowns do not reach the quantity.
 const NO_NORMAL: f64 = 1e-12;
 
+/// Violation that is rounding, in parts of the terms that it is the difference of.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// A normal that the others make up to this part of its length adds nothing.
 const DEPENDENT: f64 = 1e-10;
 
@@ -27,6 +30,11 @@ impl Polyhedron {
     /// Everything, in a space of this dimension.
     pub(super) fn new(dimension: usize) -> Self {
         Self { dimension, ..Self::default() }
+    }
+
+    /// Number of inequalities.
+    pub(super) fn len(&self) -> usize {
+        self.levels.len()
     }
 
     fn normal(&self, row: usize) -> &[f64] {
@@ -44,12 +52,14 @@ impl Polyhedron {
         self.levels.push(level);
     }
 
-    /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance`, and returns what
+    /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
     /// holds it there; `None` if there is no such point.
     ///
     /// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
     /// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
     pub(super) fn nearest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+        // What the point has of rounding where it starts, it keeps.
+        let tolerance = x.iter().fold(tolerance, |most, x| most.max(ROUNDING * x.abs()));
         let mut active: Vec<Active> = Vec::with_capacity(self.dimension + 1);
         let mut basis = Basis::new(self.dimension);
         // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
@@ -95,9 +105,13 @@ impl Polyhedron {
     fn most_violated(&self, x: &[f64], tolerance: f64) -> Option<(usize, f64)> {
         let mut worst: Option<(usize, f64)> = None;
         for (row, level) in self.levels.iter().enumerate() {
-            let lack = level - self.normal(row).iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
+            let (mut lack, mut size) = (*level, level.abs());
+            for (a, x) in self.normal(row).iter().zip(x) {
+                lack -= a * x;
+                size += (a * x).abs();
+            }
             // Also when it is not a number: then there is no such point.
-            if lack > worst.map_or(tolerance, |(_, most)| most) || lack.is_nan() {
+            if lack > worst.map_or(tolerance.max(ROUNDING * size), |(_, most)| most) || lack.is_nan() {
                 worst = Some((row, lack));
             }
         }
@@ -236,6 +250,17 @@ mod tests {
         assert!(empty.nearest(&mut [0.3, 8.0], 1e-12).is_none());
         let beyond_reach = polyhedron(1, &[(vec![1e-17], 1.0)]);
         assert!(beyond_reach.nearest(&mut [0.0], 1e-12).is_none());
+    }
+
+    /// A corner of three walls that no number hits exactly, far from the origin.
+    #[test]
+    fn a_tolerance_below_the_rounding_of_the_levels_hides_no_point() {
+        for i in 1..200 {
+            let (x, y) = (60.0 / f64::from(i), -47.0 / f64::from(i + 1));
+            let wall = |a: f64, b: f64| (vec![a, b], a * x + b * y);
+            let walls = [wall(0.3, 0.7), wall(-0.9, 0.1), wall(0.6, -0.8)];
+            assert!(polyhedron(2, &walls).nearest(&mut [0.0, 0.0], 1e-300).is_some(), "{walls:?}");
+        }
     }
 
     #[test]

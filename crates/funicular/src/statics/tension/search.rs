@@ -2,12 +2,12 @@
 
 use super::Miss;
 use super::balance::Solutions;
-use super::line::Line;
+use super::line::{Line, Tension};
 use super::polyhedron::{Active, Polyhedron};
 use crate::math::Vec6;
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::Limit;
-use crate::statics::{RESIDUAL_LIMIT, StaticsError, balance, load_size, scaled_residual, scaled_wrench};
+use crate::statics::{StaticsError, balance, load_size, scaled_residual, scaled_wrench};
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
 const MOST_ITERATIONS: usize = 100;
@@ -20,6 +20,10 @@ const BALANCED: f64 = 1e-12;
 
 /// Violation of a limit, over the size of the tensions, that is rounding.
 const VIOLATION: f64 = 1e-9;
+
+/// Least slope of a tension by τ. At the slackest (v up to 1.2) the greatest tension of a level cable is about at its
+/// minimum (v = 1.1997), its slope next to zero or below, and a limit by it would be on the wrong side.
+const LEAST_SLOPE: f64 = 1e-3;
 
 /// Tensions at a pose, on their way to the best.
 pub(super) struct Search<'a> {
@@ -111,14 +115,10 @@ impl Stride {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, mut lines: Vec<Line>) -> Self {
+    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, lines: Vec<Line>) -> Self {
         let weight = load_size(robot);
         let minima: f64 = lines.iter().map(|line| line.range.minimum + line.slackest).sum();
         let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
-        for line in &mut lines {
-            // Taut enough for its slope to be that of a taut cable.
-            line.set(line.range.minimum.max(6.0 * line.slackest));
-        }
         Self { robot, pose, lines, size, iterations: 0 }
     }
 
@@ -140,6 +140,11 @@ impl<'a> Search<'a> {
 
     pub(super) fn iterations(&self) -> usize {
         self.iterations
+    }
+
+    /// Counts an iteration.
+    pub(super) fn count(&mut self) {
+        self.iterations += 1;
     }
 
     pub(super) fn size(&self) -> f64 {
@@ -178,7 +183,8 @@ impl<'a> Search<'a> {
             right += column * line.tau();
         }
         let limits = self.lines.iter().map(|line| {
-            let (least, greatest) = (line.least(), line.greatest());
+            let [least, greatest] = [line.least(), line.greatest()]
+                .map(|tension| Tension { slope: tension.slope.max(LEAST_SLOPE), ..tension });
             let lower = line.tau() + (line.range.minimum - least.value) / least.slope;
             let upper = line.tau() + (line.range.maximum - greatest.value) / greatest.slope;
             [Bound { at: lower, rate: 1.0 / least.slope }, Bound { at: upper, rate: 1.0 / greatest.slope }]
@@ -244,7 +250,7 @@ impl<'a> Search<'a> {
             last = Some((before, linear.columns, step.prices));
             self.set(&after);
         }
-        Err(self.not_converged())
+        Err(self.unsettled(last_change, STILL))
     }
 
     fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<Step>, StaticsError> {
@@ -297,7 +303,30 @@ impl<'a> Search<'a> {
             stride.next(change, self.size, level.height);
             self.set(&level.tau);
         }
-        Err(self.not_converged())
+        Err(self.unsettled(stride.last_change, STILL))
+    }
+
+    /// Puts tensions that nearly hold the platform within the limits right; whether it succeeds.
+    pub(super) fn settle(&mut self) -> bool {
+        let linear = self.linearise();
+        let slack = VIOLATION * self.size;
+        let within = |(line, [lower, upper]): (&Line, &[Bound; 2])| {
+            line.tau() >= lower.at - slack && line.tau() <= upper.at + slack
+        };
+        let settled = linear.residual <= BALANCED && self.lines.iter().zip(&linear.limits).all(within);
+        settled || self.nearest_to(&self.tensions()).is_ok()
+    }
+
+    /// Tensions within the limits, somewhere in the middle of them, that nearly hold the platform.
+    pub(super) fn near_middle(&mut self) -> Result<(), StaticsError> {
+        self.count();
+        let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
+        let level = self.level(&self.linearise(), Some(&widths), &self.tensions(), None)?;
+        if level.distance < 0.0 {
+            return self.middle();
+        }
+        self.set(&level.tau);
+        Ok(())
     }
 
     /// Moves to tensions that violate the limits least; an error if they do violate them.
@@ -346,7 +375,9 @@ impl<'a> Search<'a> {
         }
         // Very heavy and soft ropes may wander without end. If every linear problem has been impossible, so is the pose;
         // the mildest of them says by how much, roughly.
-        mildest.filter(|level| level.distance < -VIOLATION * self.size).ok_or_else(|| self.not_converged())
+        mildest
+            .filter(|level| level.distance < -VIOLATION * self.size)
+            .ok_or_else(|| self.unsettled(stride.last_change, VIOLATION))
     }
 
     /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
@@ -400,7 +431,7 @@ impl<'a> Search<'a> {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
             return match widths {
                 Some(_) => self.level(linear, None, here, None),
-                None => Err(self.not_converged()),
+                None => Err(self.unsettled(f64::INFINITY, STILL)),
             };
         };
         let height = point.pop().unwrap_or(f64::NAN);
@@ -419,9 +450,8 @@ impl<'a> Search<'a> {
         Miss { by: -level.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
     }
 
-    pub(super) fn not_converged(&self) -> StaticsError {
-        let p = self.pose.position_w;
-        let (residual, limit) = (self.linearise().residual, RESIDUAL_LIMIT);
-        StaticsError::NotConverged { iterations: self.iterations, residual, limit, x: p.x, y: p.y, z: p.z }
+    fn unsettled(&self, change: f64, limit: f64) -> StaticsError {
+        let (p, residual) = (self.pose.position_w, self.linearise().residual);
+        StaticsError::Unsettled { iterations: self.iterations, change, limit, residual, x: p.x, y: p.y, z: p.z }
     }
 }

@@ -1,0 +1,116 @@
+//! The stiffest tensions by cutting planes: slow and sure, for where Newton's method does not arrive, and its oracle.
+//!
+//! The stiffness of straight cables is affine in the tensions (EA/L0 = (EA + T)/l along a cable, T/l across it), its least
+//! eigenvalue therefore concave, and the optimum over the tensions within the limits is a convex problem in any number
+//! of dimensions. It is solved by cutting planes: every eigenvector q bounds the eigenvalue from above by the affine
+//! qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not stiffen is shortened.
+
+use super::super::polyhedron::Polyhedron;
+use super::super::search::{Linear, Search};
+use super::{GAIN, least_eigenvalue, present};
+use crate::math::{Mat6, Vec6, inertia};
+use crate::statics::StaticsError;
+
+/// Most linearisations; straight cables need two, sagging ones 16 to 30 as a rule.
+const MOST_LINEARISATIONS: usize = 60;
+
+/// Most rounds of cuts a linearisation.
+const MOST_ROUNDS: usize = 100;
+
+/// Eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the optimum.
+const CUTS: usize = 3;
+
+/// Tensions within the limits that make the robot stiffest.
+pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
+    search.middle()?;
+    let mut best = search.tensions();
+    let mut stiffness = least_eigenvalue(search);
+    let mut reach = f64::INFINITY;
+    for _ in 0..MOST_LINEARISATIONS {
+        let linear = search.linearise();
+        let (next, promised) = stiffest_of_linear(search, &linear, reach)?;
+        if promised - stiffness <= GAIN * stiffness.abs() {
+            break;
+        }
+        let step = next.iter().zip(&best).fold(0.0, |m: f64, (to, from)| m.max((to - from).abs()));
+        let reached = match search.nearest_to(&next) {
+            Ok(()) => least_eigenvalue(search),
+            Err(_) => f64::NEG_INFINITY,
+        };
+        if reached > stiffness {
+            (best, stiffness) = (search.tensions(), reached);
+            reach *= 2.0;
+        } else {
+            search.set(&best);
+            reach = 0.3 * step;
+            if reach < 1e-7 * search.size() {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and how
+/// stiff it then is.
+fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Result<(Vec<f64>, f64), StaticsError> {
+    let freedoms = search.robot().platform.freedoms.count();
+    let here = search.tensions();
+    let solutions = search.solutions(linear, &vec![1.0; here.len()])?;
+    let stiffness = present(search);
+    let rates: Vec<Mat6> = search
+        .lines()
+        .iter()
+        .map(|line| {
+            let rate = line.stiffness_by_tension();
+            search.robot().platform.freedoms.reduced_matrix(&((rate + rate.transpose()) * 0.5))
+        })
+        .collect();
+    // The height in the unit of tensions.
+    let unit = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.amax())).max(f64::MIN_POSITIVE);
+    let mut set = Polyhedron::new(solutions.redundancy() + 1);
+    for (i, [lower, upper]) in linear.limits.iter().enumerate() {
+        let particular = solutions.particular[i];
+        let least = lower.at.max(search.lines()[i].slackest).max(here[i] - reach);
+        let most = upper.at.min(here[i] + reach);
+        set.add(solutions.part(i), 1.0, Some(0.0), least - particular);
+        set.add(solutions.part(i), -1.0, Some(0.0), particular - most);
+    }
+    let mut z = solutions.along(|i| here[i]);
+    let mut best = (here.clone(), f64::NEG_INFINITY);
+    for _ in 0..MOST_ROUNDS {
+        let tau = solutions.at(&z);
+        let mut there = stiffness;
+        for ((rate, to), from) in rates.iter().zip(&tau).zip(&here) {
+            there += rate * (to - from);
+        }
+        let (values, vectors) = inertia::eigen(&there, freedoms);
+        if values[0] > best.1 {
+            best = (tau, values[0]);
+        }
+        for q in vectors.iter().take(CUTS) {
+            let slopes: Vec<f64> = rates.iter().map(|rate| q.dot(&(rate * q)) / unit).collect();
+            let level = form(&stiffness, q) / unit
+                + slopes.iter().zip(&solutions.particular).zip(&here).map(|((g, p), t)| g * (p - t)).sum::<f64>();
+            let normal = solutions.along(|i| slopes[i]);
+            set.add(normal.iter(), 1.0, Some(-1.0), -level);
+        }
+        let height = best.1 / unit;
+        let mut point = z.clone();
+        point.push(height);
+        let tolerance = 1e-12 * (search.size() + stiffness.amax() / unit);
+        if set.highest(&mut point, search.size(), tolerance).is_none() {
+            break;
+        }
+        let bound = point.pop().unwrap_or(height);
+        z = point;
+        if bound - height <= 0.1 * GAIN * height.abs() + tolerance {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+fn form(matrix: &Mat6, q: &Vec6) -> f64 {
+    q.dot(&(matrix * q))
+}
