@@ -291,9 +291,9 @@ pub enum StaticsError {
     },
     /// The tensions of a robot with more cables than freedoms do not come to rest.
     #[error(
-        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: a step still changes them by \
-         {change:.3e} of their size (limit {limit:.0e}), the scaled residual is {residual:.3e}; raise the least tensions \
-         (`minimum_tension_n`, `--min-tension-n`)"
+        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual is \
+         {residual:.3e}; raise the least tensions (`minimum_tension_n`, `--min-tension-n`)",
+        unrest(*change, *limit)
     )]
     Unsettled {
         /// Iterations taken.
@@ -330,6 +330,14 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
+}
+
+fn unrest(change: f64, limit: f64) -> String {
+    if change.is_finite() {
+        format!("a step still changes them by {change:.3e} of their size (limit {limit:.0e})")
+    } else {
+        "from those that were reached there is no step within the limits".to_owned()
+    }
 }
 
 impl StaticsError {
