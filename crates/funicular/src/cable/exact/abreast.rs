@@ -244,13 +244,14 @@ impl pulp::WithSimd for Weigh<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Motion {
-        let Self { cables: Abreast { packs, chains, .. }, motion } = self;
-        if chains.is_empty() {
-            return Motion(vec![packs[0].weighed::<S, 1>(simd, &motion.0[0])]);
-        }
-        let mut all = Vec::with_capacity(packs.len());
-        for (element, of_pack) in packs.iter().zip(&motion.0) {
-            all.push(element.weighed::<S, 2>(simd, of_pack));
+        let Self { cables, motion } = self;
+        let mut all = Vec::with_capacity(motion.0.len());
+        for of_pack in &motion.0 {
+            all.push(if cables.is_cut() {
+                Element::weighed::<S, 2>(simd, of_pack)
+            } else {
+                Element::weighed::<S, 1>(simd, of_pack)
+            });
         }
         Motion(all)
     }

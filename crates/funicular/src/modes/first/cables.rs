@@ -66,9 +66,9 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
     let units = [unit(0), unit(1), unit(2)];
     let weighed = units.each_ref().map(|motion| group.weighed(motion));
     let mut masses = Kept { plane: [[0.0; LANES]; 6], across: [[0.0; LANES]; 3], least_pivot: [f64::INFINITY; LANES] };
-    for row in 0..IN_PLANE {
-        for column in 0..=row {
-            let [plane, across] = group.mass(&units[row], &weighed[column]);
+    for (row, motion) in units.iter().enumerate() {
+        for (column, weighed) in weighed[..=row].iter().enumerate() {
+            let [plane, across] = group.mass(motion, weighed);
             masses.plane[place(row, column)] = plane;
             if row < ACROSS {
                 masses.across[place(row, column)] = across;

@@ -122,8 +122,8 @@ impl<const D: usize> Nodes<D> {
             |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
         let Self { inverse, next, end } = self;
         let mut own: Vec<Block<D>> = (0..elements).map(|e| part(e, 0, 0)).collect();
-        for e in 1..elements {
-            own[e] += part(e - 1, 1, 1);
+        for (e, block) in own.iter_mut().enumerate().skip(1) {
+            *block += part(e - 1, 1, 1);
         }
         next.clear();
         next.extend((0..elements - 1).map(|e| part(e, 0, 1)));

@@ -181,9 +181,9 @@ impl Element {
         [substitute(simd, plane_factor, 2 * functions, plane), substitute(simd, across_factor, *functions, across)]
     }
 
-    /// M a in plane and out of plane, over half the mass.
+    /// M a in plane and out of plane, over half the mass; the same for all elements.
     #[inline(always)]
-    pub(super) fn weighed<S: Simd, const H: usize>(&self, simd: S, [plane, across]: &[Lanes; 2]) -> [Lanes; 2] {
+    pub(super) fn weighed<S: Simd, const H: usize>(simd: S, [plane, across]: &[Lanes; 2]) -> [Lanes; 2] {
         let mut all = [Lanes::zeros(plane.len()), Lanes::zeros(across.len())];
         for part in Part::all(simd) {
             weigh::<S, 2, H>(part, plane, &mut all[0]);
