@@ -49,11 +49,13 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
     // C is singular at lowest ± i depth.
     let (lowest, depth) = (-catenary.vertical_force_at_start() / w, catenary.horizontal_force() / w);
     let distance = |s: f64| (s - lowest).hypot(depth);
-    // An element much shorter than this distance would be stiff for nothing.
+    // An element much shorter than this distance would be stiff for nothing: the outermost one may have the lowest point
+    // inside.
+    let outermost = |end: f64| if (0.0..length).contains(&lowest) { 2.0 * depth } else { GROWTH * distance(end) };
     let middle = if lowest < depth {
-        (GROWTH * distance(0.0)).min(0.5 * length)
+        outermost(0.0).min(0.5 * length)
     } else if length - lowest < depth {
-        (length - GROWTH * distance(length)).max(0.5 * length)
+        (length - outermost(length)).max(0.5 * length)
     } else {
         lowest
     };
@@ -81,6 +83,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
+
         #[test]
         fn every_element_of_a_slack_cable_is_smooth(
             span in -8.0f64..0.5, rise in -6.0f64..6.0, slack in 1.001f64..3.0,
@@ -92,7 +96,11 @@ mod tests {
                 axial_stiffness: 1e5,
             };
             let catenary = Catenary::between(span, rise, rope).unwrap();
-            let (nodes, kept) = cut(&catenary);
+            let Some(Mesh { nodes, kept, .. }) = Mesh::of(&catenary) else { return Ok(()) };
+            if kept == 0 {
+                prop_assert_eq!(nodes.len(), 2);
+                return Ok(());
+            }
             prop_assert!(0 < kept && kept < nodes.len() - 1);
             prop_assert!(nodes[0].abs() < 1e-12 * rope.unstrained_length);
             prop_assert!((nodes[nodes.len() - 1] / rope.unstrained_length - 1.0).abs() < 1e-12);
