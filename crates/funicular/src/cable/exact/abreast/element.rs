@@ -131,7 +131,9 @@ impl Element {
                         }
                     }
                     if H == 2 && (f == 1) != (j == 1) {
-                        sums = sums.map(|sum| part.neg(sum));
+                        for sum in &mut sums {
+                            *sum = part.neg(*sum);
+                        }
                     }
                     let [nn, en, ee, oo] = sums;
                     part.set(&mut of_n[2 * j], nn);
@@ -211,14 +213,13 @@ impl Shapes {
     #[inline(always)]
     fn integrands<S: Simd>(&self, part: Part<S>, xi: f64) -> [S::f64s; PARTS] {
         let simd = part.simd;
-        let of = |lane: &Lane| part.of(lane);
         let xi = part.splat(xi);
-        let along = part.mul_add(xi, of(&self.along_change), of(&self.along));
-        let normal = part.mul_add(xi, of(&self.normal_change), of(&self.normal));
+        let along = part.mul_add(xi, part.of(&self.along_change), part.of(&self.along));
+        let normal = part.mul_add(xi, part.of(&self.normal_change), part.of(&self.normal));
         let square = part.mul_add(along, along, part.mul(normal, normal));
         let tension = simd.sqrt_f64s(square);
-        let ea = of(&self.axial_stiffness);
-        let scale = simd.div_f64s(part.mul(of(&self.inverse_half), ea), simd.add_f64s(ea, tension));
+        let ea = part.of(&self.axial_stiffness);
+        let scale = simd.div_f64s(part.mul(part.of(&self.inverse_half), ea), simd.add_f64s(ea, tension));
         let across = part.mul(scale, tension);
         let extra = simd.div_f64s(part.mul(scale, ea), square);
         let by_normal = part.mul(extra, normal);
@@ -240,13 +241,13 @@ fn take_inertia<S: Simd, const D: usize, const H: usize>(
     inertia: &Lane,
 ) {
     let inertia = part.neg(part.of(inertia));
-    MASSES.each::<H>(functions, |k, j, mass| {
-        let mass = part.mul(part.splat(mass), inertia);
+    for (k, j, mass) in MASSES[H - 1].of(functions) {
+        let mass = part.mul(part.splat(*mass), inertia);
         for d in 0..D {
             let entry = &mut matrix[place(D * k + d, D * j + d)];
             part.set(entry, part.simd.add_f64s(part.of(entry), mass));
         }
-    });
+    }
 }
 
 /// Eliminates the unknowns from the last of `n` down to number `kept`, two at a time; their rows keep what
@@ -315,8 +316,8 @@ fn substitute<S: Simd>(simd: S, factor: &[Lane], n: usize, kept: &[Lane]) -> Lan
 
 #[inline(always)]
 fn weigh<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Lane], into: &mut [Lane]) {
-    MASSES.each::<H>(a.len() / D, |k, j, mass| {
-        let mass = part.splat(mass);
+    for (k, j, mass) in MASSES[H - 1].of(a.len() / D) {
+        let mass = part.splat(*mass);
         for d in 0..D {
             let (k, j) = (D * k + d, D * j + d);
             part.add_scaled(&mut into[k], mass, &a[j]);
@@ -324,5 +325,5 @@ fn weigh<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Lane], int
                 part.add_scaled(&mut into[j], mass, &a[k]);
             }
         }
-    });
+    }
 }

@@ -5,52 +5,48 @@ use super::{MOST_DEGREES, MOST_TERMS};
 use crate::math::legendre;
 use std::sync::LazyLock;
 
-/// `∫ N_a N_b dξ` of the hat at −1 (k = 0) and the bubbles N_{k+1}.
+/// `∫ N_a N_b dξ` of the functions of an element that are not zero, (a, b ≤ a, value), by rows: hats, then bubbles.
 pub(super) struct Masses {
-    /// With itself, with the function two below.
-    own: [f64; MOST_DEGREES],
-    two_below: [f64; MOST_DEGREES],
-    /// Of the lowest bubble with the hat.
-    first: f64,
+    entries: Vec<(usize, usize, f64)>,
+    /// Where each row ends.
+    ends: Vec<usize>,
 }
 
 impl Masses {
-    /// All entries of the lower triangle, for elements with H hats (that at −1, and then that at 1 or none) and so many
-    /// functions, at least two beyond the hats.
+    /// With one hat, that at −1, or both.
+    fn with_hats(hats: usize) -> Self {
+        let first = -1.0 / 6f64.sqrt();
+        let second = 1.0 / (3.0 * 10f64.sqrt());
+        let (mut entries, mut ends) = (Vec::new(), Vec::new());
+        for f in 0..MOST_DEGREES + hats - 1 {
+            match (f + 1).saturating_sub(hats) {
+                0 if f == 1 => entries.push((1, 0, 1.0 / 3.0)),
+                0 => {}
+                // Bubbles meet the hats in their first two.
+                1 => entries.extend((0..hats).map(|hat| (f, hat, first))),
+                2 => entries.extend((0..hats).map(|hat| (f, hat, if hat == 0 { second } else { -second }))),
+                k => {
+                    let n = k as f64 + 1.0;
+                    let value = -1.0 / ((2.0 * n - 3.0) * ((2.0 * n - 5.0) * (2.0 * n - 1.0)).sqrt());
+                    entries.push((f, f - 2, value));
+                }
+            }
+            let n = (f + 2).saturating_sub(hats) as f64;
+            entries.push((f, f, if f < hats { 2.0 / 3.0 } else { 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)) }));
+            ends.push(entries.len());
+        }
+        Self { entries, ends }
+    }
+
+    /// Of so many functions, at least one.
     #[inline(always)]
-    pub(super) fn each<const H: usize>(&self, functions: usize, mut visit: impl FnMut(usize, usize, f64)) {
-        for f in 0..H {
-            visit(f, f, self.own[0]);
-        }
-        for f in H..functions {
-            visit(f, f, self.own[f + 1 - H]);
-        }
-        // Bubbles meet the hats in their first two.
-        visit(H, 0, self.first);
-        visit(H + 1, 0, self.two_below[2]);
-        if H == 2 {
-            visit(1, 0, 1.0 / 3.0);
-            visit(H, 1, self.first);
-            visit(H + 1, 1, -self.two_below[2]);
-        }
-        for f in H + 2..functions {
-            visit(f, f - 2, self.two_below[f + 1 - H]);
-        }
+    pub(super) fn of(&self, functions: usize) -> &[(usize, usize, f64)] {
+        &self.entries[..self.ends[functions - 1]]
     }
 }
 
-pub(super) static MASSES: LazyLock<Masses> = LazyLock::new(|| {
-    let (mut own, mut two_below) = ([2.0 / 3.0; MOST_DEGREES], [0.0; MOST_DEGREES]);
-    for k in 1..MOST_DEGREES {
-        let n = k as f64 + 1.0;
-        own[k] = 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0));
-        if k > 2 {
-            two_below[k] = -1.0 / ((2.0 * n - 3.0) * ((2.0 * n - 5.0) * (2.0 * n - 1.0)).sqrt());
-        }
-    }
-    two_below[2] = 1.0 / (3.0 * 10f64.sqrt());
-    Masses { own, two_below, first: -1.0 / 6f64.sqrt() }
-});
+/// With one hat, and with two.
+pub(super) static MASSES: LazyLock<[Masses; 2]> = LazyLock::new(|| [1, 2].map(Masses::with_hats));
 
 /// `∫ P_l s_j s_k dξ` of the slopes s of two functions and Legendre's P_l, for l = |k − j|, |k − j| + 2, … k + j, outside
 /// of which they vanish.
