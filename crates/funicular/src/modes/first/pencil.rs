@@ -146,7 +146,7 @@ impl Pencil {
     }
 
     /// A better start where cables are cut: at rest, what has been eliminated moves otherwise than at the frequency, which
-    /// comes out too high by a third or half.
+    /// comes out far too high.
     fn nearer(&self, mut near: Found, start: &mut Reduced, groups: &mut [Abreast]) -> Option<Found> {
         let mut x = 0.7 * near.square;
         for _ in 0..MOST_TANGENTS {

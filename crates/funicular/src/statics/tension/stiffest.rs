@@ -14,7 +14,7 @@ use model::{Model, Step};
 /// Gain of stiffness, relative, that is not worth a step.
 const GAIN: f64 = 3e-8;
 
-/// Most steps of Newton's method. Robots of the library take 4 to 8, and up to 20 where eigenvalues meet.
+/// Most steps of Newton's method, which takes a handful, more where eigenvalues meet.
 const MOST_STEPS: usize = 40;
 
 /// Least part of a step that is tried.

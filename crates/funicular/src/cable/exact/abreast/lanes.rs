@@ -84,8 +84,8 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// Lanes in memory that the thread keeps for the next robot: given back to the system with each, they would cost as much
-/// as a tenth of the search.
+/// Lanes in memory that the thread keeps for the next robot: given back to the system with each, they would come again
+/// as page faults.
 #[derive(Debug, Default)]
 pub(super) struct Lanes(Vec<Lane>);
 

@@ -11,7 +11,7 @@ use super::{GAIN, least_eigenvalue, present};
 use crate::math::{Mat6, Vec6, inertia};
 use crate::statics::StaticsError;
 
-/// Most linearisations; straight cables need two, sagging ones 16 to 30 as a rule.
+/// Most linearisations; straight cables need two, sagging ones many more.
 const MOST_LINEARISATIONS: usize = 60;
 
 /// Most rounds of cuts a linearisation.
