@@ -15,8 +15,8 @@ use crate::robot::{Pose, Robot};
 /// other rules. With as many there is one solution, whatever the limits; [`crate::validity`] compares.
 ///
 /// Straight cables have a linear solution; sagging ones start from it, with half of each cable's weight on the
-/// platform, and a Newton iteration on the lengths follows whose steps are taken in the tension parallel to the chord, in which the
-/// forces are nearly linear.
+/// platform, and a Newton iteration on the lengths follows whose steps are taken in the tension parallel to the chord, in
+/// which the forces of a taut cable are nearly linear, and in the length where a slack one gets slacker.
 ///
 /// # Errors
 /// [`StaticsError`]: fewer cables than freedoms ([`nearest`](super::nearest) knows what they can hold), tensions beyond their limits if there is a choice, a singular pose, a cable that would have to
@@ -102,13 +102,8 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
         }
         let right = -robot.platform.freedoms.reduced(&scaled_wrench(&wrench, ell));
         let Some(change) = columns.lu().solve(&right) else { break };
-        let next: Vec<HangingCable> = (hanging.iter().zip(&change))
-            .map(|(cable, change)| {
-                let tension = cable.catenary.parallel_tension();
-                let wanted = tension + damping * change * cable.catenary.parallel_tension_by_length();
-                at_tension(cable, wanted.max(0.2 * tension))
-            })
-            .collect();
+        let next: Vec<HangingCable> =
+            (hanging.iter().zip(&change)).map(|(cable, change)| lengthened(cable, damping * change)).collect();
         let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
         if next_residual < residual {
             (hanging, wrench, residual) = (next, next_wrench, next_residual);
@@ -145,6 +140,18 @@ fn unbalanced(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f6
     let forces = hanging.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
     let (wrench, scale) = balance(robot, pose, forces);
     (wrench, scaled_residual(robot, &wrench, scale))
+}
+
+/// A cable some length longer [m], to first order: forces are nearly linear in the parallel tension where it is taut, but
+/// in the length, by its weight, where it hangs slack and gets slacker.
+fn lengthened(cable: &HangingCable, change: f64) -> HangingCable {
+    let rope = cable.catenary.rope();
+    let tension = cable.catenary.parallel_tension();
+    if change > 0.0 && tension < 0.5 * rope.weight_per_length * cable.chord_w().norm() {
+        return cable.at_length(rope.unstrained_length + change);
+    }
+    let wanted = tension + change * cable.catenary.parallel_tension_by_length();
+    at_tension(cable, wanted.max(0.2 * tension))
 }
 
 /// The cable between the same points whose parallel tension is `wanted` > 0 [N].

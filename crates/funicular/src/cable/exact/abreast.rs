@@ -66,6 +66,13 @@ pub(crate) struct Kept {
     pub(crate) least_pivot: Lane,
 }
 
+impl Default for Kept {
+    /// Zero, of nothing eliminated.
+    fn default() -> Self {
+        Self { plane: Default::default(), across: Default::default(), least_pivot: [f64::INFINITY; LANES] }
+    }
+}
+
 impl Kept {
     /// The entries of one cable, in plane and out of plane.
     #[inline(always)]
@@ -149,14 +156,9 @@ impl Abreast {
         pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
     }
 
-    /// What [`mass`](Self::mass) takes the second motion as.
-    pub(crate) fn weighed(&self, motion: &Motion) -> Motion {
-        pulp::Arch::new().dispatch(Weigh { cables: self, motion })
-    }
-
-    /// `aᵀ M b` in plane and out of plane [kg × motion²], of a motion and a [`weighed`](Self::weighed) one.
-    pub(crate) fn mass(&self, a: &Motion, weighed: &Motion) -> [Lane; 2] {
-        pulp::Arch::new().dispatch(Mass { cables: self, a, weighed })
+    /// `aᵀ M b` in plane and out of plane [kg × motion²].
+    pub(crate) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
+        pulp::Arch::new().dispatch(Mass { cables: self, a, b })
     }
 }
 
@@ -196,8 +198,8 @@ impl pulp::WithSimd for Factorise<'_> {
             let element = &mut packs[0];
             element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
             return Kept {
-                plane: from_fn(|k| element.plane_factor[k]),
-                across: from_fn(|k| element.across_factor[k]),
+                plane: from_fn(|k| element.plane_factor[k].0),
+                across: from_fn(|k| element.across_factor[k].0),
                 least_pivot,
             };
         }
@@ -234,33 +236,10 @@ impl pulp::WithSimd for Substitute<'_> {
     }
 }
 
-struct Weigh<'a> {
-    cables: &'a Abreast,
-    motion: &'a Motion,
-}
-
-impl pulp::WithSimd for Weigh<'_> {
-    type Output = Motion;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Motion {
-        let Self { cables, motion } = self;
-        let mut all = Vec::with_capacity(motion.0.len());
-        for of_pack in &motion.0 {
-            all.push(if cables.is_cut() {
-                Element::weighed::<S, 2>(simd, of_pack)
-            } else {
-                Element::weighed::<S, 1>(simd, of_pack)
-            });
-        }
-        Motion(all)
-    }
-}
-
 struct Mass<'a> {
     cables: &'a Abreast,
     a: &'a Motion,
-    weighed: &'a Motion,
+    b: &'a Motion,
 }
 
 impl pulp::WithSimd for Mass<'_> {
@@ -268,13 +247,13 @@ impl pulp::WithSimd for Mass<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [Lane; 2] {
-        let Self { cables: Abreast { packs, chains, .. }, a, weighed } = self;
+        let Self { cables: Abreast { packs, chains, .. }, a, b } = self;
         if chains.is_empty() {
-            return packs[0].mass(simd, &a.0[0], &weighed.0[0]);
+            return packs[0].mass::<S, 1>(simd, &a.0[0], &b.0[0]);
         }
         let mut masses = Vec::with_capacity(packs.len());
-        for ((element, a), weighed) in packs.iter().zip(&a.0).zip(&weighed.0) {
-            masses.push(element.mass(simd, a, weighed));
+        for ((element, a), b) in packs.iter().zip(&a.0).zip(&b.0) {
+            masses.push(element.mass::<S, 2>(simd, a, b));
         }
         chain::sums(chains, &masses)
     }
@@ -361,7 +340,7 @@ mod tests {
             abreast.kept(x, 24);
             let lanes = |value: f64| [value; LANES];
             let motion = abreast.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
-            let mass = abreast.mass(&motion, &abreast.weighed(&motion)).map(|lane| lane[0]);
+            let mass = abreast.mass(&motion, &motion).map(|lane| lane[0]);
             for (mass, change) in mass.into_iter().zip(change) {
                 prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
             }

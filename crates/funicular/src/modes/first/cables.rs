@@ -64,11 +64,10 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
         group.moved(from_fn(one), from_fn(one))
     };
     let units = [unit(0), unit(1), unit(2)];
-    let weighed = units.each_ref().map(|motion| group.weighed(motion));
-    let mut masses = Kept { plane: [[0.0; LANES]; 6], across: [[0.0; LANES]; 3], least_pivot: [f64::INFINITY; LANES] };
+    let mut masses = Kept::default();
     for (row, motion) in units.iter().enumerate() {
-        for (column, weighed) in weighed[..=row].iter().enumerate() {
-            let [plane, across] = group.mass(motion, weighed);
+        for (column, other) in units[..=row].iter().enumerate() {
+            let [plane, across] = group.mass(motion, other);
             masses.plane[place(row, column)] = plane;
             if row < ACROSS {
                 masses.across[place(row, column)] = across;
@@ -129,13 +128,9 @@ impl Cables for Whole<'_> {
 
     fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane> {
         let group = &self.groups[group];
-        let all: Vec<_> = motions
-            .iter()
-            .map(|(plane, across)| group.moved(*plane, *across))
-            .map(|motion| (group.weighed(&motion), motion))
-            .collect();
-        pairs(&all, |(_, a), (weighed, _)| {
-            let [plane, across] = group.mass(a, weighed);
+        let all: Vec<_> = motions.iter().map(|(plane, across)| group.moved(*plane, *across)).collect();
+        pairs(&all, |a, b| {
+            let [plane, across] = group.mass(a, b);
             from_fn(|i| plane[i] + across[i])
         })
     }

@@ -58,9 +58,17 @@ pub(super) fn lowest(
     let mut kept = Vec::with_capacity(metric.len());
     let mut before = f64::INFINITY;
     let mut refined = false;
+    let mut last: Option<Found> = None;
     for _ in 0..MOST_EVALUATIONS {
         cables.kept(x, &mut kept);
         let factor = Factor::of(pencil, &kept, x);
+        if let Some(found) = last.take() {
+            // A finer discretisation has nothing below either.
+            if aim.checked && refined && factor.negative == 0 {
+                return Some(found);
+            }
+            motions = found.motions;
+        }
         if factor.negative == 0 {
             low = x;
         } else if x == 0.0 {
@@ -73,15 +81,14 @@ pub(super) fn lowest(
                 (motions.len()..factor.negative.clamp(2, BLOCK)).map(|number| pencil.any_motion(metric, number)),
             );
         }
-        let found = improved(pencil, cables, metric, &factor, x, motions, aim);
+        let mut found = improved(pencil, cables, metric, &factor, x, std::mem::take(&mut motions), aim);
         let quotient = found.square;
         if !quotient.is_finite() {
             return None;
         }
-        if factor.negative == 0 && quotient - x <= aim.width * quotient && (refined || !aim.checked) {
+        if !aim.checked && factor.negative == 0 && quotient - x <= aim.width * quotient {
             return Some(found);
         }
-        motions = found.motions;
         let next = quotient * (1.0 - 0.5 * aim.width);
         // A quotient that does not fall belongs to another mode.
         let leads = quotient > 0.0 && quotient <= high && quotient < before;
@@ -93,8 +100,10 @@ pub(super) fn lowest(
         if leads {
             (before, high) = (quotient, quotient);
         } else {
-            motions.extend((motions.len()..BLOCK).map(|number| pencil.any_motion(metric, number)));
+            let more = found.motions.len()..BLOCK;
+            found.motions.extend(more.map(|number| pencil.any_motion(metric, number)));
         }
+        last = Some(found);
         // A lower bound of a coarser discretisation may lie above.
         low = if low < high { low } else { 0.9 * high };
         x = match () {

@@ -2,7 +2,7 @@
 
 use super::cuts::Mesh;
 use super::element::{Element, place};
-use super::lanes::{Lane, Lanes, ZERO};
+use super::lanes::{Lane, Lanes};
 use super::{ACROSS, IN_PLANE, Kept, LANES};
 use nalgebra::SMatrix;
 
@@ -184,7 +184,7 @@ fn inverted<const D: usize>(block: &Block<D>, least_pivot: &mut f64) -> Block<D>
 
 /// What is left of the nodes of chains, whose elements are condensed onto their ends.
 pub(super) fn condense(chains: &mut [Chain], packs: &[Element], least_pivots: &[Lane]) -> Kept {
-    let mut kept = Kept { plane: [ZERO; 6], across: [ZERO; 3], least_pivot: [f64::INFINITY; LANES] };
+    let mut kept = Kept::default();
     for (lane, chain) in chains.iter_mut().enumerate() {
         chain.condense(packs, least_pivots, lane, &mut kept);
     }
@@ -202,7 +202,7 @@ pub(super) fn ends(chains: &[Chain], packs: usize, plane: &[Lane; IN_PLANE], acr
 
 /// The sums over each chain, of what packs have.
 pub(super) fn sums(chains: &[Chain], of_packs: &[[Lane; 2]]) -> [Lane; 2] {
-    let mut sums = [ZERO; 2];
+    let mut sums = [[0.0; LANES]; 2];
     for (component, sums) in sums.iter_mut().enumerate() {
         let of_packs: Vec<Lane> = of_packs.iter().map(|both| both[component]).collect();
         for (sum, chain) in sums.iter_mut().zip(chains) {

@@ -1,6 +1,7 @@
 //! One element of each of several cables: its matrices, and their elimination.
 
-use super::lanes::{Lane, Lanes, Part, ZERO};
+use super::LANES;
+use super::lanes::{Lane, Lanes, Line, Part, ZERO};
 use super::tables::{MASSES, RULES, TRIPLES};
 use crate::catenary::Catenary;
 use pulp::Simd;
@@ -70,10 +71,10 @@ impl Element {
     /// With so many Legendre terms of C, by Gauss's rule.
     #[inline(always)]
     pub(super) fn new<S: Simd>(simd: S, s: &Shapes, terms: usize) -> Self {
-        let mut coefficients = Lanes::zeros(PARTS * terms);
+        let mut coefficients = Lanes::any(PARTS * terms);
         // With as many points as terms, what is left out comes back in the last term at most.
         let rule = &RULES[terms - 1];
-        let mut at_points = Lanes::zeros(PARTS * terms);
+        let mut at_points = Lanes::any(PARTS * terms);
         for part in Part::all(simd) {
             for (xi, parts) in rule.points.iter().zip(at_points.chunks_exact_mut(PARTS)) {
                 for (lane, value) in parts.iter_mut().zip(s.integrands(part, *xi)) {
@@ -161,17 +162,13 @@ impl Element {
     ) {
         self.refine::<S, H>(simd, degree);
         let functions = degree + H - 1;
-        let inertia: Lane = from_fn(|i| x * self.half_mass[i]);
+        let inertia = self.half_mass.map(|mass| x * mass);
         let Self { plane, across, plane_factor, across_factor, .. } = self;
-        plane_factor.clear();
-        plane_factor.extend_from_slice(&plane[..place(2 * functions, 0)]);
-        across_factor.clear();
-        across_factor.extend_from_slice(&across[..place(functions, 0)]);
+        plane_factor.resize(place(2 * functions, 0), ZERO);
+        across_factor.resize(place(functions, 0), ZERO);
         for part in Part::all(simd) {
-            take_inertia::<S, 2, H>(part, plane_factor, functions, &inertia);
-            take_inertia::<S, 1, H>(part, across_factor, functions, &inertia);
-            eliminate(part, plane_factor, 2 * functions, plane_kept, least_pivot);
-            eliminate(part, across_factor, functions, across_kept, least_pivot);
+            factor::<S, 2, H>(part, plane, plane_factor, functions, &inertia, plane_kept, least_pivot);
+            factor::<S, 1, H>(part, across, across_factor, functions, &inertia, across_kept, least_pivot);
         }
         self.functions = functions;
     }
@@ -183,26 +180,14 @@ impl Element {
         [substitute(simd, plane_factor, 2 * functions, plane), substitute(simd, across_factor, *functions, across)]
     }
 
-    /// M a in plane and out of plane, over half the mass; the same for all elements.
+    /// `aᵀ M b` in plane and out of plane.
     #[inline(always)]
-    pub(super) fn weighed<S: Simd, const H: usize>(simd: S, [plane, across]: &[Lanes; 2]) -> [Lanes; 2] {
-        let mut all = [Lanes::zeros(plane.len()), Lanes::zeros(across.len())];
-        for part in Part::all(simd) {
-            weigh::<S, 2, H>(part, plane, &mut all[0]);
-            weigh::<S, 1, H>(part, across, &mut all[1]);
-        }
-        all
-    }
-
-    /// `aᵀ M b` in plane and out of plane, from a and what [`weighed`](Self::weighed) makes of b.
-    #[inline(always)]
-    pub(super) fn mass<S: Simd>(&self, simd: S, a: &[Lanes; 2], weighed: &[Lanes; 2]) -> [Lane; 2] {
-        let mut masses = [ZERO; 2];
+    pub(super) fn mass<S: Simd, const H: usize>(&self, simd: S, a: &[Lanes; 2], b: &[Lanes; 2]) -> [Lane; 2] {
+        let mut masses = [[0.0; LANES]; 2];
         for part in Part::all(simd) {
             let half_mass = part.of(&self.half_mass);
-            for ((mass, a), b) in masses.iter_mut().zip(a).zip(weighed) {
-                part.set(mass, part.mul(half_mass, part.dot(a, b)));
-            }
+            part.set(&mut masses[0], part.mul(half_mass, mass::<S, 2, H>(part, &a[0], &b[0])));
+            part.set(&mut masses[1], part.mul(half_mass, mass::<S, 1, H>(part, &a[1], &b[1])));
         }
         masses
     }
@@ -232,64 +217,108 @@ impl Shapes {
     }
 }
 
-/// Takes x M off the stiffness of D components a function.
+/// K − xM of D components a function without the unknowns from number `kept` on, whose rows keep what [`substitute`]
+/// needs.
 #[inline(always)]
-fn take_inertia<S: Simd, const D: usize, const H: usize>(
+fn factor<S: Simd, const D: usize, const H: usize>(
     part: Part<S>,
-    matrix: &mut [Lane],
+    stiffness: &[Line],
+    matrix: &mut [Line],
     functions: usize,
     inertia: &Lane,
+    kept: usize,
+    least_pivot: &mut Lane,
 ) {
+    for (entry, k) in matrix.iter_mut().zip(stiffness) {
+        part.set(entry, part.of(k));
+    }
     let inertia = part.neg(part.of(inertia));
     for (k, j, mass) in MASSES[H - 1].of(functions) {
         let mass = part.mul(part.splat(*mass), inertia);
         for d in 0..D {
             let entry = &mut matrix[place(D * k + d, D * j + d)];
-            part.set(entry, part.simd.add_f64s(part.of(entry), mass));
+            let less = part.simd.add_f64s(part.of(entry), mass);
+            part.set(entry, less);
         }
+    }
+    let n = D * functions;
+    let odd = (n - kept) % ABREAST;
+    let first = n - odd;
+    match odd {
+        1 => eliminate::<S, 1>(part, matrix, first, least_pivot),
+        2 => eliminate::<S, 2>(part, matrix, first, least_pivot),
+        3 => eliminate::<S, 3>(part, matrix, first, least_pivot),
+        _ => {}
+    }
+    for t in (kept..first).step_by(ABREAST).rev() {
+        eliminate::<S, ABREAST>(part, matrix, t, least_pivot);
     }
 }
 
-/// Eliminates the unknowns from the last of `n` down to number `kept`, two at a time; their rows keep what
-/// [`substitute`] needs.
+/// Unknowns eliminated at a time: so many products to each number that is fetched and stored.
+const ABREAST: usize = 4;
+
+/// Eliminates unknowns t, t + 1, … t + R − 1, the last of those that are left.
 #[inline(always)]
-fn eliminate<S: Simd>(part: Part<S>, matrix: &mut [Lane], n: usize, kept: usize, least_pivot: &mut Lane) {
-    let mut t = n;
-    if (n - kept) % 2 == 1 {
-        t -= 1;
-        let (above, pivot_row) = matrix[..place(t + 1, 0)].split_at_mut(place(t, 0));
-        let inverse = part.neg(invert_pivot(part, pivot_row, t, least_pivot));
-        for row in 0..t {
-            let factor = part.mul(part.of(&pivot_row[row]), inverse);
-            for (entry, a) in above[place(row, 0)..=place(row, row)].iter_mut().zip(&*pivot_row) {
-                part.set(entry, part.mul_add(factor, part.of(a), part.of(entry)));
+fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usize, least_pivot: &mut Lane) {
+    let (above, mut rest) = matrix[..place(t + R, 0)].split_at_mut(place(t, 0));
+    let mut rows: [&mut [Line]; R] = from_fn(|r| {
+        let (row, further) = std::mem::take(&mut rest).split_at_mut(t + r + 1);
+        rest = further;
+        row
+    });
+    let mut inverses = [part.splat(0.0); R];
+    for r in (0..R).rev() {
+        let (lower, row) = rows.split_at_mut(r);
+        inverses[r] = part.neg(invert_pivot(part, row[0], t + r, least_pivot));
+        for (k, lower) in lower.iter_mut().enumerate() {
+            let factor = part.mul(part.of(&row[0][t + k]), inverses[r]);
+            for (entry, a) in lower.iter_mut().zip(&*row[0]) {
+                let less = part.mul_add(factor, part.of(a), part.of(entry));
+                part.set(entry, less);
             }
         }
     }
-    while t > kept {
-        t -= 2;
-        let (above, rows) = matrix[..place(t + 2, 0)].split_at_mut(place(t, 0));
-        let (second, first) = rows.split_at_mut(t + 1);
-        let inverse = part.neg(invert_pivot(part, first, t + 1, least_pivot));
-        let factor = part.mul(part.of(&first[t]), inverse);
-        for (entry, a) in second.iter_mut().zip(&*first) {
-            part.set(entry, part.mul_add(factor, part.of(a), part.of(entry)));
+    let rows: [&[Line]; R] = rows.map(|row| &row[..t]);
+    // Two rows at a time share what they fetch.
+    let mut row = t % 2;
+    if row == 1 {
+        let mut sum = part.of(&above[0]);
+        for r in 0..R {
+            let a = part.of(&rows[r][0]);
+            sum = part.mul_add(part.mul(a, inverses[r]), a, sum);
         }
-        let inverse_second = part.neg(invert_pivot(part, second, t, least_pivot));
-        for row in 0..t {
-            let p = part.mul(part.of(&first[row]), inverse);
-            let q = part.mul(part.of(&second[row]), inverse_second);
-            let entries = &mut above[place(row, 0)..=place(row, row)];
-            for ((entry, a), b) in entries.iter_mut().zip(&*first).zip(&*second) {
-                let once = part.mul_add(p, part.of(a), part.of(entry));
-                part.set(entry, part.mul_add(q, part.of(b), once));
+        part.set(&mut above[0], sum);
+    }
+    while row < t {
+        let (mut factors, mut further_factors) = (inverses, inverses);
+        for r in 0..R {
+            factors[r] = part.mul(part.of(&rows[r][row]), inverses[r]);
+            further_factors[r] = part.mul(part.of(&rows[r][row + 1]), inverses[r]);
+        }
+        let (entries, further) = above[place(row, 0)..place(row + 2, 0)].split_at_mut(row + 1);
+        let (further, last) = further.split_at_mut(row + 1);
+        for (column, (entry, further)) in entries.iter_mut().zip(further).enumerate() {
+            let (mut sum, mut further_sum) = (part.of(entry), part.of(further));
+            for r in 0..R {
+                let a = part.of(&rows[r][column]);
+                sum = part.mul_add(factors[r], a, sum);
+                further_sum = part.mul_add(further_factors[r], a, further_sum);
             }
+            part.set(entry, sum);
+            part.set(further, further_sum);
         }
+        let mut sum = part.of(&last[0]);
+        for r in 0..R {
+            sum = part.mul_add(further_factors[r], part.of(&rows[r][row + 1]), sum);
+        }
+        part.set(&mut last[0], sum);
+        row += 2;
     }
 }
 
 #[inline(always)]
-fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Lane], at: usize, least_pivot: &mut Lane) -> S::f64s {
+fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Line], at: usize, least_pivot: &mut Lane) -> S::f64s {
     let pivot = part.of(&row[at]);
     let least = part.of(least_pivot);
     let lower = part.simd.less_than_f64s(pivot, least);
@@ -301,29 +330,61 @@ fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Lane], at: usize, least_pivot
 
 /// The eliminated unknowns, at rest but for what the kept ones do to them.
 #[inline(always)]
-fn substitute<S: Simd>(simd: S, factor: &[Lane], n: usize, kept: &[Lane]) -> Lanes {
-    let mut all = Lanes::zeros(n);
-    all[..kept.len()].copy_from_slice(kept);
+fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lanes {
+    let mut all = Lanes::any(n);
+    for (line, lane) in all.iter_mut().zip(kept) {
+        line.0 = *lane;
+    }
     for part in Part::all(simd) {
-        for t in kept.len()..n {
+        let mut t = kept.len();
+        if (n - t) % 2 == 1 {
             let row = &factor[place(t, 0)..=place(t, t)];
             let sum = part.dot(&row[..t], &all[..t]);
             part.set(&mut all[t], part.neg(part.mul(sum, part.of(&row[t]))));
+            t += 1;
+        }
+        // Two at a time: the second waits for the first in one product only.
+        while t < n {
+            let (first, second) = factor[place(t, 0)..place(t + 2, 0)].split_at(t + 1);
+            let (known, new) = all.split_at_mut(t);
+            let mut sums = [part.splat(0.0); 4];
+            let mut columns = first.chunks_exact(2).zip(second.chunks_exact(2)).zip(known.chunks_exact(2));
+            for ((a, b), known) in columns.by_ref() {
+                for k in 0..2 {
+                    let value = part.of(&known[k]);
+                    sums[k] = part.mul_add(part.of(&a[k]), value, sums[k]);
+                    sums[2 + k] = part.mul_add(part.of(&b[k]), value, sums[2 + k]);
+                }
+            }
+            if t % 2 == 1 {
+                let value = part.of(&known[t - 1]);
+                sums[0] = part.mul_add(part.of(&first[t - 1]), value, sums[0]);
+                sums[2] = part.mul_add(part.of(&second[t - 1]), value, sums[2]);
+            }
+            let value = part.neg(part.mul(simd.add_f64s(sums[0], sums[1]), part.of(&first[t])));
+            let sum = part.mul_add(part.of(&second[t]), value, simd.add_f64s(sums[2], sums[3]));
+            part.set(&mut new[0], value);
+            part.set(&mut new[1], part.neg(part.mul(sum, part.of(&second[t + 1]))));
+            t += 2;
         }
     }
     all
 }
 
+/// `aᵀ M b` of D components a function, over half the mass.
 #[inline(always)]
-fn weigh<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Lane], into: &mut [Lane]) {
+fn mass<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Line], b: &[Line]) -> S::f64s {
+    let mut sums = [part.splat(0.0); D];
     for (k, j, mass) in MASSES[H - 1].of(a.len() / D) {
         let mass = part.splat(*mass);
-        for d in 0..D {
+        for (d, sum) in sums.iter_mut().enumerate() {
             let (k, j) = (D * k + d, D * j + d);
-            part.add_scaled(&mut into[k], mass, &a[j]);
+            let mut product = part.mul(part.of(&a[k]), part.of(&b[j]));
             if j != k {
-                part.add_scaled(&mut into[j], mass, &a[k]);
+                product = part.mul_add(part.of(&a[j]), part.of(&b[k]), product);
             }
+            *sum = part.mul_add(mass, product, *sum);
         }
     }
+    if D == 1 { sums[0] } else { part.simd.add_f64s(sums[0], sums[1]) }
 }

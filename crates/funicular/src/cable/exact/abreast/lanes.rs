@@ -8,7 +8,29 @@ use std::ops::{Deref, DerefMut};
 /// One number a cable or element.
 pub(crate) type Lane = [f64; LANES];
 
-pub(super) const ZERO: Lane = [0.0; LANES];
+/// The same in memory that is worked on: aligned, since a register that straddles two lines of the cache is fetched
+/// twice. (Not everywhere, since aligned memory takes longer to get.)
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub(super) struct Line(pub(super) Lane);
+
+pub(super) const ZERO: Line = Line([0.0; LANES]);
+
+impl Deref for Line {
+    type Target = [f64; LANES];
+
+    #[inline(always)]
+    fn deref(&self) -> &[f64; LANES] {
+        &self.0
+    }
+}
+
+impl DerefMut for Line {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [f64; LANES] {
+        &mut self.0
+    }
+}
 
 /// The share of one register in every lane; what the compiler makes of loops over lanes may go across them instead.
 #[derive(Clone, Copy)]
@@ -55,15 +77,9 @@ impl<S: Simd> Part<S> {
         self.simd.neg_f64s(a)
     }
 
-    #[inline(always)]
-    pub(super) fn add_scaled(self, sum: &mut Lane, factor: S::f64s, a: &Lane) {
-        let value = self.mul_add(factor, self.of(a), self.of(sum));
-        self.set(sum, value);
-    }
-
     /// `Σ a b`, lane by lane.
     #[inline(always)]
-    pub(super) fn dot(self, a: &[Lane], b: &[Lane]) -> S::f64s {
+    pub(super) fn dot(self, a: &[Line], b: &[Line]) -> S::f64s {
         // Two sums, of which neither waits for the other.
         let mut sums = [self.splat(0.0); 2];
         let (a_pairs, b_pairs) = (a.chunks_exact(2), b.chunks_exact(2));
@@ -87,10 +103,10 @@ impl<S: Simd> Part<S> {
 /// Lanes in memory that the thread keeps for the next robot: given back to the system with each, they would come again
 /// as page faults.
 #[derive(Debug, Default)]
-pub(super) struct Lanes(Vec<Lane>);
+pub(super) struct Lanes(Vec<Line>);
 
 thread_local! {
-    static SPARE: RefCell<Vec<Vec<Lane>>> = const { RefCell::new(Vec::new()) };
+    static SPARE: RefCell<Vec<Vec<Line>>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Most pieces of memory that a thread keeps.
@@ -98,20 +114,20 @@ const MOST_SPARE: usize = 128;
 
 impl Lanes {
     pub(super) fn new() -> Self {
-        Self(SPARE.with_borrow_mut(Vec::pop).unwrap_or_default())
+        Self::any(0)
     }
 
-    pub(super) fn zeros(count: usize) -> Self {
-        let mut lanes = Self::new();
+    /// Of any values: they are to be set.
+    pub(super) fn any(count: usize) -> Self {
+        let mut lanes = SPARE.with_borrow_mut(Vec::pop).unwrap_or_default();
         lanes.resize(count, ZERO);
-        lanes
+        Self(lanes)
     }
 }
 
 impl Drop for Lanes {
     fn drop(&mut self) {
-        let mut lanes = std::mem::take(&mut self.0);
-        lanes.clear();
+        let lanes = std::mem::take(&mut self.0);
         // At the end of a thread there is nobody to keep it.
         let _ = SPARE.try_with(|spare| {
             let mut spare = spare.borrow_mut();
@@ -123,15 +139,15 @@ impl Drop for Lanes {
 }
 
 impl Deref for Lanes {
-    type Target = Vec<Lane>;
+    type Target = Vec<Line>;
 
-    fn deref(&self) -> &Vec<Lane> {
+    fn deref(&self) -> &Vec<Line> {
         &self.0
     }
 }
 
 impl DerefMut for Lanes {
-    fn deref_mut(&mut self) -> &mut Vec<Lane> {
+    fn deref_mut(&mut self) -> &mut Vec<Line> {
         &mut self.0
     }
 }
