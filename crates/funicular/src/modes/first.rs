@@ -5,6 +5,7 @@
 //! one element a cable serves, and its unknowns but the lowest bubbles go out by one factorisation at a frequency, all
 //! cables side by side (docs/theory.md, section 9).
 
+mod arms;
 mod cables;
 mod factor;
 mod pencil;

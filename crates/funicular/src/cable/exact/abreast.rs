@@ -15,13 +15,12 @@ mod lanes;
 mod tables;
 
 pub(crate) use element::place;
-pub(crate) use lanes::Lane;
+pub(crate) use lanes::{Lane, Lanes, Line, Part};
 
 use crate::catenary::Catenary;
 use chain::Chain;
 use cuts::Mesh;
 use element::{Element, Shapes};
-use lanes::Lanes;
 use pulp::Simd;
 use std::array::from_fn;
 
@@ -70,14 +69,6 @@ impl Default for Kept {
     /// Zero, of nothing eliminated.
     fn default() -> Self {
         Self { plane: Default::default(), across: Default::default(), least_pivot: [f64::INFINITY; LANES] }
-    }
-}
-
-impl Kept {
-    /// The entries of one cable, in plane and out of plane.
-    #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> ([f64; 6], [f64; 3]) {
-        (from_fn(|entry| self.plane[entry][lane]), from_fn(|entry| self.across[entry][lane]))
     }
 }
 
@@ -266,6 +257,11 @@ mod tests {
     use crate::catenary::Rope;
     use proptest::prelude::*;
 
+    /// The entries of one cable, in plane and out of plane.
+    fn of(kept: &Kept, lane: usize) -> ([f64; 6], [f64; 3]) {
+        (from_fn(|entry| kept.plane[entry][lane]), from_fn(|entry| kept.across[entry][lane]))
+    }
+
     /// Slope, length over chord, elasticity.
     fn cable((slope, slack, stiffness): (f64, f64, f64)) -> Catenary {
         let (span, rise) = (6.0 * (1.0 - slope * slope).sqrt(), 6.0 * slope);
@@ -300,7 +296,7 @@ mod tests {
             prop_assert_eq!(places.len(), cables.len());
             for (k, lane, i) in places {
                 let (abreast, kept, exact) = (&groups[k], &kept[k], &oracles[i]);
-                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = kept.of(lane);
+                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
                 prop_assert!(kept.least_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
                 let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
                 let k = exact.undamped(x.sqrt());
@@ -329,7 +325,7 @@ mod tests {
             let x = part * exact.in_plane.poles[0].min(exact.out_of_plane.poles[0]);
             let abreast = &mut Abreast::groups(&[(&catenary, MASS)]).unwrap()[0];
             let mut work = |x: f64| {
-                let ([nn, en, ee, ..], [oo, ..]) = abreast.kept(x, 24).of(0);
+                let ([nn, en, ee, ..], [oo, ..]) = of(&abreast.kept(x, 24), 0);
                 [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
             };
             let step = 1e-3 * x;

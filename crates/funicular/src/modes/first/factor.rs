@@ -1,47 +1,88 @@
 //! The pencil at a shift, factored: bubbles first, then the platform.
 
-use super::pencil::{Motion, Pencil};
-use crate::cable::exact::abreast::Kept;
+use super::arms::{Motion, sum};
+use super::pencil::Pencil;
+use crate::cable::exact::abreast::{Kept, LANES, Lane, Part};
 use crate::math::Mat6;
+use pulp::Simd;
 
 pub(super) struct Factor {
     /// L below the diagonal, inverse pivots on it.
     platform: Mat6,
-    /// Of each arm: stiffness of its bubbles against the end (qn, qe, bo), and the inverses of their pivots.
-    bubbles: Vec<([f64; 3], [f64; 2])>,
+    bubbles: Vec<Bubbles>,
     /// Pivots that are not positive; as many eigenvalues lie below the shift, if those of what has been eliminated do not.
     pub(super) negative: usize,
 }
 
-impl Factor {
-    /// Without exchanges: a positive definite pencil needs none, and of another one only a direction is wanted.
-    pub(super) fn of(pencil: &Pencil, kept: &[Kept], x: f64) -> Self {
+/// Of a group's cables: stiffness of the bubbles against the end, and the inverses of their pivots.
+#[derive(Default)]
+struct Bubbles {
+    normal: Lane,
+    along: Lane,
+    out: Lane,
+    inverse: Lane,
+    inverse_across: Lane,
+}
+
+struct Factorise<'a> {
+    pencil: &'a Pencil,
+    kept: &'a [Kept],
+    x: f64,
+}
+
+impl pulp::WithSimd for Factorise<'_> {
+    type Output = Factor;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Factor {
+        let Self { pencil, kept, x } = self;
         let n = pencil.freedoms;
         let mut d = pencil.constant - pencil.mass * x;
-        let mut bubbles = Vec::with_capacity(pencil.arms.len());
         let mut negative = 0;
-        let not_positive = |pivot: f64| usize::from(pivot.is_nan() || pivot <= 0.0);
-        for arm in &pencil.arms {
-            let (k, lane) = (&kept[arm.group], arm.lane);
-            let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = k.of(lane);
-            negative += 2 * not_positive(k.least_pivot[lane]) + not_positive(qq) + not_positive(bb);
-            let (inverse, inverse_across) = (1.0 / qq, 1.0 / bb);
-            let nn = nn - qn * qn * inverse;
-            let en = en - qn * qe * inverse;
-            let ee = ee - qe * qe * inverse;
-            let oo = oo - bo * bo * inverse_across;
-            let by_n = arm.normal * nn + arm.along * en;
-            let by_e = arm.normal * en + arm.along * ee;
-            let by_b = arm.out * oo;
+        let mut all = Vec::with_capacity(kept.len());
+        for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
+            for lane in 0..cables.len() {
+                let pivots = [k.least_pivot[lane], k.least_pivot[lane], k.plane[5][lane], k.across[2][lane]];
+                negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
+            }
+            let mut bubbles = Bubbles::default();
+            let [nn, en, ee, qn, qe, qq] = &k.plane;
+            let [oo, bo, bb] = &k.across;
+            let mut entries = [[0.0; LANES]; 21];
+            for part in Part::all(simd) {
+                let (qn, qe, bo) = (part.of(qn), part.of(qe), part.of(bo));
+                let (inverse, inverse_across) = (part.inverse(part.of(qq)), part.inverse(part.of(bb)));
+                let (by_qn, by_qe) = (part.neg(part.mul(qn, inverse)), part.neg(part.mul(qe, inverse)));
+                let nn = part.mul_add(qn, by_qn, part.of(nn));
+                let en = part.mul_add(qn, by_qe, part.of(en));
+                let ee = part.mul_add(qe, by_qe, part.of(ee));
+                let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_across)), part.of(oo));
+                let mut entry = entries.iter_mut();
+                for j in 0..6 {
+                    let (normal, along) = (part.of(&arms.normal[j]), part.of(&arms.along[j]));
+                    let by_n = part.mul_add(nn, normal, part.mul(en, along));
+                    let by_e = part.mul_add(en, normal, part.mul(ee, along));
+                    let by_b = part.mul(oo, part.of(&arms.out[j]));
+                    for (i, entry) in (j..6).zip(&mut entry) {
+                        part.set(entry, arms.wrench(part, i, [by_n, by_e, by_b]));
+                    }
+                }
+                part.set(&mut bubbles.normal, qn);
+                part.set(&mut bubbles.along, qe);
+                part.set(&mut bubbles.out, bo);
+                part.set(&mut bubbles.inverse, inverse);
+                part.set(&mut bubbles.inverse_across, inverse_across);
+            }
+            let mut entry = entries.iter();
             for j in 0..6 {
-                for i in 0..6 {
-                    d[(i, j)] += arm.normal[i] * by_n[j] + arm.along[i] * by_e[j] + arm.out[i] * by_b[j];
+                for (i, entry) in (j..6).zip(&mut entry) {
+                    d[(i, j)] += sum(entry);
                 }
             }
-            bubbles.push(([qn, qe, bo], [inverse, inverse_across]));
+            all.push(bubbles);
         }
         for k in 0..n {
-            negative += not_positive(d[(k, k)]);
+            negative += usize::from(not_positive(d[(k, k)]));
             let inverse = 1.0 / d[(k, k)];
             for j in k + 1..n {
                 let factor = d[(j, k)] * inverse;
@@ -54,16 +95,42 @@ impl Factor {
             }
             d[(k, k)] = inverse;
         }
-        Self { platform: d, bubbles, negative }
+        Factor { platform: d, bubbles: all, negative }
+    }
+}
+
+fn not_positive(pivot: f64) -> bool {
+    pivot.is_nan() || pivot <= 0.0
+}
+
+impl Factor {
+    /// Without exchanges: a positive definite pencil needs none, and of another one only a direction is wanted.
+    pub(super) fn of(pencil: &Pencil, kept: &[Kept], x: f64) -> Self {
+        pulp::Arch::new().dispatch(Factorise { pencil, kept, x })
     }
 
-    pub(super) fn solve(&self, pencil: &Pencil, force: &Motion) -> Motion {
+    #[inline(always)]
+    pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &Pencil, force: &Motion, into: &mut Motion) {
         let n = pencil.freedoms;
-        let mut v = force.platform;
-        let arms = || pencil.arms.iter().zip(&force.bubbles).zip(&self.bubbles);
-        for ((arm, [f, g]), ([qn, qe, bo], [inverse, inverse_across])) in arms() {
-            let (f, g) = (f * inverse, g * inverse_across);
-            v -= arm.wrench([qn * f, qe * f, bo * g]);
+        let mut v = *force.platform();
+        for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
+            let [f, g] = force.bubbles(group);
+            let mut wrench = [[0.0; LANES]; 6];
+            for part in Part::all(simd) {
+                let f = part.mul(part.of(f), part.of(&bubbles.inverse));
+                let g = part.mul(part.of(g), part.of(&bubbles.inverse_across));
+                let ends = [
+                    part.mul(part.of(&bubbles.normal), f),
+                    part.mul(part.of(&bubbles.along), f),
+                    part.mul(part.of(&bubbles.out), g),
+                ];
+                for (i, wrench) in wrench.iter_mut().enumerate() {
+                    part.set(wrench, arms.wrench(part, i, ends));
+                }
+            }
+            for (v, wrench) in v.iter_mut().zip(&wrench) {
+                *v -= sum(wrench);
+            }
         }
         for j in 0..n {
             for i in j + 1..n {
@@ -76,12 +143,18 @@ impl Factor {
                 v[j] -= self.platform[(i, j)] * v[i];
             }
         }
-        let bubbles = arms()
-            .map(|((arm, [f, g]), ([qn, qe, bo], [inverse, inverse_across]))| {
-                let [n, e, b] = arm.end(&v);
-                [(f - qn * n - qe * e) * inverse, (g - bo * b) * inverse_across]
-            })
-            .collect();
-        Motion { platform: v, bubbles }
+        *into.platform_mut() = v;
+        for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
+            let [f, g] = force.bubbles(group);
+            let [q, p] = into.bubbles_mut(group);
+            for part in Part::all(simd) {
+                let [n, e, b] = arms.ends(part, &v);
+                let left = part.mul_add(part.neg(n), part.of(&bubbles.normal), part.of(f));
+                let left = part.mul_add(part.neg(e), part.of(&bubbles.along), left);
+                part.set(q, part.mul(left, part.of(&bubbles.inverse)));
+                let left = part.mul_add(part.neg(b), part.of(&bubbles.out), part.of(g));
+                part.set(p, part.mul(left, part.of(&bubbles.inverse_across)));
+            }
+        }
     }
 }

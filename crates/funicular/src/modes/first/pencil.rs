@@ -1,14 +1,16 @@
 //! The whole robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
+use super::arms::{Arms, Motion, sum};
 use super::cables::{Reduced, Whole, degree_of_start};
 use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
-use crate::cable::exact::abreast::{ACROSS, Abreast, IN_PLANE, Kept, LANES, Lane};
+use crate::cable::exact::abreast::{Abreast, Kept, LANES, Line, Part};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, Still};
 use crate::math::{Mat6, Vec6};
 use crate::robot::{Freedoms, Robot};
 use crate::statics::{Equilibrium, wrench_of};
+use pulp::Simd;
 use std::array::from_fn;
 
 /// A robot about its equilibrium.
@@ -19,70 +21,14 @@ pub(super) struct Pencil {
     /// Stiffness of what has no frequency, and mass of the platform; scaled, in the platform's coordinates.
     pub(super) constant: Mat6,
     pub(super) mass: Mat6,
-    pub(super) arms: Vec<Arm>,
+    /// Columns of the mass.
+    mass_columns: [Line; 6],
+    /// Of each group of cables that have mass.
+    pub(super) arms: Vec<Arms>,
+    /// Which cables these are.
+    pub(super) members: Vec<Vec<usize>>,
     groups: Vec<Abreast>,
     cable_count: usize,
-}
-
-/// A cable that has mass, its axes as scaled vectors.
-pub(super) struct Arm {
-    cable: usize,
-    /// Where its matrices are.
-    pub(super) group: usize,
-    pub(super) lane: usize,
-    pub(super) normal: Vec6,
-    pub(super) along: Vec6,
-    pub(super) out: Vec6,
-}
-
-impl Arm {
-    /// How its platform end moves: n, e, b.
-    pub(super) fn end(&self, platform: &Vec6) -> [f64; 3] {
-        [self.normal.dot(platform), self.along.dot(platform), self.out.dot(platform)]
-    }
-
-    pub(super) fn wrench(&self, [n, e, b]: [f64; 3]) -> Vec6 {
-        self.normal * n + self.along * e + self.out * b
-    }
-}
-
-/// Motion of the platform, and of each arm's lowest bubbles in plane and out of plane.
-#[derive(Clone)]
-pub(super) struct Motion {
-    pub(super) platform: Vec6,
-    pub(super) bubbles: Vec<[f64; 2]>,
-}
-
-impl Motion {
-    pub(super) fn scale(&mut self, factor: f64) {
-        self.platform *= factor;
-        for bubbles in &mut self.bubbles {
-            *bubbles = bubbles.map(|q| q * factor);
-        }
-    }
-
-    pub(super) fn add(&mut self, factor: f64, other: &Self) {
-        self.platform += other.platform * factor;
-        for (a, b) in self.bubbles.iter_mut().zip(&other.bubbles) {
-            *a = [a[0] + factor * b[0], a[1] + factor * b[1]];
-        }
-    }
-
-    pub(super) fn dot(&self, other: &Self) -> f64 {
-        let bubbles = self.bubbles.iter().zip(&other.bubbles);
-        self.platform.dot(&other.platform) + bubbles.map(|(a, b)| a[0] * b[0] + a[1] * b[1]).sum::<f64>()
-    }
-
-    /// The kept unknowns of a group of arms.
-    pub(super) fn lanes(&self, arms: &[Arm], group: usize) -> ([Lane; IN_PLANE], [Lane; ACROSS]) {
-        let (mut plane, mut across) = ([[0.0; LANES]; IN_PLANE], [[0.0; LANES]; ACROSS]);
-        for (arm, [q, p]) in arms.iter().zip(&self.bubbles).filter(|(arm, _)| arm.group == group) {
-            let ([n, e, b], i) = (arm.end(&self.platform), arm.lane);
-            (plane[0][i], plane[1][i], plane[2][i]) = (n, e, *q);
-            (across[0][i], across[1][i]) = (b, *p);
-        }
-        (plane, across)
-    }
 }
 
 /// Tangents that are drawn before all unknowns are looked at, and the relative change of x that ends it.
@@ -110,19 +56,23 @@ impl Pencil {
             curves.push((&hanging.catenary, mass_per_length));
         }
         let groups = Abreast::groups(&curves)?;
-        let arm = |group: usize, lane: usize| {
-            let (cable, hanging): (usize, &HangingCable) = massive[groups[group].members()[lane]];
-            let (level_w, up_w) = hanging.axes_w();
-            let [cos, sin] = groups[group].axis(lane);
-            let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
-            let lever = equilibrium.cables[cable].lever_w / ell;
-            let along = |u| motions.reduced(&wrench_of(&u, &lever));
-            Arm { cable, group, lane, normal: along(n), along: along(e), out: along(e.cross(&n)) }
-        };
-        let places = |group: usize| (0..groups[group].members().len()).map(move |lane| (group, lane));
-        let arms = (0..groups.len()).flat_map(places).map(|(group, lane)| arm(group, lane)).collect();
+        let (mut arms, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
+        for group in &groups {
+            let mut axes = Arms::default();
+            for (lane, at) in group.members().iter().enumerate() {
+                let (cable, hanging): (usize, &HangingCable) = massive[*at];
+                let (level_w, up_w) = hanging.axes_w();
+                let [cos, sin] = group.axis(lane);
+                let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
+                let lever = equilibrium.cables[cable].lever_w / ell;
+                axes.set(lane, [n, e, e.cross(&n)].map(|u| motions.reduced(&wrench_of(&u, &lever))));
+            }
+            arms.push(axes);
+            members.push(group.members().iter().map(|at| massive[*at].0).collect());
+        }
+        let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
         let (freedoms, cable_count) = (motions.count(), robot.cables.len());
-        Some(Self { freedoms, motions, ell, constant, mass, arms, groups, cable_count })
+        Some(Self { freedoms, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
     }
 
     /// None if the equilibrium is unstable, or the search does not end.
@@ -172,45 +122,80 @@ impl Pencil {
             let even = ((i + 97 * number) as f64 * 0.754_877_666).fract();
             if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
         };
-        let platform = Vec6::from_fn(|i, _| if i < self.freedoms { part(i) } else { 0.0 });
-        let bubbles = self
-            .arms
-            .iter()
-            .enumerate()
-            .map(|(i, arm)| {
-                let (mass, lane) = (&masses[arm.group], arm.lane);
-                let [q, p] = [mass.plane[5][lane], mass.across[2][lane]].map(|m| (self.mass[(0, 0)] / m).sqrt());
-                [q * part(2 * i + 6), p * part(2 * i + 7)]
-            })
-            .collect();
-        Motion { platform, bubbles }
+        let mut motion = Motion::any(masses.len());
+        *motion.platform_mut() = from_fn(|i| if i < self.freedoms { part(i) } else { 0.0 });
+        let mut next = 6;
+        for (group, (mass, members)) in masses.iter().zip(&self.members).enumerate() {
+            for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.plane[5], &mass.across[2]]) {
+                let used = members.len();
+                *line =
+                    Line(from_fn(
+                        |i| if i < used { (self.mass[(0, 0)] / mass[i]).sqrt() * part(next + i) } else { 0.0 },
+                    ));
+                next += used;
+            }
+        }
+        motion
     }
 
     /// B y with the masses about x = 0, which inverse iteration goes by: any positive definite B serves it.
-    pub(super) fn inertia(&self, masses: &[Kept], y: &Motion) -> Motion {
-        let mut platform = self.mass * y.platform;
-        let bubbles = self
-            .arms
-            .iter()
-            .zip(&y.bubbles)
-            .map(|(arm, [q, p])| {
-                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = masses[arm.group].of(arm.lane);
-                let [n, e, b] = arm.end(&y.platform);
-                platform += arm.wrench([nn * n + en * e + qn * q, en * n + ee * e + qe * q, oo * b + bo * p]);
-                [qn * n + qe * e + qq * q, bo * b + bb * p]
-            })
-            .collect();
-        Motion { platform, bubbles }
+    #[inline(always)]
+    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &Motion, into: &mut Motion) {
+        let motion = y.platform();
+        let mut platform = [0.0; LANES];
+        for part in Part::all(simd) {
+            let mut sum = part.splat(0.0);
+            for (column, by) in self.mass_columns.iter().zip(motion) {
+                sum = part.mul_add(part.of(column), part.splat(*by), sum);
+            }
+            part.set(&mut platform, sum);
+        }
+        for (group, (arms, mass)) in self.arms.iter().zip(masses).enumerate() {
+            let [q, p] = y.bubbles(group);
+            let [force_q, force_p] = into.bubbles_mut(group);
+            let mut wrench = [[0.0; LANES]; 6];
+            for part in Part::all(simd) {
+                let mut plane = [part.splat(0.0); 6];
+                for (entry, mass) in plane.iter_mut().zip(&mass.plane) {
+                    *entry = part.of(mass);
+                }
+                let [nn, en, ee, qn, qe, qq] = plane;
+                let [oo, bo, bb] = [part.of(&mass.across[0]), part.of(&mass.across[1]), part.of(&mass.across[2])];
+                let ([n, e, b], q, p) = (arms.ends(part, motion), part.of(q), part.of(p));
+                let forces = [
+                    part.mul_add(nn, n, part.mul_add(en, e, part.mul(qn, q))),
+                    part.mul_add(en, n, part.mul_add(ee, e, part.mul(qe, q))),
+                    part.mul_add(oo, b, part.mul(bo, p)),
+                ];
+                part.set(force_q, part.mul_add(qn, n, part.mul_add(qe, e, part.mul(qq, q))));
+                part.set(force_p, part.mul_add(bo, b, part.mul(bb, p)));
+                for (i, wrench) in wrench.iter_mut().enumerate() {
+                    part.set(wrench, arms.wrench(part, i, forces));
+                }
+            }
+            for (platform, wrench) in platform.iter_mut().zip(&wrench) {
+                *platform += sum(wrench);
+            }
+        }
+        *into.platform_mut() = platform;
+    }
+
+    /// `aᵀ M b` of the platform alone.
+    pub(super) fn platform_mass(&self, a: &Motion, b: &Motion) -> f64 {
+        let [a, b] = [a, b].map(|motion| Vec6::from_column_slice(&motion.platform()[..6]));
+        a.dot(&(self.mass * b))
     }
 
     fn report(&self, found: &Found) -> First {
         let mut cable_energy_fractions = vec![0.0; self.cable_count];
-        for (arm, mass) in self.arms.iter().zip(&found.arms) {
-            cable_energy_fractions[arm.cable] = mass / found.mass;
+        for (members, masses) in self.members.iter().zip(&found.cables) {
+            for (cable, mass) in members.iter().zip(masses) {
+                cable_energy_fractions[*cable] = mass / found.mass;
+            }
         }
-        let platform = &found.motions[0].platform;
-        let platform_energy_fraction = platform.dot(&(self.mass * platform)) / found.mass;
-        let motion_w = self.motions.expanded(platform);
+        let motion = &found.motions[0];
+        let platform_energy_fraction = self.platform_mass(motion, motion) / found.mass;
+        let motion_w = self.motions.expanded(&Vec6::from_column_slice(&motion.platform()[..6]));
         let largest = motion_w[motion_w.iamax()];
         // What moves a platform at rest is rounding.
         let at_rest = platform_energy_fraction < 1e-15;

@@ -1,10 +1,12 @@
 //! The lowest eigenvalue of a pencil, between a shift at which it is positive definite and a Rayleigh quotient.
 
-use super::cables::Cables;
+use super::arms::{Motion, sum};
+use super::cables::{Cables, Ends};
 use super::factor::Factor;
-use super::pencil::{Motion, Pencil};
-use crate::cable::exact::abreast::{Kept, place};
+use super::pencil::Pencil;
+use crate::cable::exact::abreast::{Kept, LANES, Lane, place};
 use crate::math::DMat;
+use pulp::Simd;
 
 /// How far a search goes.
 pub(super) struct Aim {
@@ -36,8 +38,8 @@ pub(super) struct Found {
     pub(super) motions: Vec<Motion>,
     /// Mass of platform and cables in the first motion.
     pub(super) mass: f64,
-    /// The part of each arm.
-    pub(super) arms: Vec<f64>,
+    /// The part of each cable, in groups.
+    pub(super) cables: Vec<Lane>,
 }
 
 /// The lowest eigenvalue within the aim's width, from a shift x and motions near it; none if the pencil is not positive
@@ -125,88 +127,165 @@ fn improved(
     metric: &[Kept],
     factor: &Factor,
     x: f64,
-    mut motions: Vec<Motion>,
+    motions: Vec<Motion>,
     aim: &Aim,
 ) -> Found {
+    let Iterated { motions, work, ends } =
+        pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, aim });
     let count = motions.len();
-    let mut forces: Vec<Motion> = motions.iter().map(|motion| pencil.inertia(metric, motion)).collect();
-    // A z = B y, so zᵀ A z without another product.
-    let mut images = Vec::new();
-    let mut before = f64::INFINITY;
-    for _ in 0..aim.steps {
-        images = std::mem::take(&mut forces);
-        let mut least = f64::INFINITY;
-        for k in 0..count {
-            motions[k] = factor.solve(pencil, &images[k]);
-            // Apart from each other, or all become the first.
-            let (done, rest) = motions.split_at_mut(k);
-            let (images_done, images_rest) = images.split_at_mut(k);
-            for ((motion, image), force) in done.iter().zip(&*images_done).zip(&forces) {
-                let part = force.dot(&rest[0]);
-                rest[0].add(-part, motion);
-                images_rest[0].add(-part, image);
-            }
-            let mut force = pencil.inertia(metric, &rest[0]);
-            let size = 1.0 / force.dot(&rest[0]).sqrt();
-            for vector in [&mut force, &mut rest[0], &mut images_rest[0]] {
-                vector.scale(size);
-            }
-            least = least.min(rest[0].dot(&images_rest[0]));
-            forces.push(force);
-        }
-        if (least - before).abs() <= 0.01 * least.abs() + 0.1 * aim.width * (x + least).abs() {
-            break;
-        }
-        before = least;
-    }
-    let work = |i: usize, j: usize| motions[i].dot(&images[j]);
-    let mut arms = vec![Vec::with_capacity(pencil.arms.len()); place(count, 0)];
-    for group in 0..metric.len() {
-        let ends: Vec<_> = motions.iter().map(|motion| motion.lanes(&pencil.arms, group)).collect();
-        let lanes = pencil.arms.iter().filter(|arm| arm.group == group).count();
-        for (arms, masses) in arms.iter_mut().zip(cables.mass(group, &ends)) {
-            arms.extend_from_slice(&masses[..lanes]);
+    // Of each pair of motions, the masses of the cables in groups.
+    let mut parts = vec![Vec::with_capacity(ends.len()); place(count, 0)];
+    for (group, ends) in ends.iter().enumerate() {
+        for (part, masses) in parts.iter_mut().zip(cables.mass(group, ends)) {
+            part.push(masses);
         }
     }
     let mass = |i: usize, j: usize| {
-        let by_arms: f64 = arms[place(i.max(j), i.min(j))].iter().sum();
-        motions[i].platform.dot(&(pencil.mass * motions[j].platform)) + by_arms
+        let by_cables: f64 = parts[place(i.max(j), i.min(j))].iter().map(sum).sum();
+        pencil.platform_mass(&motions[i], &motions[j]) + by_cables
     };
     if count == 1 {
         let mass = mass(0, 0);
-        return Found { square: x + work(0, 0) / mass, mass, motions, arms: arms.swap_remove(0) };
+        return Found { square: x + work[0] / mass, mass, motions, cables: parts.swap_remove(0) };
     }
-    combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), &motions, &arms)
+    let work = |i: usize, j: usize| work[count * i + j];
+    combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), motions, &parts)
+}
+
+struct Iteration<'a> {
+    pencil: &'a Pencil,
+    metric: &'a [Kept],
+    factor: &'a Factor,
+    x: f64,
+    motions: Vec<Motion>,
+    aim: &'a Aim,
+}
+
+struct Iterated {
+    motions: Vec<Motion>,
+    /// `yᵀ (K − xM) z` of all pairs of motions.
+    work: Vec<f64>,
+    /// The kept unknowns of each group, of each motion.
+    ends: Vec<Vec<Ends>>,
+}
+
+impl pulp::WithSimd for Iteration<'_> {
+    type Output = Iterated;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Iterated {
+        let Self { pencil, metric, factor, x, mut motions, aim } = self;
+        let count = motions.len();
+        let (mut forces, mut images) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for motion in &motions {
+            let mut force = Motion::any(metric.len());
+            pencil.inertia(simd, metric, motion, &mut force);
+            forces.push(force);
+            images.push(Motion::any(metric.len()));
+        }
+        let mut before = f64::INFINITY;
+        for _ in 0..aim.steps {
+            // A z = B y, so zᵀ A z without another product.
+            std::mem::swap(&mut images, &mut forces);
+            let mut least = f64::INFINITY;
+            for k in 0..count {
+                factor.solve(simd, pencil, &images[k], &mut motions[k]);
+                // Apart from each other, or all become the first.
+                let (done, rest) = motions.split_at_mut(k);
+                let (images_done, images_rest) = images.split_at_mut(k);
+                let (forces_done, forces_rest) = forces.split_at_mut(k);
+                let (motion, image, force) = (&mut rest[0], &mut images_rest[0], &mut forces_rest[0]);
+                for i in 0..k {
+                    let part = forces_done[i].dot(simd, motion);
+                    motion.add(simd, -part, &done[i]);
+                    image.add(simd, -part, &images_done[i]);
+                }
+                pencil.inertia(simd, metric, motion, force);
+                let size = 1.0 / force.dot(simd, motion).sqrt();
+                for vector in [&mut *force, &mut *motion, &mut *image] {
+                    vector.scale(simd, size);
+                }
+                least = least.min(motion.dot(simd, image));
+            }
+            if (least - before).abs() <= 0.01 * least.abs() + 0.1 * aim.width * (x + least).abs() {
+                break;
+            }
+            before = least;
+        }
+        let mut work = Vec::with_capacity(count * count);
+        for motion in &motions {
+            for image in &images {
+                work.push(motion.dot(simd, image));
+            }
+        }
+        let mut ends = Vec::with_capacity(metric.len());
+        for (group, arms) in pencil.arms.iter().enumerate() {
+            let mut of_group = Vec::with_capacity(count);
+            for motion in &motions {
+                of_group.push(motion.kept(simd, arms, group));
+            }
+            ends.push(of_group);
+        }
+        Iterated { motions, work, ends }
+    }
+}
+
+/// `Σ factor motion`.
+struct Sum<'a> {
+    motions: &'a [Motion],
+    factors: Vec<f64>,
+    groups: usize,
+}
+
+impl pulp::WithSimd for Sum<'_> {
+    type Output = Motion;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+        let Self { motions, factors, groups } = self;
+        let mut sum = Motion::any(groups);
+        sum.clear();
+        for (motion, factor) in motions.iter().zip(factors) {
+            sum.add(simd, factor, motion);
+        }
+        sum
+    }
 }
 
 /// The motions in which stiffness and mass are diagonal, ascending by their quotient.
-fn combined(x: f64, work: &DMat, mass: &DMat, motions: &[Motion], arms: &[Vec<f64>]) -> Found {
+fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec<Lane>]) -> Found {
     let count = motions.len();
-    let nothing = || Found { square: f64::NAN, motions: motions.to_vec(), mass: f64::NAN, arms: Vec::new() };
-    let Some(factor) = mass.clone().cholesky() else { return nothing() };
-    let l = factor.l();
-    let (Some(inverse), symmetric) = (l.try_inverse(), (work + work.transpose()) * 0.5) else { return nothing() };
+    let groups = parts[0].len();
+    let factor = mass.clone().cholesky();
+    let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
+        return Found { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
+    };
+    let symmetric = (work + work.transpose()) * 0.5;
     let eigen = (&inverse * symmetric * inverse.transpose()).symmetric_eigen();
-    let parts = inverse.transpose() * &eigen.eigenvectors;
+    let vectors = inverse.transpose() * &eigen.eigenvectors;
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
     let motion = |&k: &usize| {
-        let mut sum = motions[0].clone();
-        sum.scale(parts[(0, k)]);
-        for i in 1..count {
-            sum.add(parts[(i, k)], &motions[i]);
-        }
-        sum
+        let factors = vectors.column(k).iter().copied().collect();
+        pulp::Arch::new().dispatch(Sum { motions: &motions, factors, groups })
     };
-    let first = parts.column(order[0]);
-    let of_arm = |arm: usize| {
-        let pairs = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
-        pairs.map(|(i, j)| first[i] * first[j] * arms[place(i.max(j), i.min(j))][arm]).sum()
+    let first = vectors.column(order[0]);
+    let of_group = |group: usize| {
+        let mut masses = [0.0; LANES];
+        for i in 0..count {
+            for j in 0..count {
+                let part = &parts[place(i.max(j), i.min(j))][group];
+                for (mass, part) in masses.iter_mut().zip(part) {
+                    *mass += first[i] * first[j] * part;
+                }
+            }
+        }
+        masses
     };
     Found {
         square: x + eigen.eigenvalues[order[0]],
         motions: order.iter().map(motion).collect(),
         mass: 1.0,
-        arms: (0..arms[0].len()).map(of_arm).collect(),
+        cables: (0..groups).map(of_group).collect(),
     }
 }

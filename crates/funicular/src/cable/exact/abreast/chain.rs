@@ -185,6 +185,8 @@ fn inverted<const D: usize>(block: &Block<D>, least_pivot: &mut f64) -> Block<D>
 /// What is left of the nodes of chains, whose elements are condensed onto their ends.
 pub(super) fn condense(chains: &mut [Chain], packs: &[Element], least_pivots: &[Lane]) -> Kept {
     let mut kept = Kept::default();
+    // Where there is no cable, pivots are to be divided by.
+    (kept.plane[5], kept.across[2]) = ([1.0; LANES], [1.0; LANES]);
     for (lane, chain) in chains.iter_mut().enumerate() {
         chain.condense(packs, least_pivots, lane, &mut kept);
     }

@@ -10,6 +10,9 @@ use std::array::from_fn;
 /// Components of C in the plane, and out of it: (nn, en, ee, oo).
 const PARTS: usize = 4;
 
+/// Functions of an element that most searches end with.
+const USUAL_FUNCTIONS: usize = 12;
+
 /// Place in a lower triangle by rows.
 #[inline(always)]
 pub(crate) const fn place(row: usize, column: usize) -> usize {
@@ -97,11 +100,11 @@ impl Element {
         Self {
             degree: 0,
             coefficients,
-            plane: Lanes::new(),
-            across: Lanes::new(),
+            plane: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
+            across: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
             half_mass: s.half_mass,
-            plane_factor: Lanes::new(),
-            across_factor: Lanes::new(),
+            plane_factor: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
+            across_factor: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
             functions: 0,
         }
     }
@@ -111,6 +114,7 @@ impl Element {
     #[inline(always)]
     fn refine<S: Simd, const H: usize>(&mut self, simd: S, degree: usize) {
         let Self { coefficients, plane, across, .. } = self;
+        let triples = &*TRIPLES;
         let functions = |degree: usize| if degree == 0 { 0 } else { degree + H - 1 };
         for f in functions(self.degree)..functions(degree) {
             let (row, row_across) = (plane.len(), across.len());
@@ -125,7 +129,7 @@ impl Element {
                     let mut sums = [part.splat(0.0); PARTS];
                     let every_second =
                         coefficients[PARTS * (high - low).min(coefficients.len() / PARTS)..].chunks_exact(PARTS);
-                    for (factor, c) in TRIPLES.of(high, low).iter().zip(every_second.step_by(2)) {
+                    for (factor, c) in triples.of(high, low).iter().zip(every_second.step_by(2)) {
                         let factor = part.splat(*factor);
                         for k in 0..PARTS {
                             sums[k] = part.mul_add(factor, part.of(&c[k]), sums[k]);
@@ -374,14 +378,15 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
 /// `aᵀ M b` of D components a function, over half the mass.
 #[inline(always)]
 fn mass<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Line], b: &[Line]) -> S::f64s {
+    let (a, b) = (a.as_chunks::<D>().0, b.as_chunks::<D>().0);
     let mut sums = [part.splat(0.0); D];
-    for (k, j, mass) in MASSES[H - 1].of(a.len() / D) {
+    for (k, j, mass) in MASSES[H - 1].of(a.len()) {
         let mass = part.splat(*mass);
+        let (a_k, a_j, b_k, b_j) = (&a[*k], &a[*j], &b[*k], &b[*j]);
         for (d, sum) in sums.iter_mut().enumerate() {
-            let (k, j) = (D * k + d, D * j + d);
-            let mut product = part.mul(part.of(&a[k]), part.of(&b[j]));
+            let mut product = part.mul(part.of(&a_k[d]), part.of(&b_j[d]));
             if j != k {
-                product = part.mul_add(part.of(&a[j]), part.of(&b[k]), product);
+                product = part.mul_add(part.of(&a_j[d]), part.of(&b_k[d]), product);
             }
             *sum = part.mul_add(mass, product, *sum);
         }

@@ -10,9 +10,9 @@ pub(crate) type Lane = [f64; LANES];
 
 /// The same in memory that is worked on: aligned, since a register that straddles two lines of the cache is fetched
 /// twice. (Not everywhere, since aligned memory takes longer to get.)
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
-pub(super) struct Line(pub(super) Lane);
+pub(crate) struct Line(pub(crate) Lane);
 
 pub(super) const ZERO: Line = Line([0.0; LANES]);
 
@@ -34,52 +34,52 @@ impl DerefMut for Line {
 
 /// The share of one register in every lane; what the compiler makes of loops over lanes may go across them instead.
 #[derive(Clone, Copy)]
-pub(super) struct Part<S: Simd> {
-    pub(super) simd: S,
+pub(crate) struct Part<S: Simd> {
+    pub(crate) simd: S,
     at: usize,
 }
 
 impl<S: Simd> Part<S> {
     /// All shares.
     #[inline(always)]
-    pub(super) fn all(simd: S) -> impl Iterator<Item = Self> {
+    pub(crate) fn all(simd: S) -> impl Iterator<Item = Self> {
         (0..LANES / S::F64_LANES).map(move |at| Self { simd, at })
     }
 
     #[inline(always)]
-    pub(super) fn of(self, lane: &Lane) -> S::f64s {
+    pub(crate) fn of(self, lane: &Lane) -> S::f64s {
         S::as_simd_f64s(lane).0[self.at]
     }
 
     #[inline(always)]
-    pub(super) fn set(self, lane: &mut Lane, value: S::f64s) {
+    pub(crate) fn set(self, lane: &mut Lane, value: S::f64s) {
         S::as_mut_simd_f64s(lane).0[self.at] = value;
     }
 
     #[inline(always)]
-    pub(super) fn splat(self, value: f64) -> S::f64s {
+    pub(crate) fn splat(self, value: f64) -> S::f64s {
         self.simd.splat_f64s(value)
     }
 
     /// a b + c, rounded once.
     #[inline(always)]
-    pub(super) fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
+    pub(crate) fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
         self.simd.mul_add_f64s(a, b, c)
     }
 
     #[inline(always)]
-    pub(super) fn mul(self, a: S::f64s, b: S::f64s) -> S::f64s {
+    pub(crate) fn mul(self, a: S::f64s, b: S::f64s) -> S::f64s {
         self.simd.mul_f64s(a, b)
     }
 
     #[inline(always)]
-    pub(super) fn neg(self, a: S::f64s) -> S::f64s {
+    pub(crate) fn neg(self, a: S::f64s) -> S::f64s {
         self.simd.neg_f64s(a)
     }
 
     /// `Σ a b`, lane by lane.
     #[inline(always)]
-    pub(super) fn dot(self, a: &[Line], b: &[Line]) -> S::f64s {
+    pub(crate) fn dot(self, a: &[Line], b: &[Line]) -> S::f64s {
         // Two sums, of which neither waits for the other.
         let mut sums = [self.splat(0.0); 2];
         let (a_pairs, b_pairs) = (a.chunks_exact(2), b.chunks_exact(2));
@@ -95,7 +95,7 @@ impl<S: Simd> Part<S> {
     }
 
     #[inline(always)]
-    pub(super) fn inverse(self, a: S::f64s) -> S::f64s {
+    pub(crate) fn inverse(self, a: S::f64s) -> S::f64s {
         self.simd.div_f64s(self.splat(1.0), a)
     }
 }
@@ -103,23 +103,32 @@ impl<S: Simd> Part<S> {
 /// Lanes in memory that the thread keeps for the next robot: given back to the system with each, they would come again
 /// as page faults.
 #[derive(Debug, Default)]
-pub(super) struct Lanes(Vec<Line>);
+pub(crate) struct Lanes(Vec<Line>);
 
 thread_local! {
-    static SPARE: RefCell<Vec<Vec<Line>>> = const { RefCell::new(Vec::new()) };
+    /// By the logarithm of their room, or the small would end up in what the large need.
+    static SPARE: RefCell<[Vec<Vec<Line>>; SIZES]> = const { RefCell::new([const { Vec::new() }; SIZES]) };
 }
 
-/// Most pieces of memory that a thread keeps.
-const MOST_SPARE: usize = 128;
+/// Up to 128 kB a piece.
+const SIZES: usize = 12;
+
+/// Most pieces of a size that a thread keeps.
+const MOST_SPARE: usize = 64;
 
 impl Lanes {
-    pub(super) fn new() -> Self {
-        Self::any(0)
+    /// None, with room for so many.
+    pub(crate) fn with_room(count: usize) -> Self {
+        let mut lanes = Self::any(count);
+        lanes.clear();
+        lanes
     }
 
     /// Of any values: they are to be set.
-    pub(super) fn any(count: usize) -> Self {
-        let mut lanes = SPARE.with_borrow_mut(Vec::pop).unwrap_or_default();
+    pub(crate) fn any(count: usize) -> Self {
+        let size = count.next_power_of_two().ilog2() as usize;
+        let spare = SPARE.with_borrow_mut(|spare| spare.get_mut(size).and_then(Vec::pop));
+        let mut lanes = spare.unwrap_or_else(|| Vec::with_capacity(1 << size));
         lanes.resize(count, ZERO);
         Self(lanes)
     }
@@ -128,10 +137,11 @@ impl Lanes {
 impl Drop for Lanes {
     fn drop(&mut self) {
         let lanes = std::mem::take(&mut self.0);
+        let Some(size) = lanes.capacity().checked_ilog2() else { return };
         // At the end of a thread there is nobody to keep it.
         let _ = SPARE.try_with(|spare| {
             let mut spare = spare.borrow_mut();
-            if spare.len() < MOST_SPARE {
+            if let Some(spare) = spare.get_mut(size as usize).filter(|spare| spare.len() < MOST_SPARE) {
                 spare.push(lanes);
             }
         });
