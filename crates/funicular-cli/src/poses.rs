@@ -4,7 +4,7 @@ use crate::args::values::finite;
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{Freedoms, Robot};
-use std::fs::File;
+use std::fs;
 use std::path::Path;
 
 /// The columns of a file of poses.
@@ -17,14 +17,23 @@ const COLUMNS: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_d
 /// unit, a value that is no number, an angle of a point mass.
 pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     let shown = path.display();
-    let file = File::open(path).with_context(|| format!("cannot read the poses {shown}"))?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let bytes = fs::read(path).with_context(|| format!("cannot read the poses {shown}"))?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&bytes[..]);
     let header = reader.headers().with_context(|| format!("cannot read the poses {shown}"))?.clone();
     let places = places(&header).map_err(|reason| anyhow!("{shown} {reason}"))?;
     let mut poses = Vec::new();
     for record in reader.records() {
-        let record = record.with_context(|| format!("cannot read the poses {shown}"))?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let record = record.map_err(|error| match error.kind() {
+            csv::ErrorKind::UnequalLengths { pos: Some(position), expected_len, len } => anyhow!(
+                "{shown}, line {}: {len} values, and {expected_len} in the first line: give all lines the same columns",
+                line_at(&bytes, position)
+            ),
+            csv::ErrorKind::Utf8 { pos: Some(position), .. } => {
+                anyhow!("{shown}, line {}: this is no UTF-8 text", line_at(&bytes, position))
+            }
+            _ => anyhow!("cannot read the poses {shown}: {error}"),
+        })?;
+        let line = record.position().map_or(0, |position| line_at(&bytes, position));
         let mut pose = [0.0; 6];
         for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
             let Some(place) = place else { continue };
@@ -40,6 +49,16 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
         bail!("{shown} has a header and no poses: give one a line below it");
     }
     Ok(poses)
+}
+
+/// The line of a record, from 1. A position is behind the record before, in front of blank lines and of what is left of
+/// the end of its line, and numbers only some of them.
+fn line_at(bytes: &[u8], position: &csv::Position) -> usize {
+    let from = usize::try_from(position.byte()).unwrap_or(bytes.len()).min(bytes.len());
+    let ends = |byte: &u8| matches!(byte, b'\r' | b'\n');
+    let begin = from + bytes[from..].iter().take_while(|byte| ends(byte)).count();
+    let ends_line = |i: &usize| bytes[*i] == b'\n' || (bytes[*i] == b'\r' && bytes.get(i + 1) != Some(&b'\n'));
+    1 + (0..begin).filter(ends_line).count()
 }
 
 /// Where each column is; one of another name is told of, and refused if it may be meant for one of a pose.

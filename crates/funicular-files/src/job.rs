@@ -3,7 +3,7 @@
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::whole::{Temporary, is_regular_or_new};
-use crate::{FilesError, Format, Record, Rows, behind_link, vti, with_ending, write_whole};
+use crate::{Difference, FilesError, Format, Record, Rows, behind_link, vti, with_ending, write_whole};
 use funicular::sweep::Chunk;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -145,7 +145,7 @@ impl Job {
     }
 
     fn failed(&self, path: &Path, cause: std::io::Error) -> FilesError {
-        let saved = format!("{}: make room, then go on with --resume", self.safe());
+        let saved = format!("{}: {}, then go on with --resume", self.safe(), crate::to_do(&cause));
         FilesError::Write { path: path.to_owned(), saved, cause }
     }
 }
@@ -175,11 +175,13 @@ pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Resul
 /// The file is the whole result already.
 fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
     let file = ParquetFile::open(path)?;
-    if let Some(difference) = record.difference(&file.json, &file.robot_file) {
+    let other_part =
+        || Difference::of_values("part", &journal::shown_part(file.part), &journal::shown_part(record.part));
+    if let Some(difference) = record.difference(&file.json, &file.robot_file).or_else(other_part) {
         let advice = "choose another file, or replace this one without --resume";
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
-    Ok(file.complete && file.part == record.part && file.rows == record.rows_of(record.range()))
+    Ok(file.complete && file.rows == record.rows_of(record.range()))
 }
 
 fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal, FilesError> {
@@ -198,12 +200,12 @@ fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal,
             unwritable(source)
         }),
         Found::Foreign => Err(FilesError::NoJournal { path: path() }),
-        Found::Chunks { done, rows, .. } if begin == Begin::Anew => {
-            Err(FilesError::Unfinished { journal: path(), done, rows })
-        }
         Found::Chunks { difference: Some(difference), .. } => {
             let advice = "choose another file, or begin anew with --discard";
             Err(FilesError::Foreign { path: path(), difference, advice })
+        }
+        Found::Chunks { done, rows, .. } if begin == Begin::Anew => {
+            Err(FilesError::Unfinished { journal: path(), done, rows })
         }
         Found::Chunks { end, next, .. } => Journal::go_on(partial, file, record, end, next).map_err(unwritable),
     }

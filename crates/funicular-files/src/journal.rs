@@ -3,7 +3,7 @@
 //! One line of magic, then frames: length and CRC-32 of what follows, 4 bytes each, little-endian. The first frame is
 //! the record (JSON) and the robot file, every other one chunk, in order.
 
-use crate::{Difference, FilesError, Record, Rows};
+use crate::{Difference, FilesError, Part, Record, Rows};
 use funicular::sweep::{Chunk, Kind, Values};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -74,7 +74,8 @@ impl Journal {
         file.set_len(0)?;
         file.seek(SeekFrom::Start(0))?;
         file.write_all(MAGIC)?;
-        let head = json!({ "record": record.to_json(), "part": part(&record), "robot_file": record.robot_file });
+        let head =
+            json!({ "record": record.to_json(), "part": shown_part(record.part), "robot_file": record.robot_file });
         write_frame(&mut file, head.to_string().as_bytes())?;
         file.sync_data()?;
         let (end, next) = (file.stream_position()?, record.range().start);
@@ -149,7 +150,7 @@ pub(crate) fn look(file: &File, record: &Record) -> io::Result<Found> {
     let Ok(head) = serde_json::from_slice::<Value>(&head) else { return Ok(Found::Foreign) };
     let difference = record
         .difference(&head["record"], head["robot_file"].as_str().unwrap_or_default())
-        .or_else(|| Difference::of_values("part", &head["part"], &part(record)));
+        .or_else(|| Difference::of_values("part", &head["part"], &shown_part(record.part)));
     let same = difference.is_none();
     let mut end = file.stream_position()?;
     let (first, mut next) = (record.range().start, record.range().start);
@@ -175,8 +176,9 @@ pub(crate) fn look(file: &File, record: &Record) -> io::Result<Found> {
     Ok(if done == 0 && same { Found::Nothing } else { Found::Chunks { difference, done, rows, end, next } })
 }
 
-fn part(record: &Record) -> Value {
-    record.part.map_or(Value::Null, |part| Value::String(part.to_string()))
+/// A part as files have it.
+pub(crate) fn shown_part(part: Option<Part>) -> Value {
+    part.map_or(Value::Null, |part| Value::String(part.to_string()))
 }
 
 pub(crate) fn write_frame(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {

@@ -140,6 +140,14 @@ fn told(error: &io::Error) -> String {
     }
 }
 
+/// What to do about it before another try.
+fn to_do(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room",
+        _ => "mend that",
+    }
+}
+
 /// A format of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {

@@ -39,7 +39,7 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     let rows = Parts { record: &record, parts: &found };
     write_whole(&to, format, &record, &rows, true).map_err(|cause| FilesError::Write {
         path: to.clone(),
-        saved: "the parts are as they were: make room, and merge again".to_owned(),
+        saved: format!("the parts are as they were: {}, then merge again", crate::to_do(&cause)),
         cause,
     })?;
     Ok(record.rows)
@@ -97,7 +97,10 @@ struct Parts<'a> {
 impl Rows for Parts<'_> {
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()> {
         self.parts.iter().try_for_each(|(part, file)| {
-            file.each(part.range(self.record.chunks()).start, self.record.chunk_rows, take)
+            file.each(part.range(self.record.chunks()).start, self.record.chunk_rows, &mut |chunk| {
+                self.record.check(&chunk)?;
+                take(chunk)
+            })
         })
     }
 }

@@ -3,8 +3,7 @@
 use crate::merge::record_of;
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Record};
-use funicular::sweep::{Chunk, Values};
-use std::io;
+use funicular::sweep::Chunk;
 use std::path::Path;
 
 /// A Parquet file of a sweep.
@@ -48,12 +47,7 @@ impl SweepFile {
         const ROWS: usize = 4096;
         self.file
             .each(0, ROWS, &mut |chunk| {
-                let kinds = self.record.columns.iter().map(|column| Values::new(column.kind, 0));
-                let same =
-                    |(ours, theirs): (Values, &Values)| std::mem::discriminant(&ours) == std::mem::discriminant(theirs);
-                if chunk.columns.len() != self.record.columns.len() || !kinds.zip(&chunk.columns).all(same) {
-                    return Err(io::Error::new(io::ErrorKind::InvalidData, "its columns are not those of its plan"));
-                }
+                self.record.check(&chunk)?;
                 take(&chunk);
                 Ok(())
             })

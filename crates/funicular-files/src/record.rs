@@ -1,8 +1,9 @@
 //! What a file says of itself: robot, plan, columns. Two results belong together if these are the same.
 
-use funicular::sweep::{Column, Kind};
+use funicular::sweep::{Chunk, Column, Kind, Values};
 use serde_json::{Map, Value, json};
 use std::fmt;
+use std::io;
 use std::ops::Range;
 
 /// Version of the files; a change of their meaning is another.
@@ -116,6 +117,22 @@ impl Record {
             "chunk_rows": self.chunk_rows,
             "columns": columns,
         })
+    }
+
+    /// Whether the columns of a chunk are those of the plan: other programs may have rewritten its file.
+    ///
+    /// # Errors
+    /// What is to be said of the file.
+    pub(crate) fn check(&self, chunk: &Chunk) -> io::Result<()> {
+        let kinds = chunk.columns.iter().map(|values| match values {
+            Values::Real(_) => Kind::Real,
+            Values::Flag(_) => Kind::Flag,
+            Values::Text(_) => Kind::Text,
+        });
+        if kinds.eq(self.columns.iter().map(|column| column.kind)) {
+            return Ok(());
+        }
+        Err(io::Error::new(io::ErrorKind::InvalidData, "its columns are not those of its plan"))
     }
 
     /// In what another record, as its file has it, differs from this; parts are not compared.

@@ -88,9 +88,7 @@ impl Table {
         let mut growing = Growing::new(record);
         let (first, rows) = (growing.next, growing.record.chunk_rows);
         let read = file.each(first, rows, &mut |chunk| {
-            if !fits(&growing.record, &chunk) {
-                return Err(io::Error::new(io::ErrorKind::InvalidData, "its columns are not those of its plan"));
-            }
+            growing.record.check(&chunk)?;
             growing.add(&chunk).map_err(io::Error::other)
         });
         read.and_then(|()| growing.finish().map_err(io::Error::other))
@@ -144,6 +142,10 @@ impl Table {
     pub fn write(&self, path: &Path) -> Result<(), FilesError> {
         let format = Format::of(path)?;
         crate::job::check_place(path, format, &self.record)?;
+        if format == Format::Vti && !self.is_complete() {
+            let reason = "an image has no holes, and rows are missing".to_owned();
+            return Err(FilesError::NoImage { path: path.to_owned(), reason });
+        }
         let path = &crate::behind_link(path);
         write_whole(path, format, &self.record, self, self.is_complete()).map_err(|cause| FilesError::Write {
             path: path.clone(),
@@ -151,16 +153,6 @@ impl Table {
             cause,
         })
     }
-}
-
-fn fits(record: &Record, chunk: &Chunk) -> bool {
-    use funicular::sweep::Kind;
-    let kinds = chunk.columns.iter().map(|values| match values {
-        Values::Real(_) => Kind::Real,
-        Values::Flag(_) => Kind::Flag,
-        Values::Text(_) => Kind::Text,
-    });
-    kinds.eq(record.columns.iter().map(|column| column.kind))
 }
 
 impl Rows for Table {

@@ -38,6 +38,9 @@ impl<'a> Variations<'a> {
             if axes[..i].iter().any(|other| other.path.is_same(&axis.path)) {
                 return Err(format!("{option} {} is given twice", axis.path.text));
             }
+            if let Some(value) = axis.steps.repeated() {
+                return Err(format!("{option} {} has the value {value} twice: leave one out", axis.path.text));
+            }
         }
         let variations = Self { text, axes, option, adjust };
         for axis in &variations.axes {
@@ -129,11 +132,12 @@ impl Points for Variations<'_> {
 
 /// The unit that ends the name of a key; the longest that fits.
 fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 15] = [
+    const UNITS: [(&str, &str); 16] = [
         ("_n_per_m", "N/m"),
         ("_n_s_m", "N s/m"),
         ("_n_m_s", "N m s"),
         ("_n_s_m2", "N s/m2"),
+        ("_kg_m3", "kg/m3"),
         ("_kg_per_m", "kg/m"),
         ("_kg_m2", "kg m2"),
         ("_m_s2", "m/s2"),

@@ -61,3 +61,8 @@ pub mod robot;
 pub mod statics;
 pub mod sweep;
 pub mod validity;
+
+/// As a text says it: "1 cable", "2 cables".
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}

@@ -175,8 +175,9 @@ pub enum StaticsError {
     },
     /// Ideal cables, not as many as freedoms.
     #[error(
-        "{cables} cables for {freedoms} freedoms: forward statics of `ideal` cables needs exactly {freedoms}; `spring` \
-         and `catenary` cables may be fewer or more"
+        "{} for {freedoms} freedoms: forward statics of `ideal` cables needs exactly {freedoms}; `spring` \
+         and `catenary` cables may be fewer or more",
+        crate::counted(*cables, "cable")
     )]
     CableCount {
         /// Cables of the robot.
@@ -186,8 +187,9 @@ pub enum StaticsError {
     },
     /// Fewer cables than freedoms hold no given pose.
     #[error(
-        "{cables} cables for {freedoms} freedoms hold no given pose: with `spring` and `catenary` cables there is the \
-         nearest pose that they can hold, with `ideal` cables there is none"
+        "{} for {freedoms} freedoms can hold no given pose: with `spring` and `catenary` cables there is the nearest pose \
+         that can be held, with `ideal` cables there is none",
+        crate::counted(*cables, "cable")
     )]
     InverseCableCount {
         /// Cables of the robot.

@@ -79,6 +79,14 @@ pub enum SweepError {
         /// Its name.
         axis: String,
     },
+    /// A value twice on an axis.
+    #[error("the axis `{axis}` has the value {value} twice: leave one out")]
+    RepeatedValue {
+        /// Name of the axis.
+        axis: String,
+        /// The value [m, degrees].
+        value: f64,
+    },
     /// An axis along which the platform cannot move.
     #[error("the platform cannot move along the axis `{axis}`: its freedoms are {freedoms}, which has {has}")]
     NoSuchFreedom {

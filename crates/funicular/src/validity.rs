@@ -198,8 +198,9 @@ impl fmt::Display for Warning {
             ),
             Self::Elsewhere { cables, freedoms, translation, turn_deg, distance } => write!(
                 f,
-                "{cables} cables for {freedoms} freedoms cannot hold the pose asked by any lengths: this is the nearest \
-                 that they can, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
+                "{} for {freedoms} freedoms cannot hold the pose asked by any lengths: this is the nearest \
+                 that can be held, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
+                crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
             Self::DeepSag { cables, model } => {

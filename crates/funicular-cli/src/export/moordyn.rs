@@ -107,9 +107,8 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
             || matches!(material.damping, Damping::Viscous(c) if c == 0.0)
     };
     let input = Input {
-        // Three hyphens begin a section.
-        name: one_line(&robot.name).replace("---", "--"),
-        source: one_line(&robot.source).replace("---", "--"),
+        name: without_section(&robot.name),
+        source: without_section(&robot.source),
         segments,
         shortened,
         heavier,
@@ -228,6 +227,15 @@ fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
         }
     }
     nearest
+}
+
+/// On one line, which begins no section: three hyphens would.
+fn without_section(text: &str) -> String {
+    let mut text = one_line(text);
+    while text.contains("---") {
+        text = text.replace("---", "--");
+    }
+    text
 }
 
 #[cfg(test)]

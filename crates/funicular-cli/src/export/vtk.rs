@@ -101,7 +101,7 @@ impl Shape {
     fn write(&self, out: &mut Writer<Vec<u8>>, name: &str) -> Result<()> {
         out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         // A comment must not hold two hyphens.
-        let title = format!(" {}; written by funicular export ", name.replace("--", "- -"));
+        let title = format!(" {}; written by funicular export ", name.replace("--", "- -").replace("--", "- -"));
         out.write_event(Event::Comment(BytesText::from_escaped(title)))?;
         let of_points = |cells: &[Vec<usize>]| -> (String, String) {
             let mut end = 0;

@@ -314,7 +314,8 @@ impl Draft {
             self.cables.iter_mut().for_each(|cable| cable.rope.diameter = Some(diameter));
         }
         if !given.is_empty() {
-            self.notes.push(format!("Ropes: {} stands for all of them", given.join(" and ")));
+            let stand = if given.len() == 1 { "stands" } else { "stand" };
+            self.notes.push(format!("Ropes: {} {stand} for all of them", given.join(" and ")));
         }
         let lack = |is: fn(&DraftRope) -> bool| self.cables.iter().any(|cable| is(&cable.rope));
         let mut missing = Vec::new();

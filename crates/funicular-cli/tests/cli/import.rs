@@ -398,6 +398,10 @@ fn inertia_about_the_joint_is_brought_to_the_centre_of_mass() {
     let platform = json("check", &changed.imported(&ROPES), &[])["platform"].clone();
     assert!((numbers(&platform["inertia_kg_m2"][0])[0] - (4.0 - 60.0 * (0.02 * 0.02 + 0.05 * 0.05))).abs() < 1e-12);
     assert!((numbers(&platform["inertia_kg_m2"][0])[1] - 60.0 * 0.01 * -0.02).abs() < 1e-12);
+    // An option's mass is not the one that this tensor belongs to.
+    let massless = Changed::of(&CASPR, &[("ref=\"com\"", "ref=\"joint\""), ("<mass>60.0", "<mass>0")]);
+    let output = massless.import(&[&ROPES[..], &["--mass-kg", "60"]].concat());
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("--inertia-kg-m2"), "{}", stderr(&output));
 }
 
 #[test]

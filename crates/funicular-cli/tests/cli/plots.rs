@@ -103,6 +103,17 @@ fn a_grid_becomes_slices_that_hold_its_rows() {
 }
 
 #[test]
+fn values_that_do_not_ascend_are_drawn_in_their_order_on_the_axis() {
+    let of = |x: &str| {
+        let (page, _) = page_of(&format!("map COGIRO --grid x={x} --grid y=-3:3:4 --grid z=1 --quantity tension-max"));
+        let (header, status, numbers) = slices(&page);
+        let bits: Vec<u32> = numbers[0].iter().map(|number| number.to_bits()).collect();
+        (header["axes"].clone(), status, bits)
+    };
+    assert_eq!(of("0,2,-1"), of("-1,0,2"));
+}
+
+#[test]
 fn a_page_of_a_large_grid_is_thinned_and_says_so() {
     let (page, notes) = page_of("map COGIRO --grid x=-1:1:701 --grid y=-1:1:401 --grid z=1 --quantity condition");
     assert!(notes.contains("values of x (") && notes.contains("of 281101 rows)"), "{notes}");

@@ -77,6 +77,16 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     fs::write(&path, "x_m,y_m,z_m\n0,0,0.5\n0,zero,0.5\n").unwrap();
     let output = run(&poses);
     assert!(stderr(&output).contains("line 3, column `y_m`: `zero` is not a number"), "{}", stderr(&output));
+    // As editors count, whatever ends the lines.
+    for (broken, says) in [
+        ("x_m,y_m,z_m\r\n0,0,0.5\r\n0,zero,0.5\r\n", "line 3, column `y_m`"),
+        ("\u{feff}x_m,y_m,z_m\n\n\n0,0,0.5\n\n0,0,0.5,1\n", "line 6: 4 values, and 3 in the first line"),
+        ("x_m,y_m,z_m\r\n\r\n0,,0.5\r\n", "line 3, column `y_m`"),
+        ("x_m,y_m,z_m\r0,0,0.5\r0,0,a\r", "line 3, column `z_m`"),
+    ] {
+        fs::write(&path, broken).unwrap();
+        assert!(stderr(&run(&poses)).contains(says), "{broken:?}: {}", stderr(&run(&poses)));
+    }
     fs::write(&path, "x_m,y_m,z_m\n").unwrap();
     assert!(stderr(&run(&poses)).contains("has a header and no poses"));
 }
@@ -205,6 +215,12 @@ fn parts_of_a_map_are_merged_into_the_same_file() {
     let output = run(&["merge", &parts[0], &parts[1], "-o", &file("no.parquet")]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("part 3/3 is missing"), "{}", stderr(&output));
+    // Nor does one part take the place of another.
+    let before = fs::read(&parts[0]).unwrap();
+    let output = run(&[&grid[..], &["-o", &parts[0], "--part", "2/3", "--resume"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("its part: \"1/3\", here: \"2/3\""), "{}", stderr(&output));
+    assert!(fs::read(&parts[0]).unwrap() == before);
 }
 
 #[test]
@@ -230,6 +246,7 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("map ROBOT --grid x=0:1:1", "2 or more"),
         ("map ROBOT --grid x=0:1:1e3", "is not a number of values"),
         ("map ROBOT --grid x=0:1:5 --grid x=2", "given twice"),
+        ("map ROBOT --grid x=0,0.5,0", "the axis `x` has the value 0 twice"),
         (
             "map ROBOT --grid x=0:1:10000 --grid y=0:1:10000 --grid z=0:1:10000",
             "1000000000000 points are more than the 100000000",
@@ -251,6 +268,7 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("sweep ROBOT --vary platfrom.mass_kg=1:2:3", "did you mean `platform`"),
         ("sweep ROBOT --vary platform.mass_kg=-1:2:3", "it must be positive"),
         ("sweep ROBOT --vary platform.mass_kgs=1:2:3", "did you mean `mass_kg`?"),
+        ("sweep ROBOT --vary platform.mass_kg=12,14,12", "has the value 12 twice"),
         ("sweep ROBOT --vary platform.mass_kg=10:20:3 --mass-kg 12", "or another option sets it"),
         ("sweep ROBOT --vary cables.1.unstrained_length_m=6:7:3 --pose 0,0,0.5", "changes nothing"),
         ("merge no-such-file.parquet -o a.parquet", "cannot read no-such-file.parquet"),

@@ -2,6 +2,7 @@
 
 use super::damped::{self, DampedModes};
 use super::{Modes, RESIDUAL_LIMIT};
+use crate::counted;
 use crate::dynamics::Dynamics;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -33,10 +34,6 @@ pub struct TooMany {
 pub fn check_count(dynamics: &Dynamics, below_hz: f64, most: usize) -> Result<(), TooMany> {
     let count = dynamics.modes_below(below_hz * TAU);
     if count > most { Err(TooMany { count, below_hz, most }) } else { Ok(()) }
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 impl Modes {

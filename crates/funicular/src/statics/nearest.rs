@@ -7,11 +7,11 @@
 
 use super::limits::TensionRange;
 use super::{
-    Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
+    CableState, Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
     tangent_stiffness, wrench_of,
 };
 use crate::math::{DMat, Mat6, Vec3, Vec6};
-use crate::robot::{Pose, Robot};
+use crate::robot::{Cable, Pose, Robot};
 
 /// An equilibrium near a pose that was asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,6 +130,11 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
         let p = here.pose.position_w;
         let (residual, limit) = (could / size, NEAR);
         return Err(StaticsError::NotNearest { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
+    }
+    // Only ropes of no length come near a pose on the line between their anchors.
+    let torn = |(cable, state): (&Cable, &CableState)| state.tension_platform > cable.material.axial_stiffness;
+    if robot.cables.iter().zip(&here.cables).any(torn) {
+        return Err(StaticsError::Singular);
     }
     here.iterations = iterations;
     Ok(Nearest { equilibrium: here, distance: missing.norm() })

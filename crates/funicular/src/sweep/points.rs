@@ -49,7 +49,7 @@ impl Poses {
     /// that are not given stay at `base`; without it angles are zero.
     ///
     /// # Errors
-    /// [`SweepError`]: an axis twice, an axis that the platform does not have, or neither values nor base for a position.
+    /// [`SweepError`]: an axis or a value twice, an axis that the platform does not have, or neither values nor base for a position.
     ///
     /// # Example
     /// ```
@@ -71,6 +71,9 @@ impl Poses {
                 return Err(SweepError::UnknownAxis { axis: name.clone() });
             };
             refuse_missing_freedom(&robot.platform.freedoms, axis)?;
+            if let Some(value) = steps.repeated() {
+                return Err(SweepError::RepeatedValue { axis: name.clone(), value });
+            }
             if found[axis].replace(steps.clone()).is_some() {
                 return Err(SweepError::RepeatedAxis { axis: name.clone() });
             }

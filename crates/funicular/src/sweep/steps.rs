@@ -35,6 +35,14 @@ impl Steps {
         Ok(Self::Range { from, to, count })
     }
 
+    /// A value that is listed twice.
+    pub fn repeated(&self) -> Option<f64> {
+        let Self::List(values) = self else { return None };
+        let mut values = values.clone();
+        values.sort_by(f64::total_cmp);
+        values.windows(2).find(|pair| pair[0] >= pair[1]).map(|pair| pair[0])
+    }
+
     /// Number of values.
     pub fn count(&self) -> usize {
         match self {

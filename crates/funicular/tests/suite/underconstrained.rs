@@ -180,6 +180,24 @@ fn of_a_body_on_one_cable_the_nearest_pose_keeps_the_asked_turn_about_it() {
 }
 
 #[test]
+fn a_pose_that_only_ropes_of_no_length_come_near_is_singular() {
+    let text = "name = \"swing\"\n[platform]\nmass_kg = 2\nfreedoms = \"point-mass\"\n\
+         [materials.rope]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0.05\n\
+         [[cables]]\nname = \"a\"\nmaterial = \"rope\"\nanchor_m = [0, 0, 3]\n\
+         [[cables]]\nname = \"b\"\nmaterial = \"rope\"\nanchor_m = [2, 0, 3]\n";
+    let robot = Robot::from_toml(text).unwrap();
+    for (z, is_held) in [(3.0, false), (2.5, true)] {
+        let found = statics::nearest(&robot, &Pose::new([1.0, 0.0, z], [0.0; 3]), StaticModel::Catenary);
+        match found {
+            Ok(nearest) => {
+                assert!(is_held && nearest.equilibrium.cables.iter().all(|cable| cable.tension_platform < 1e3));
+            }
+            Err(error) => assert!(!is_held && matches!(error, StaticsError::Singular), "{error}"),
+        }
+    }
+}
+
+#[test]
 fn ideal_cables_that_are_too_few_are_refused() {
     let robot = crane(4, 0.0);
     let pose = Pose::new([0.0, 0.0, 1.0], [0.0; 3]);

@@ -210,8 +210,10 @@ fn inertia(
     match node.attribute("ref").map(|text| text.trim().to_ascii_lowercase()).as_deref() {
         Some("com") => Ok(Some(tensor)),
         Some("joint") => {
+            // Another mass would belong to another tensor.
+            let Some(mass) = mass else { return Ok(None) };
             let shift = Mat3::identity() * center_p.norm_squared() - center_p * center_p.transpose();
-            Ok(Some(tensor - shift * mass.unwrap_or_default()))
+            Ok(Some(tensor - shift * mass))
         }
         Some(other) => {
             bail!(

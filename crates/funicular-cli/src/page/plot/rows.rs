@@ -18,9 +18,11 @@ pub(super) const NOT_COMPUTED: u8 = u8::MAX;
 pub(super) struct Axis {
     pub(super) name: String,
     pub(super) unit: String,
-    /// All its values.
+    /// All its values, as the file has them.
     pub(super) steps: Steps,
-    /// Every which of them is kept.
+    /// Their places in ascending order; none where they ascend.
+    rank: Vec<usize>,
+    /// Every which of these is kept.
     pub(super) every: usize,
 }
 
@@ -30,9 +32,24 @@ impl Axis {
         self.steps.count().div_ceil(self.every)
     }
 
-    /// The values kept.
+    /// The values kept, ascending.
     pub(super) fn values(&self) -> Vec<f64> {
-        (0..self.kept()).map(|i| self.steps.at(i * self.every)).collect()
+        let mut all: Vec<f64> = (0..self.steps.count()).map(|i| self.steps.at(i)).collect();
+        all.sort_by(f64::total_cmp);
+        all.into_iter().step_by(self.every).collect()
+    }
+
+    fn new(name: String, unit: String, steps: Steps) -> Self {
+        let mut rank = Vec::new();
+        if let Steps::List(values) = &steps
+            && !values.is_sorted()
+        {
+            let mut order: Vec<usize> = (0..values.len()).collect();
+            order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
+            rank = vec![0; values.len()];
+            order.into_iter().enumerate().for_each(|(place, i)| rank[i] = place);
+        }
+        Self { name, unit, steps, rank, every: 1 }
     }
 }
 
@@ -252,6 +269,7 @@ impl Rows {
         for axis in &self.axes {
             let digit = rest % axis.steps.count();
             rest /= axis.steps.count();
+            let digit = axis.rank.get(digit).copied().unwrap_or(digit);
             if digit % axis.every != 0 {
                 return None;
             }
@@ -296,7 +314,7 @@ fn split(grid: Grid, coordinates: &[Column]) -> (Vec<Axis>, Vec<Fixed>) {
         let unit = column.map_or_else(String::new, |column| column.unit.to_string());
         match steps.count() {
             1 => fixed.push((name, unit, steps.at(0))),
-            _ => axes.push(Axis { name, unit, steps, every: 1 }),
+            _ => axes.push(Axis::new(name, unit, steps)),
         }
     }
     // A point mass has axes of its grid that are no columns.
