@@ -19,7 +19,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Instant;
 
@@ -227,39 +227,42 @@ impl Whole {
             let (sender, receiver) = sync_channel(WAITING);
             let (plan, cancel) = (&plan, &cancel);
             let runner = scope.spawn(move || plan.run(chunks, threads, cancel, |chunk| sender.send(chunk)));
-            let mut ended = Ok(());
-            let mut looked = Instant::now();
-            loop {
-                let step = match receiver.recv_timeout(LOOK) {
-                    Ok(chunk) => take(chunk),
-                    Err(RecvTimeoutError::Disconnected) => break,
-                    Err(RecvTimeoutError::Timeout) => Ok(()),
-                };
-                let step = step.and_then(|()| {
-                    if looked.elapsed() < LOOK {
-                        return Ok(());
-                    }
-                    looked = Instant::now();
-                    look()
-                });
-                if step.is_err() {
-                    ended = step;
-                    cancel.store(true, Ordering::Relaxed);
-                    // What is finished is not thrown away; if it cannot be taken, the reason is known already.
-                    while let Ok(chunk) = receiver.recv() {
-                        if take(chunk).is_err() {
-                            break;
-                        }
-                    }
-                    break;
-                }
-            }
+            let ended = hand_over(&receiver, cancel, &mut take, &mut look);
+            // Nobody takes the rest.
+            cancel.store(true, Ordering::Relaxed);
             drop(receiver);
             match runner.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(_) => ended,
             }
         })
+    }
+}
+
+/// Hands over chunks as they come, until there are none or one cannot be taken: then none behind it can, either.
+fn hand_over(
+    arriving: &Receiver<Chunk>,
+    cancel: &AtomicBool,
+    take: &mut impl FnMut(Chunk) -> PyResult<()>,
+    look: &mut impl FnMut() -> PyResult<()>,
+) -> PyResult<()> {
+    let mut looked = Instant::now();
+    loop {
+        match arriving.recv_timeout(LOOK) {
+            Ok(chunk) => take(chunk)?,
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if looked.elapsed() < LOOK {
+            continue;
+        }
+        looked = Instant::now();
+        if let Err(interrupt) = look() {
+            cancel.store(true, Ordering::Relaxed);
+            // What is finished is not thrown away; if it cannot be taken, the reason to end is known already.
+            let _ = arriving.iter().try_for_each(take);
+            return Err(interrupt);
+        }
     }
 }
 
