@@ -175,6 +175,11 @@ impl Whole {
                 (robot, Found::Grid { poses, base })
             }
             PointsAsked::Poses(rows) => {
+                if request.pose.is_some() || request.lengths.is_some() {
+                    return Err(errors::input(
+                        "`poses` says where the platform is: leave out `pose` and `lengths`".to_owned(),
+                    ));
+                }
                 let robot = state.robot(statics.robot(&file.robot)?)?;
                 let turned = |row: &[f64; 6]| row[3..].iter().any(|angle| *angle != 0.0);
                 if robot.platform.freedoms == Freedoms::PointMass && rows.iter().any(turned) {
