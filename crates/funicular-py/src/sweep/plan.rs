@@ -6,6 +6,7 @@ use crate::errors;
 use crate::names;
 use crate::request::{Asked, Options};
 use crate::robot::PyRobot;
+use crate::threads::Threads;
 use crate::waiting::LOOK;
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics;
@@ -307,16 +308,6 @@ fn base(robot: &Robot, statics: &Options) -> PyResult<Option<Pose>> {
     })
 }
 
-/// A number of threads; one a core without it.
-pub(crate) fn threads(given: Option<usize>) -> PyResult<NonZeroUsize> {
-    match given {
-        None => Ok(thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)),
-        Some(given) => {
-            NonZeroUsize::new(given).ok_or_else(|| errors::input("`threads` is 0: give at least one".to_owned()))
-        }
-    }
-}
-
 /// What is asked of which points; a pickle of it is the text of the robot file and the request.
 #[pyclass(frozen, name = "SweepPlan", module = "funicular._funicular")]
 pub(crate) struct PyPlan {
@@ -361,17 +352,22 @@ impl PyPlan {
     }
 
     /// Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
-    #[pyo3(signature = (first, end, threads=1))]
-    fn compute<'py>(&self, py: Python<'py>, first: usize, end: usize, threads: usize) -> PyResult<Bound<'py, PyBytes>> {
+    #[pyo3(signature = (first, end, threads=Threads(NonZeroUsize::MIN)))]
+    fn compute<'py>(
+        &self,
+        py: Python<'py>,
+        first: usize,
+        end: usize,
+        threads: Threads,
+    ) -> PyResult<Bound<'py, PyBytes>> {
         if first > end || end > self.chunks() {
             return Err(errors::input(format!("there are no chunks {first} to {end} of {}", self.chunks())));
         }
-        let threads = self::threads(Some(threads))?;
         let mut bytes = Vec::new();
         py.detach(|| {
             self.whole.run(
                 first..end,
-                threads,
+                threads.0,
                 |chunk| table::pack(&mut bytes, &chunk).map_err(PyErr::from),
                 crate::waiting::look,
             )
