@@ -193,7 +193,7 @@ impl Numbers {
         let [_, columns] = *self.0.shape() else {
             let dimensions = self.0.ndim();
             return Err(errors::input(format!(
-                "`{what}` has {dimensions} dimensions: give an array of rows, one a pose"
+                "`{what}` has {dimensions} dimensions: give an array of rows, one a state"
             )));
         };
         Ok((self.0.iter().copied().collect(), columns))
@@ -215,15 +215,21 @@ const LARGEST: f64 = 1e12;
 /// Smallest quantity that has to be positive, as in robot files.
 const SMALLEST: f64 = 1e-12;
 
-/// Refuses what is no number to compute with.
-pub(crate) fn finite(what: &str, value: f64) -> PyResult<f64> {
-    if value.is_finite() && value.abs() <= LARGEST {
+/// Says what is wrong with what is no number to compute with.
+pub(crate) fn magnitude(what: &str, value: f64) -> Result<f64, String> {
+    if value.abs() <= LARGEST {
         Ok(value)
     } else if value.is_finite() {
-        Err(errors::input(format!("`{what}` is {value:e}: it must be at most {LARGEST:e} in magnitude")))
+        Err(format!("{what} is {value:e}: it must be at most {LARGEST:e} in magnitude"))
     } else {
-        Err(errors::input(format!("`{what}` is {value}: it must be finite")))
+        Err(format!("{what} is {value}: it must be finite"))
     }
+}
+
+/// Refuses what is no number to compute with.
+pub(crate) fn finite(what: &str, value: f64) -> PyResult<f64> {
+    // Arrays are long: a text is made of what is wrong alone.
+    if value.abs() <= LARGEST { Ok(value) } else { magnitude(&format!("`{what}`"), value).map_err(errors::input) }
 }
 
 /// Refuses negative numbers, too.

@@ -1,10 +1,11 @@
 //! Many states of one robot, side by side.
 
-use crate::arrays::{Matrix, Numbers, Vector, finite};
+use crate::arrays::{Matrix, Numbers, Vector, magnitude};
 use crate::equilibrium::least_stiffness;
 use crate::errors;
 use crate::pose;
 use crate::request::{Options, check_pose};
+use crate::threads::Threads;
 use crate::waiting::{LOOK, look};
 use funicular::cable::Sag;
 use funicular::math::rotation;
@@ -79,10 +80,8 @@ impl States {
             check_pose(robot, &pose)?;
             return Ok(State::Pose(pose));
         }
-        match row.iter().find(|length| finite("lengths", **length).is_err()) {
-            Some(bad) => Err(format!("an unstrained length is {bad}: it must be positive and finite")),
-            None => Ok(State::Lengths(row.to_vec())),
-        }
+        row.iter().try_for_each(|length| magnitude("an unstrained length", *length).map(drop))?;
+        Ok(State::Lengths(row.to_vec()))
     }
 }
 
@@ -162,18 +161,13 @@ pub(crate) fn equilibria(
     robot: &Robot,
     states: States,
     options: &Options,
-    threads: Option<usize>,
+    threads: Option<Threads>,
 ) -> PyResult<Equilibria> {
     let robot = options.robot(robot)?;
-    let threads = match threads {
-        Some(0) => return Err(errors::input("`threads` is 0: give at least one".to_owned())),
-        Some(threads) => threads,
-        None => thread::available_parallelism().map_or(1, usize::from),
-    };
     let mut columns = Columns::new(robot.cables.len(), states.count());
     let next = AtomicUsize::new(0);
     let work = Work { robot: &robot, states: &states, options, next, stop: AtomicBool::new(false) };
-    let threads = threads.min(states.count().div_ceil(AT_ONCE)).max(1);
+    let threads = Threads::of(threads).get().min(states.count().div_ceil(AT_ONCE)).max(1);
     py.detach(|| side_by_side(&work, threads, |rows, found| columns.put(rows, found)))?;
     columns.into_python(py, options).map(Equilibria)
 }

@@ -40,9 +40,16 @@ pub(crate) fn change(text: String) -> PyErr {
     python::RobotFileError::new_err((text, Vec::<(usize, usize, String, Option<String>)>::new()))
 }
 
+/// What the program's texts advise, and how Python says it.
+const ADVICE: [(&str, &str); 3] = [
+    ("--resume", "`resume=True`"),
+    ("--discard", "`force=True`"),
+    ("`--format csv` without a file writes to standard output", "leave out `file` for rows in memory"),
+];
+
 /// A file of a sweep that cannot be read or written; what to do in the words of Python.
 pub(crate) fn files(error: &FilesError) -> PyErr {
-    let text = error.to_string().replace("--resume", "`resume=True`").replace("--force", "`force=True`");
+    let text = ADVICE.iter().fold(error.to_string(), |text, (program, python)| text.replace(program, python));
     python::FileError::new_err(text)
 }
 

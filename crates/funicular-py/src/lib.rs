@@ -16,6 +16,7 @@ mod pose;
 mod request;
 mod robot;
 mod sweep;
+mod threads;
 mod vibration;
 mod waiting;
 

@@ -8,6 +8,7 @@ use crate::errors;
 use crate::pose::PoseLike;
 use crate::request::{Asked, Given, Options};
 use crate::sweep::{self, Axes, Makes, PointsAsked, PyPlan, Run, Settings, SweepObject, Told};
+use crate::threads::Threads;
 use crate::vibration::{self, ModesObject, Pair};
 use funicular::robot::{Robot, State};
 use numpy::Complex64;
@@ -287,7 +288,7 @@ impl PyRobot {
         force_n: Option<Numbers>,
         moment_n_m: Option<Numbers>,
         load_point_m: Option<Numbers>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<batch::Equilibria> {
         let options = Options::read(Given {
             model,
@@ -377,9 +378,9 @@ impl PyRobot {
         file: Option<PathBuf>,
         resume: bool,
         force: bool,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         executor: Option<Makes>,
-        chunks_per_task: Option<usize>,
+        chunks_per_task: Option<i64>,
         progress: Option<Told>,
     ) -> PyResult<SweepObject> {
         let points = match (grid, poses) {
@@ -448,9 +449,9 @@ impl PyRobot {
         file: Option<PathBuf>,
         resume: bool,
         force: bool,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         executor: Option<Makes>,
-        chunks_per_task: Option<usize>,
+        chunks_per_task: Option<i64>,
         progress: Option<Told>,
     ) -> PyResult<SweepObject> {
         let points = PointsAsked::Vary(vary.0);

@@ -12,6 +12,7 @@ pub(crate) use plan::{PointsAsked, PyPlan};
 pub(crate) use table::PyTable;
 pub(crate) use work::PyWork;
 
+use crate::threads::Threads;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -39,9 +40,9 @@ pub(crate) struct Run {
     pub(crate) file: Option<PathBuf>,
     pub(crate) resume: bool,
     pub(crate) force: bool,
-    pub(crate) threads: Option<usize>,
+    pub(crate) threads: Option<Threads>,
     pub(crate) executor: Option<Makes>,
-    pub(crate) chunks_per_task: Option<usize>,
+    pub(crate) chunks_per_task: Option<i64>,
     pub(crate) progress: Option<Told>,
 }
 
@@ -52,7 +53,7 @@ impl Run {
         keywords.set_item("file", self.file)?;
         keywords.set_item("resume", self.resume)?;
         keywords.set_item("force", self.force)?;
-        keywords.set_item("threads", self.threads)?;
+        keywords.set_item("threads", self.threads.map(|threads| threads.0))?;
         keywords.set_item("executor", self.executor.map(|executor| executor.0))?;
         keywords.set_item("chunks_per_task", self.chunks_per_task)?;
         keywords.set_item("progress", self.progress.map(|progress| progress.0))?;

@@ -310,6 +310,9 @@ pub(crate) fn peaks(hz: Numbers, response: ComplexRow, prominence_db: f64) -> Py
     if values.len() != frequencies.len() {
         return Err(errors::input(format!("{} frequencies for {} values", frequencies.len(), values.len())));
     }
+    if let Some((hz, value)) = frequencies.iter().zip(&values).find(|(_, value)| !value.norm().is_finite()) {
+        return Err(errors::input(format!("`response` is {value} at {hz} Hz: it must be finite")));
+    }
     if frequencies.windows(2).any(|pair| pair[1] <= pair[0]) {
         return Err(errors::input("`hz` does not ascend".to_owned()));
     }

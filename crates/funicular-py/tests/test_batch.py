@@ -67,6 +67,9 @@ def test_what_is_no_state_is_a_row_with_its_reason(robot: funicular.Robot) -> No
     assert "finite" in many.reason[1] and "tension" in many.reason[3]
     assert robot.equilibria(lengths=[[6.8] * 5]).status.tolist() == ["length-count"]
     assert robot.equilibria(lengths=[[6.8] * 5 + [-1.0]]).status.tolist() == ["length"]
+    beyond = robot.equilibria(lengths=[[6.8] * 5 + [1e13], [6.8] * 5 + [np.inf]])
+    assert beyond.status.tolist() == ["input", "input"]
+    assert "at most 1e12" in beyond.reason[0] and "finite" in beyond.reason[1]
     assert len(robot.equilibria(poses=np.empty((0, 6)))) == 0
 
 
@@ -75,7 +78,10 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
         ({}, "one of them"),
         ({"poses": [[0, 0]]}, "rows of 2 numbers"),
         ({"poses": [0, 0, 0]}, "1 dimensions"),
+        ({"lengths": [7] * 6}, "give an array of rows, one a state"),
         ({"poses": [[0, 0, 0.5]], "threads": 0}, "at least one"),
+        ({"poses": [[0, 0, 0.5]], "threads": -1}, "at least one"),
+        ({"poses": [[0, 0, 0.5]], "threads": 2**61}, "at most 1024"),
         ({"poses": [[0, 0, 0.5]], "model": "springs"}, 'did you mean "spring"'),
     ]:
         with pytest.raises(funicular.InputError, match=said):
@@ -85,4 +91,5 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
 def test_a_table_has_a_row_a_state(robot: funicular.Robot) -> None:
     pytest.importorskip("pandas")
     table = robot.equilibria(poses=[[0, 0, 0.5], [0, 0, 50]]).to_pandas()
+    assert set(table.columns) > {"residual", "stable", "least_stiffness_n_per_m", "nearest_pose_distance_m"}
     assert table["status"].tolist() == ["ok", "would-push"] and table["tension_6_n"].isna().tolist() == [False, True]

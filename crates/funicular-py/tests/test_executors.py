@@ -91,6 +91,19 @@ def test_another_process_goes_on_with_the_file(
     assert path.read_bytes() == local
 
 
+def test_a_class_of_executors_makes_them(local: bytes, robot: funicular.Robot, tmp_path: Path) -> None:
+    workers.ask(robot, executor=ThreadPoolExecutor).to_parquet(tmp_path / "threads.parquet")
+    assert (tmp_path / "threads.parquet").read_bytes() == local
+
+
+def test_a_function_that_makes_executors_of_dask_is_one(local: bytes, robot: funicular.Robot, tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    path = tmp_path / "map.parquet"
+    with distributed.Client(processes=False, n_workers=1, threads_per_worker=2, dashboard_address=None) as client:
+        workers.ask(robot, file=path, executor=lambda: client.get_executor())
+    assert path.read_bytes() == local
+
+
 class _Refuses(ThreadPoolExecutor):
     def submit(self, *_: object, **__: object) -> object:  # type: ignore[override]
         raise ConnectionError("nobody is there")

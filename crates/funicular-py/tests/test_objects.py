@@ -143,6 +143,12 @@ def test_arguments_that_mean_nothing_are_refused(
     assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
 
 
+@pytest.mark.parametrize("value", [np.inf, np.nan, complex(0, -np.inf), complex(1.7e308, 1.7e308)])
+def test_peaks_are_of_finite_responses(value: complex) -> None:
+    with pytest.raises(funicular.InputError, match="`response` is .* at 2 Hz: it must be finite"):
+        funicular.peaks([1, 2, 3], [1, value, 1])
+
+
 def test_what_has_no_answer_has_its_own_error(robot: funicular.Robot) -> None:
     with pytest.raises(funicular.StaticsError) as statics:
         robot.equilibrium(pose=[0, 0, 5])

@@ -91,6 +91,8 @@ def test_figures_show_the_numbers(rest: funicular.Equilibrium) -> None:
     axes = funicular.plot.frf(hz, [response, 2 * response], labels=["a", "b"], unit="(m/s²)/N")
     assert np.array_equal(axes.lines[0].get_ydata(), abs(response)) and axes.get_yscale() == "log"
     assert funicular.plot.frf(hz, response, ax=axes) is axes and len(axes.lines) == 3
+    with pytest.raises(funicular.InputError, match="a row of frequencies"):
+        funicular.plot.frf(1.0, 1j)
     points = sum(len(line.get_xdata()) for line in funicular.plot.modes(modes).lines)
     assert points == len(modes) == 147
     for drawn in (axes, funicular.plot.robot(rest)):

@@ -1,14 +1,18 @@
 """Maps and sweeps are those of the program, byte for byte, and feel like NumPy."""
 
 import json
+import os
 import pickle
 import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import funicular
 import numpy as np
 import pytest
+import workers
 from conftest import ROBOTS, ROOT
 
 CASES: list[tuple[str, list[str], dict[str, Any]]] = [
@@ -106,6 +110,22 @@ def test_a_grid_has_its_dimensions(rows: funicular.Sweep) -> None:
     assert np.array_equal(rows.on_grid("x_m"), x) and np.array_equal(rows.on_grid("y_m"), y)
 
 
+def test_a_range_has_as_many_values_as_any_whole_number_says(robot: funicular.Robot) -> None:
+    expected = robot.map({"x": (-0.1, 0.1, 5), "y": 0, "z": 0.5})
+    assert len(expected) == 5
+    assert robot.map({"x": (-0.1, 0.1, np.int64(5)), "y": 0, "z": 0.5}) == expected
+
+
+def test_a_part_of_a_grid_has_no_dimensions(executable: str, tmp_path: Path) -> None:
+    part = tmp_path / "part.parquet"
+    line = [executable, "map", str(ROBOTS / "yuan2014-4mm.toml"), "--part", "1/2", "-o", str(part)]
+    subprocess.run([*line, *"--grid x=-1:1:40 --grid y=-1:1:10 --grid z=0.5".split()], check=True, capture_output=True)
+    rows = funicular.Sweep.read(part)
+    assert rows.complete and 0 < len(rows) < 400
+    with pytest.raises(funicular.InputError, match=f"{len(rows)} of 400 rows are there; merge the parts"):
+        rows.on_grid("tension_max_n")
+
+
 def test_arrow_takes_the_rows_without_copies(rows: funicular.Sweep, tmp_path: Path) -> None:
     pyarrow = pytest.importorskip("pyarrow")
     table, again = rows.to_arrow(), pyarrow.table(rows)
@@ -127,7 +147,7 @@ def test_tables_pickles_and_pages(rows: funicular.Sweep) -> None:
     assert table.shape == (27, len(rows.columns)) and table.attrs["units"]["x_m"] == "m"
     assert table["status"].tolist() == rows["status"].tolist()
     again = pickle.loads(pickle.dumps(rows))
-    assert again == rows and again.plan == rows.plan
+    assert again == rows and again.plan == rows.plan and again.file is None
     assert "tension_max_n [N]" in rows._repr_html_() and "would need" in rows._repr_html_()
     with pytest.raises(ValueError, match="read-only"):
         rows["x_m"][0] = 1
@@ -154,6 +174,14 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
         robot.map({"x": [0, 2], "y": 0, "z": 0.5}, file=path, resume=True)
     with pytest.raises(funicular.FileError, match="robot file, line"):
         robot.with_(mass_kg=20).map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, resume=True)
+    Path(f"{path}.partial").write_text("no journal")
+    with pytest.raises(funicular.FileError, match="begin anew with `force=True`"):
+        robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path)
+    assert len(robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, force=True)) == 2
+    os.mkfifo(tmp_path / "pipe.csv")
+    with pytest.raises(funicular.FileError, match="leave out `file`") as error:
+        robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=tmp_path / "pipe.csv")
+    assert "--" not in str(error.value)
     (tmp_path / "other.parquet").write_text("no")
     with pytest.raises(funicular.FileError, match="no Parquet file"):
         funicular.Sweep.read(tmp_path / "other.parquet")
@@ -167,9 +195,15 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
         ("map", {"grid": {"q": 0}}, "no axis `q`"),
         ("map", {"grid": {"x": (0, 1, 1)}}, "`x`: 1 is not a number of values"),
         ("map", {"grid": {"x": (0, 1, -1)}}, "`x` has -1 values"),
+        ("map", {"grid": {"x": (0, 1, -(10**30))}}, "`x` has -1000000000000000000000000000000 values"),
+        ("map", {"grid": {"x": (-0.1, 0.1, 5.0)}}, "`x` is a tuple of three, .* not 5.0: give a list"),
+        ("map", {"grid": {"x": (-0.1, 0.1, True)}}, "`x` is a tuple of three, .* not True: give a list"),
+        ("sweep", {"vary": {"platform.mass_kg": (10, 20, "3")}}, "a tuple of three, .* not '3'"),
         ("map", {"grid": {"x": []}}, "`x` has no values"),
         ("map", {"grid": {"x": [0, float("nan")]}}, "must be finite"),
         ("map", {"poses": [[0, 0]]}, "give x, y, z"),
+        ("map", {"poses": [[0, 0, 0.5]], "pose": [0, 0, 1]}, "leave out `pose` and `lengths`"),
+        ("map", {"poses": [[0, 0, 0.5]], "lengths": [7] * 6}, "leave out `pose` and `lengths`"),
         ("map", {"poses": np.zeros((0, 3))}, "no points"),
         ("map", {"grid": {"x": 0}, "quantities": ["tension-mx"]}, "did you mean `tension-max`"),
         ("map", {"grid": {"x": 0}, "quantities": []}, "no quantity"),
@@ -177,7 +211,11 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
         ("map", {"grid": {"x": 0}, "resume": True}, "go with `file`"),
         ("map", {"grid": {"x": 0}, "chunks_per_task": 3}, "goes with `executor`"),
         ("map", {"grid": {"x": 0}, "executor": 3}, "`executor` is a int"),
+        ("map", {"grid": {"x": 0}, "executor": ThreadPoolExecutor, "chunks_per_task": -1}, "`chunks_per_task` is -1"),
         ("map", {"grid": {"x": 0}, "threads": 0}, "`threads` is 0"),
+        ("map", {"grid": {"x": 0}, "threads": -1}, "`threads` is -1: give at least one"),
+        ("map", {"grid": {"x": 0}, "threads": 1025}, "`threads` is 1025: .* at most 1024"),
+        ("sweep", {"vary": {"platform.mass_kg": 1}, "threads": 2**61}, "at most 1024"),
         ("map", {"grid": {"x": (0, 1, 10**9)}}, "more than the 100000000"),
         ("sweep", {"vary": {"platform.mas_kg": [1, 2]}}, "mas_kg"),
         ("sweep", {"vary": {"platform.mass_kg": (-1, 1, 3)}}, "mass_kg"),
@@ -190,6 +228,31 @@ def test_arguments_that_mean_nothing_are_explained(
     with pytest.raises(funicular.Error, match=told.replace("(", r"\(")) as error:
         getattr(robot, command)(**keywords)
     assert "--" not in str(error.value)
+
+
+# As a full disk does it, but that one of a process can be had anywhere.
+FULL = """
+import resource, sys
+import funicular, workers
+resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, resource.RLIM_INFINITY))
+try:
+    workers.ask_long(funicular.Robot.example(), file=sys.argv[1], threads=3)
+except funicular.FileError as error:
+    print(error)
+"""
+
+
+def test_a_full_disk_is_explained_and_what_was_written_goes_on(robot: funicular.Robot, tmp_path: Path) -> None:
+    pytest.importorskip("resource")
+    path, whole = tmp_path / "map.parquet", tmp_path / "whole.parquet"
+    line = [sys.executable, "-c", FULL, str(path)]
+    done = subprocess.run(line, cwd=Path(__file__).parent, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "panicked" not in done.stderr, done.stderr
+    assert "cannot write" in done.stdout and "make room, then go on with `resume=True`" in done.stdout
+    begun: list[int] = []
+    workers.ask_long(robot, file=path, resume=True, progress=lambda done, _: begun.append(done))
+    workers.ask_long(robot, file=whole)
+    assert begun[0] > 0 and path.read_bytes() == whole.read_bytes()
 
 
 def test_the_plan_says_what_was_asked(rows: funicular.Sweep) -> None:

@@ -88,6 +88,14 @@ def _workers(executor: Executor) -> int:
     return os.cpu_count() or 1
 
 
+def _shut_down(executor: Executor, wait: bool) -> None:
+    try:
+        executor.shutdown(wait=wait, cancel_futures=True)
+    except TypeError:
+        # Dask's does not have it, and cancels without being asked if it is not to wait.
+        executor.shutdown(wait=wait)
+
+
 class _Broken(Exception):
     """An executor that takes no tasks any more."""
 
@@ -149,7 +157,8 @@ class Shared:
         self.failures.clear()
 
     def _run(self, executor: Makes) -> None:
-        made_here = not hasattr(executor, "submit")
+        # A class has the method, too, but makes what has it.
+        made_here = isinstance(executor, type) or not hasattr(executor, "submit")
         in_vain = 0
         while True:
             pool: Executor = executor() if made_here else executor  # type: ignore[operator, assignment]
@@ -164,7 +173,7 @@ class Shared:
                     raise self._error(broken.__cause__) from broken.__cause__
             finally:
                 if made_here:
-                    pool.shutdown(wait=clean, cancel_futures=True)
+                    _shut_down(pool, clean)
 
     def _error(self, cause: BaseException | None) -> ExecutorError:
         rows = min(self.chunks_done * self.plan.chunk_rows, self.plan.rows)

@@ -569,7 +569,7 @@ class SweepPlan:
         """
         Number of chunks of rows; each is computed by itself.
         """
-    def compute(self, /, first: SupportsIndex, end: SupportsIndex, threads: SupportsIndex = 1) -> bytes:
+    def compute(self, /, first: SupportsIndex, end: SupportsIndex, threads: SupportsIndex = ...) -> bytes:
         """
         Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
         """

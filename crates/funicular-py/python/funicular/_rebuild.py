@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from funicular._funicular import Catenary, Equilibrium, Pose, Robot
+from funicular._funicular import Catenary, Equilibrium, Pose, Robot, SweepTable
 from funicular._sweeps import Sweep
 
 
@@ -29,5 +29,4 @@ def sweep(parquet: bytes) -> Sweep:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "sweep.parquet"
         path.write_bytes(parquet)
-        sweep = Sweep.read(path)
-        return sweep
+        return Sweep(SweepTable.read(path))

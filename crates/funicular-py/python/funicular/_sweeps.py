@@ -1,6 +1,7 @@
 """Maps and sweeps: rows computed here or by an executor, and what they are to Python."""
 
 import json
+import math
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
@@ -136,7 +137,13 @@ class Sweep:
             raise InputError("these rows are no grid: there is one dimension, that of `columns`")
         if not self.complete:
             raise InputError(f"the grid is not complete: {len(self)} rows are there")
-        return self.columns[name].reshape([len(values) for values in reversed(axes.values())])
+        shape = [len(values) for values in reversed(axes.values())]
+        if len(self) != math.prod(shape):
+            raise InputError(
+                f"this is a part of a grid: {len(self)} of {math.prod(shape)} rows are there; merge the parts "
+                "(`funicular merge`)"
+            )
+        return self.columns[name].reshape(shape)
 
     def to_pandas(self) -> Any:
         """The rows as a table of pandas, which has to be installed; units in its `attrs`."""

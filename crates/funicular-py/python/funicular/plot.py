@@ -94,7 +94,10 @@ def frf(
     curves: NDArray[np.complex128] = np.atleast_2d(np.asarray(response, dtype=complex))
     names = [f"response {i + 1}" for i in range(len(curves))] if labels is None else list(labels)
     if curves.shape[1:] != frequencies.shape or len(names) != len(curves):
-        raise InputError(f"{len(frequencies)} frequencies and {len(names)} labels for responses of shape {curves.shape}")
+        raise InputError(
+            f"frequencies of shape {frequencies.shape} and {len(names)} labels for responses of shape {curves.shape}: "
+            "give a row of frequencies, and for each response a row of as many values and a label"
+        )
     magnitude = f"magnitude{f' [{unit}]' if unit else ''}"
     if _check(backend, ax):
         ax = _axes(ax)

@@ -7,7 +7,7 @@ use crate::request::{Given, Options};
 use funicular::statics::TensionRule;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyInt, PyMapping, PyTuple};
+use pyo3::types::{PyBool, PyMapping, PyTuple};
 
 const ABC: PyStaticExpr = PyStaticExpr::Name { id: "collections.abc" };
 const CALLABLE: PyStaticExpr = PyStaticExpr::Attribute { value: &ABC, attr: "Callable" };
@@ -43,12 +43,9 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Axes {
 fn steps(name: &str, values: &Bound<'_, PyAny>) -> PyResult<StepsAsked> {
     if let Ok(tuple) = values.cast::<PyTuple>()
         && tuple.len() == 3
-        && tuple.get_item(2)?.is_instance_of::<PyInt>()
-        && !tuple.get_item(2)?.is_instance_of::<PyBool>()
     {
-        let (from, to, count): (f64, f64, i64) = tuple.extract()?;
-        let count = usize::try_from(count)
-            .map_err(|_| errors::input(format!("`{name}` has {count} values: a range has 2 or more")))?;
+        let count = how_many(name, &tuple.get_item(2)?)?;
+        let (from, to): (f64, f64) = (tuple.get_item(0)?.extract()?, tuple.get_item(1)?.extract()?);
         return Ok(StepsAsked::Range { from: finite(name, from)?, to: finite(name, to)?, count });
     }
     let values = values.extract::<Numbers>()?;
@@ -58,6 +55,18 @@ fn steps(name: &str, values: &Bound<'_, PyAny>) -> PyResult<StepsAsked> {
     }
     values.iter().try_for_each(|value| finite(name, *value).map(drop))?;
     Ok(StepsAsked::List { values })
+}
+
+/// The number of values of a range: whatever has an index, NumPy's whole numbers, too, but no flag.
+fn how_many(name: &str, count: &Bound<'_, PyAny>) -> PyResult<usize> {
+    let whole = if count.is_instance_of::<PyBool>() { None } else { count.call_method0("__index__").ok() };
+    let Some(whole) = whole else {
+        return Err(errors::input(format!(
+            "`{name}` is a tuple of three, whose third is how many, a whole number, not {}: give a list for values",
+            count.repr()?
+        )));
+    };
+    whole.extract().map_err(|_| errors::input(format!("`{name}` has {whole} values: a range has 2 or more")))
 }
 
 /// An executor, or what makes one.

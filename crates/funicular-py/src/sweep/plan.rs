@@ -6,6 +6,7 @@ use crate::errors;
 use crate::names;
 use crate::request::{Asked, Options};
 use crate::robot::PyRobot;
+use crate::threads::Threads;
 use crate::waiting::LOOK;
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics;
@@ -19,7 +20,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Instant;
 
@@ -175,6 +176,11 @@ impl Whole {
                 (robot, Found::Grid { poses, base })
             }
             PointsAsked::Poses(rows) => {
+                if request.pose.is_some() || request.lengths.is_some() {
+                    return Err(errors::input(
+                        "`poses` says where the platform is: leave out `pose` and `lengths`".to_owned(),
+                    ));
+                }
                 let robot = state.robot(statics.robot(&file.robot)?)?;
                 let turned = |row: &[f64; 6]| row[3..].iter().any(|angle| *angle != 0.0);
                 if robot.platform.freedoms == Freedoms::PointMass && rows.iter().any(turned) {
@@ -227,39 +233,42 @@ impl Whole {
             let (sender, receiver) = sync_channel(WAITING);
             let (plan, cancel) = (&plan, &cancel);
             let runner = scope.spawn(move || plan.run(chunks, threads, cancel, |chunk| sender.send(chunk)));
-            let mut ended = Ok(());
-            let mut looked = Instant::now();
-            loop {
-                let step = match receiver.recv_timeout(LOOK) {
-                    Ok(chunk) => take(chunk),
-                    Err(RecvTimeoutError::Disconnected) => break,
-                    Err(RecvTimeoutError::Timeout) => Ok(()),
-                };
-                let step = step.and_then(|()| {
-                    if looked.elapsed() < LOOK {
-                        return Ok(());
-                    }
-                    looked = Instant::now();
-                    look()
-                });
-                if step.is_err() {
-                    ended = step;
-                    cancel.store(true, Ordering::Relaxed);
-                    // What is finished is not thrown away; if it cannot be taken, the reason is known already.
-                    while let Ok(chunk) = receiver.recv() {
-                        if take(chunk).is_err() {
-                            break;
-                        }
-                    }
-                    break;
-                }
-            }
+            let ended = hand_over(&receiver, cancel, &mut take, &mut look);
+            // Nobody takes the rest.
+            cancel.store(true, Ordering::Relaxed);
             drop(receiver);
             match runner.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(_) => ended,
             }
         })
+    }
+}
+
+/// Hands over chunks as they come, until there are none or one cannot be taken: then none behind it can, either.
+fn hand_over(
+    arriving: &Receiver<Chunk>,
+    cancel: &AtomicBool,
+    take: &mut impl FnMut(Chunk) -> PyResult<()>,
+    look: &mut impl FnMut() -> PyResult<()>,
+) -> PyResult<()> {
+    let mut looked = Instant::now();
+    loop {
+        match arriving.recv_timeout(LOOK) {
+            Ok(chunk) => take(chunk)?,
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if looked.elapsed() < LOOK {
+            continue;
+        }
+        looked = Instant::now();
+        if let Err(interrupt) = look() {
+            cancel.store(true, Ordering::Relaxed);
+            // What is finished is not thrown away; if it cannot be taken, the reason to end is known already.
+            let _ = arriving.iter().try_for_each(take);
+            return Err(interrupt);
+        }
     }
 }
 
@@ -297,16 +306,6 @@ fn base(robot: &Robot, statics: &Options) -> PyResult<Option<Pose>> {
             Some(rest.pose)
         }
     })
-}
-
-/// A number of threads; one a core without it.
-pub(crate) fn threads(given: Option<usize>) -> PyResult<NonZeroUsize> {
-    match given {
-        None => Ok(thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)),
-        Some(given) => {
-            NonZeroUsize::new(given).ok_or_else(|| errors::input("`threads` is 0: give at least one".to_owned()))
-        }
-    }
 }
 
 /// What is asked of which points; a pickle of it is the text of the robot file and the request.
@@ -353,17 +352,22 @@ impl PyPlan {
     }
 
     /// Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
-    #[pyo3(signature = (first, end, threads=1))]
-    fn compute<'py>(&self, py: Python<'py>, first: usize, end: usize, threads: usize) -> PyResult<Bound<'py, PyBytes>> {
+    #[pyo3(signature = (first, end, threads=Threads(NonZeroUsize::MIN)))]
+    fn compute<'py>(
+        &self,
+        py: Python<'py>,
+        first: usize,
+        end: usize,
+        threads: Threads,
+    ) -> PyResult<Bound<'py, PyBytes>> {
         if first > end || end > self.chunks() {
             return Err(errors::input(format!("there are no chunks {first} to {end} of {}", self.chunks())));
         }
-        let threads = self::threads(Some(threads))?;
         let mut bytes = Vec::new();
         py.detach(|| {
             self.whole.run(
                 first..end,
-                threads,
+                threads.0,
                 |chunk| table::pack(&mut bytes, &chunk).map_err(PyErr::from),
                 crate::waiting::look,
             )

@@ -1,8 +1,9 @@
 //! Rows on their way into memory or a file.
 
-use super::plan::{Whole, threads};
+use super::plan::Whole;
 use super::table::PyTable;
 use crate::errors;
+use crate::threads::Threads;
 use funicular_files::table::{Growing, Table, unpack};
 use funicular_files::{Format, Job};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -106,8 +107,8 @@ impl PyWork {
 
     /// Computes all chunks that are missing here, side by side; `progress` is called with the rows there and all rows.
     #[pyo3(signature = (threads=None, progress=None))]
-    fn run(&mut self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
-        let threads = self::threads(threads)?;
+    fn run(&mut self, py: Python<'_>, threads: Option<Threads>, progress: Option<Py<PyAny>>) -> PyResult<()> {
+        let threads = Threads::of(threads);
         let whole = Arc::clone(&self.whole);
         let into = self.open()?;
         let chunks = into.next()..whole.record.chunks();

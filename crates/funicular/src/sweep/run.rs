@@ -72,7 +72,7 @@ impl Plan<'_> {
             due: Mutex::new(chunks.start),
             moved: Condvar::new(),
         };
-        let lead = AHEAD * threads.get();
+        let lead = AHEAD.saturating_mul(threads.get());
         let (finished, arriving) = mpsc::channel::<Chunk>();
         thread::scope(|scope| {
             for _ in 0..threads.get().min(chunks.len()) {
