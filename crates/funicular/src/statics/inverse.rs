@@ -81,8 +81,7 @@ fn hang_all(loaded: &[LoadedCable], pose: &Pose, lengths: &[f64]) -> Vec<Hanging
 }
 
 fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64]) -> Result<Equilibrium, StaticsError> {
-    let ell = robot.platform_length();
-    let mut hanging: Vec<HangingCable> = (loaded.iter().zip(straight))
+    let start: Vec<HangingCable> = (loaded.iter().zip(straight))
         .map(|(cable, tension)| {
             let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
             // A cable that straight statics finds pushing starts as a deeply sagging one.
@@ -90,33 +89,14 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
             cable.hang_with_tension(pose, tension.max(least))
         })
         .collect();
-    let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
-    let mut iterations = 0;
-    let mut damping = 1.0;
-    while iterations < 100 && residual > 1e-14 {
-        iterations += 1;
-        let mut columns = Mat6::identity();
-        for (i, cable) in hanging.iter().enumerate() {
-            let column = wrench_of(&cable.force_by_length_w(), &((cable.start_w - pose.position_w) / ell));
-            columns.set_column(i, &robot.platform.freedoms.reduced(&column));
-        }
-        let right = -robot.platform.freedoms.reduced(&scaled_wrench(&wrench, ell));
-        let Some(change) = columns.lu().solve(&right) else { break };
-        let next: Vec<HangingCable> =
-            (hanging.iter().zip(&change)).map(|(cable, change)| lengthened(cable, damping * change)).collect();
-        let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
-        if next_residual < residual {
-            (hanging, wrench, residual) = (next, next_wrench, next_residual);
-            damping = (2.0 * damping).min(1.0);
-        } else if residual < RESIDUAL_LIMIT {
-            break;
-        } else {
-            damping *= 0.25;
-            if damping < 1e-6 {
-                break;
-            }
-        }
+    let mut found = balanced(robot, pose, start.clone(), lengthened);
+    if found.residual > RESIDUAL_LIMIT {
+        // Each way now and then holds a pose by hundreds of metres of rope where the other does not.
+        let before = found.iterations;
+        found = balanced(robot, pose, start, tightened);
+        found.iterations += before;
     }
+    let Balanced { hanging, residual, iterations } = found;
     let pushing = weakest(straight).filter(|&i| straight[i] <= 0.0);
     let strongest = |tensions: &mut dyn Iterator<Item = f64>| tensions.fold(0.0, |m: f64, t| m.max(t.abs()));
     // Where a straight cable would push, sagging ones may still hold the pose, by their weight; or only by tensions out
@@ -135,6 +115,50 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
     Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z })
 }
 
+struct Balanced {
+    hanging: Vec<HangingCable>,
+    residual: f64,
+    iterations: usize,
+}
+
+/// Newton's method on the lengths, from a start; `step` makes the cable of a change of length.
+fn balanced(
+    robot: &Robot,
+    pose: &Pose,
+    mut hanging: Vec<HangingCable>,
+    step: fn(&HangingCable, f64) -> HangingCable,
+) -> Balanced {
+    let ell = robot.platform_length();
+    let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
+    let mut iterations = 0;
+    let mut damping = 1.0;
+    while iterations < 100 && residual > 1e-14 {
+        iterations += 1;
+        let mut columns = Mat6::identity();
+        for (i, cable) in hanging.iter().enumerate() {
+            let column = wrench_of(&cable.force_by_length_w(), &((cable.start_w - pose.position_w) / ell));
+            columns.set_column(i, &robot.platform.freedoms.reduced(&column));
+        }
+        let right = -robot.platform.freedoms.reduced(&scaled_wrench(&wrench, ell));
+        let Some(change) = columns.lu().solve(&right) else { break };
+        let next: Vec<HangingCable> =
+            (hanging.iter().zip(&change)).map(|(cable, change)| step(cable, damping * change)).collect();
+        let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
+        if next_residual < residual {
+            (hanging, wrench, residual) = (next, next_wrench, next_residual);
+            damping = (2.0 * damping).min(1.0);
+        } else if residual < RESIDUAL_LIMIT {
+            break;
+        } else {
+            damping *= 0.25;
+            if damping < 1e-6 {
+                break;
+            }
+        }
+    }
+    Balanced { hanging, residual, iterations }
+}
+
 /// Wrench that is left, and its scaled size.
 fn unbalanced(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f64) {
     let forces = hanging.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
@@ -150,6 +174,12 @@ fn lengthened(cable: &HangingCable, change: f64) -> HangingCable {
     if change > 0.0 && tension < 0.5 * rope.weight_per_length * cable.chord_w().norm() {
         return cable.at_length(rope.unstrained_length + change);
     }
+    tightened(cable, change)
+}
+
+/// The same in the tension alone.
+fn tightened(cable: &HangingCable, change: f64) -> HangingCable {
+    let tension = cable.catenary.parallel_tension();
     let wanted = tension + change * cable.catenary.parallel_tension_by_length();
     at_tension(cable, wanted.max(0.2 * tension))
 }
