@@ -57,12 +57,9 @@ fn a_grid_becomes_slices_that_hold_its_rows() {
     let line = "COGIRO --grid x=-9:9:7 --grid y=-3:3:4 --grid z=1,2.5 --quantity tension-max,stiffness-min";
     let (page, notes) = page_of(&format!("map {line}"));
     assert_eq!(notes, "");
-    let csv = succeed(
-        &format!("map {line} --format csv")
-            .replace("COGIRO", &robot("cogiro.toml"))
-            .split_whitespace()
-            .collect::<Vec<_>>(),
-    );
+    let (line, cogiro) = (format!("map {line} --format csv"), robot("cogiro.toml"));
+    let words = line.split_whitespace().map(|word| if word == "COGIRO" { cogiro.as_str() } else { word });
+    let csv = succeed(&words.collect::<Vec<_>>());
     let (header, status, numbers) = slices(&page);
     assert_eq!(header["axes"][0]["title"], "x [m]");
     assert_eq!(header["axes"][2]["values"], serde_json::json!([1.0, 2.5]));

@@ -147,6 +147,18 @@ fn pose_to_lengths_and_back_is_the_identity() {
 }
 
 #[test]
+fn poses_that_only_one_way_of_steps_finds_are_held() {
+    let (mut robot, _) = load(YUAN_4MM);
+    robot.platform.mass = 20.0;
+    // By steps in tension alone the first; the second only with steps in the length of slack cables.
+    for position in [[2.5, -1.4, 0.5], [3.0, 1.0, 0.5]] {
+        let rest = statics::inverse(&robot, &Pose::new(position, [0.0; 3]), StaticModel::Catenary).unwrap();
+        assert!(rest.residual <= statics::RESIDUAL_LIMIT && matches!(rest.stability, Stability::Stable { .. }));
+        assert!(rest.cables.iter().all(|cable| cable.tension_platform > 0.0));
+    }
+}
+
+#[test]
 fn a_cable_cut_to_half_its_length_is_an_answer_not_an_accident() {
     for text in [YUAN_4MM, YUAN_8MM, COGIRO] {
         let (robot, lengths) = load(text);
