@@ -198,7 +198,9 @@ fn a_run_that_is_cancelled_or_refused_ends_behind_whole_chunks() {
     let mut seen = Vec::new();
     let outcome = plan.run(2..plan.chunks(), three, &cancel, |chunk| {
         seen.push(chunk.index);
-        cancel.store(chunk.index == 5, Ordering::Relaxed);
+        if chunk.index == 5 {
+            cancel.store(true, Ordering::Relaxed);
+        }
         Ok::<(), Infallible>(())
     });
     let Ok(Outcome::Cancelled { next }) = outcome else { panic!("{outcome:?}") };
