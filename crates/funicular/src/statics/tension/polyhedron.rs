@@ -1,5 +1,7 @@
 //! The point of a polyhedron nearest to a given one; with it, the highest point of a polyhedron.
 
+use std::ops::{Add, Div, Mul, Sub};
+
 /// Inequalities `normal · x ≥ level`, few unknowns.
 #[derive(Debug, Default)]
 pub(super) struct Polyhedron {
@@ -25,6 +27,9 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A normal that the others make up to this part of its length adds nothing.
 const DEPENDENT: f64 = 1e-10;
+
+/// Slopes and parts of multipliers that are rounding.
+const FLAT: f64 = 1e-14;
 
 impl Polyhedron {
     /// Everything, in a space of this dimension.
@@ -54,96 +59,212 @@ impl Polyhedron {
 
     /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
     /// holds it there; `None` if there is no such point.
-    ///
-    /// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
-    /// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
     pub(super) fn nearest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
         // What the point has of rounding where it starts, it keeps.
         let tolerance = x.iter().fold(tolerance, |most, x| most.max(ROUNDING * x.abs()));
-        let mut active: Vec<Active> = Vec::with_capacity(self.dimension + 1);
+        let held = self.approach(x, tolerance)?;
+        Some(held.into_iter().map(|Held { row, multiplier }| Active { row, multiplier }).collect())
+    }
+
+    /// Moves `x` to a point whose last component is greatest, of all these the one nearest to where `x` was, and
+    /// returns what holds it up there (the solution of the dual linear problem; multipliers of walls only passed on the
+    /// way are zero). `None` if the polyhedron has no points or no highest one.
+    ///
+    /// The point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see [`Far`].
+    pub(super) fn highest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+        let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
+        point[self.dimension - 1].far = 1.0;
+        let tolerance = x.iter().fold(tolerance, |most, x| most.max(ROUNDING * x.abs()));
+        let held = self.approach(&mut point, tolerance)?;
+        if point.iter().any(|x| x.far != 0.0) {
+            return None;
+        }
+        x.iter_mut().zip(&point).for_each(|(x, point)| *x = point.near);
+        Some(held.into_iter().map(|Held { row, multiplier }| Active { row, multiplier: multiplier.far }).collect())
+    }
+
+    /// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
+    /// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
+    fn approach<M: Magnitude>(&self, x: &mut [M], tolerance: f64) -> Option<Vec<Held<M>>> {
+        let mut active: Vec<Held<M>> = Vec::with_capacity(self.dimension + 1);
         let mut basis = Basis::new(self.dimension);
         // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
         for _ in 0..100 * (self.dimension + 1) {
             let Some((row, mut lack)) = self.most_violated(x, tolerance) else { return Some(active) };
             let normal = self.normal(row);
-            let mut multiplier = 0.0;
+            let mut multiplier = M::ZERO;
             loop {
                 let free = basis.split(normal);
                 let squared: f64 = basis.rest.iter().map(|z| z * z).sum();
                 // How far until a multiplier vanishes, and until the inequality holds.
-                let mut blocking = (f64::INFINITY, 0);
+                let mut blocking: Option<(M, usize)> = None;
                 for (at, held) in active.iter().enumerate() {
-                    if basis.shares[at] > 0.0 && held.multiplier < blocking.0 * basis.shares[at] {
-                        blocking = (held.multiplier / basis.shares[at], at);
+                    if basis.shares[at] > 0.0 {
+                        let until = held.multiplier / basis.shares[at];
+                        if blocking.is_none_or(|(first, _)| until < first) {
+                            blocking = Some((until, at));
+                        }
                     }
                 }
-                let full = if free { lack / squared } else { f64::INFINITY };
-                let step = full.min(blocking.0);
-                if step == f64::INFINITY {
-                    return None;
-                }
+                let full = free.then(|| lack / squared);
+                let blocked = blocking.filter(|(until, _)| full.is_none_or(|full| *until < full));
+                let step = blocked.map(|(until, _)| until).or(full)?;
                 for (held, share) in active.iter_mut().zip(&basis.shares) {
-                    held.multiplier = (held.multiplier - step * share).max(0.0);
+                    held.multiplier = held.multiplier.less(step * *share);
                 }
-                multiplier += step;
+                multiplier = multiplier + step;
                 if free {
-                    x.iter_mut().zip(&basis.rest).for_each(|(x, z)| *x += step * z);
-                    lack -= step * squared;
+                    x.iter_mut().zip(&basis.rest).for_each(|(x, z)| *x = *x + step * *z);
+                    lack = lack - step * squared;
                 }
-                if full <= blocking.0 {
+                let Some((_, at)) = blocked else {
                     basis.push();
-                    active.push(Active { row, multiplier });
+                    active.push(Held { row, multiplier });
+                    M::settle(x, &mut basis);
                     break;
-                }
-                active.remove(blocking.1);
+                };
+                active.remove(at);
                 basis.rebuild(active.iter().map(|held| self.normal(held.row)));
             }
         }
         None
     }
 
-    fn most_violated(&self, x: &[f64], tolerance: f64) -> Option<(usize, f64)> {
-        let mut worst: Option<(usize, f64)> = None;
+    fn most_violated<M: Magnitude>(&self, x: &[M], tolerance: f64) -> Option<(usize, M)> {
+        let mut worst: Option<(usize, M)> = None;
         for (row, level) in self.levels.iter().enumerate() {
-            let (mut lack, mut size) = (*level, level.abs());
-            for (a, x) in self.normal(row).iter().zip(x) {
-                lack -= a * x;
-                size += (a * x).abs();
-            }
-            // Also when it is not a number: then there is no such point.
-            if lack > worst.map_or(tolerance.max(ROUNDING * size), |(_, most)| most) || lack.is_nan() {
+            let lack = M::lack(self.normal(row), x, *level, tolerance);
+            if let Some(lack) = lack
+                && worst.is_none_or(|(_, most)| most < lack || lack.is_nan())
+            {
                 worst = Some((row, lack));
             }
         }
         worst
     }
+}
 
-    /// Moves `x` to a point whose last component is greatest, of all these the one nearest to where `x` was, and
-    /// returns what holds it there. The polyhedron must have points, and a highest one; `size` is that of its
-    /// components.
-    ///
-    /// A projection of a point far above: if it is far enough, the projection is the highest point nearest to it
-    /// (Mangasarian and Meyer 1979). If it was not, the next one begins higher.
-    pub(super) fn highest(&self, x: &mut [f64], size: f64, tolerance: f64) -> Option<Vec<Active>> {
-        let last = self.dimension - 1;
-        let mut best = f64::NEG_INFINITY;
-        let mut lift = 10.0 * size;
-        let mut held = Vec::new();
-        for _ in 0..60 {
-            let mut next = x.to_vec();
-            next[last] = next[last].max(best) + lift;
-            let active = self.nearest(&mut next, tolerance)?;
-            let gain = next[last] - best;
-            if gain <= 4.0 * tolerance {
-                // Held from where it began, or by this projection: the multipliers are those of the larger lift.
-                return Some(if held.is_empty() { active } else { held });
-            }
-            best = next[last];
-            x.copy_from_slice(&next);
-            held = active;
-            lift *= 3.0;
+/// An active inequality on the way.
+struct Held<M> {
+    row: usize,
+    multiplier: M,
+}
+
+/// What coordinates, violations and multipliers are counted in: numbers, or numbers of two sizes.
+trait Magnitude:
+    Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + Div<f64, Output = Self>
+{
+    const ZERO: Self;
+
+    /// What `normal · x` lacks of `level`, if it is more than `tolerance` and rounding or is not a number: then there is
+    /// no such point.
+    fn lack(normal: &[f64], x: &[Self], level: f64, tolerance: f64) -> Option<Self>;
+
+    /// What is left of a multiplier, at least nothing.
+    fn less(self, by: Self) -> Self;
+
+    fn is_nan(&self) -> bool;
+
+    /// Takes rounding from a point that lies on all active inequalities.
+    fn settle(x: &mut [Self], basis: &mut Basis);
+}
+
+impl Magnitude for f64 {
+    const ZERO: Self = 0.0;
+
+    fn lack(normal: &[f64], x: &[Self], level: f64, tolerance: f64) -> Option<Self> {
+        let (mut lack, mut size) = (level, level.abs());
+        for (a, x) in normal.iter().zip(x) {
+            lack -= a * x;
+            size += (a * x).abs();
         }
-        Some(held)
+        (lack > tolerance.max(ROUNDING * size) || lack.is_nan()).then_some(lack)
+    }
+
+    fn less(self, by: Self) -> Self {
+        (self - by).max(0.0)
+    }
+
+    fn is_nan(&self) -> bool {
+        Self::is_nan(*self)
+    }
+
+    fn settle(_: &mut [Self], _: &mut Basis) {}
+}
+
+/// `far · L + near` with an L larger than every number: what is far is compared first.
+///
+/// The highest point of a polyhedron is the one nearest to a point high enough above. How high that is depends on the
+/// flattest edge, and a number so large would leave nothing of the digits of the others; so it stays a letter.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+struct Far {
+    far: f64,
+    near: f64,
+}
+
+impl Add for Far {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { far: self.far + other.far, near: self.near + other.near }
+    }
+}
+
+impl Sub for Far {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { far: self.far - other.far, near: self.near - other.near }
+    }
+}
+
+impl Mul<f64> for Far {
+    type Output = Self;
+    fn mul(self, by: f64) -> Self {
+        Self { far: self.far * by, near: self.near * by }
+    }
+}
+
+impl Div<f64> for Far {
+    type Output = Self;
+    fn div(self, by: f64) -> Self {
+        Self { far: self.far / by, near: self.near / by }
+    }
+}
+
+impl Magnitude for Far {
+    const ZERO: Self = Self { far: 0.0, near: 0.0 };
+
+    fn lack(normal: &[f64], x: &[Self], level: f64, tolerance: f64) -> Option<Self> {
+        let (mut lack, mut sizes) = (Self { far: 0.0, near: level }, Self { far: 0.0, near: level.abs() });
+        for (&a, &x) in normal.iter().zip(x) {
+            lack = lack - x * a;
+            // What is far has been a unit vector: its rounding stays that of one.
+            sizes = sizes + Self { far: a.abs(), near: (a * x.near).abs() };
+        }
+        if lack.far.abs() <= FLAT * sizes.far {
+            lack.far = 0.0;
+        }
+        let violated = lack.far > 0.0 || lack.far == 0.0 && lack.near > tolerance.max(ROUNDING * sizes.near);
+        (violated || lack.is_nan()).then_some(lack)
+    }
+
+    fn less(self, by: Self) -> Self {
+        let mut left = self - by;
+        if left.far.abs() <= FLAT * self.far.abs() {
+            left.far = 0.0;
+        }
+        if left < Self::ZERO { Self::ZERO } else { left }
+    }
+
+    fn is_nan(&self) -> bool {
+        self.far.is_nan() || self.near.is_nan()
+    }
+
+    /// The far part is what the vertical has outside of the active normals.
+    fn settle(x: &mut [Self], basis: &mut Basis) {
+        let mut vertical = vec![0.0; x.len()];
+        vertical[x.len() - 1] = 1.0;
+        basis.split(&vertical);
+        x.iter_mut().zip(&basis.rest).for_each(|(x, rest)| x.far = *rest);
     }
 }
 
@@ -268,8 +389,68 @@ mod tests {
         // A roof with a level ridge: y ≤ 1, and a wall at x ≥ 3.
         let roof = polyhedron(2, &[(vec![0.0, -1.0], -1.0), (vec![1.0, 0.0], 3.0), (vec![-1.0, -0.001], -9.0)]);
         let mut x = [4.0, 0.0];
-        roof.highest(&mut x, 1.0, 1e-12).unwrap();
+        roof.highest(&mut x, 1e-12).unwrap();
         assert!((x[0] - 4.0).abs() < 1e-9 && (x[1] - 1.0).abs() < 1e-12, "{x:?}");
+    }
+
+    type Rows = [(Vec<f64>, f64)];
+
+    /// The point that is deepest inside of all walls or least outside, its depth (at most 1) last.
+    fn deepest(rows: &Rows, start: &[f64]) -> (Vec<f64>, Vec<Active>) {
+        let mut lifted = Polyhedron::new(4);
+        for (normal, level) in rows {
+            lifted.add(normal.iter(), 1.0, Some(-1.0), *level);
+        }
+        lifted.add([0.0; 3].iter(), 1.0, Some(-1.0), -1.0);
+        let mut point = [start, &[0.0]].concat();
+        let held = lifted.highest(&mut point, 1e-12).unwrap();
+        (point, held)
+    }
+
+    fn check_deepest(rows: &Rows, start: &[f64]) -> Result<(), TestCaseError> {
+        let (point, held) = deepest(rows, start);
+        let (x, depth) = (&point[..3], point[3]);
+        let size = 1.0 + dot(x, x).sqrt();
+        for (normal, level) in rows {
+            prop_assert!(dot(normal, x) - depth >= level - 1e-10 * size, "{point:?}");
+        }
+        prop_assert!(depth <= 1.0 + 1e-12, "{point:?}");
+        let mut balance = [0.0, 0.0, 0.0, 1.0];
+        let total: f64 = held.iter().map(|held| held.multiplier).sum();
+        prop_assert!((total - 1.0).abs() < 1e-9, "{held:?}");
+        for held in held {
+            prop_assert!(held.multiplier >= 0.0);
+            balance[3] -= held.multiplier;
+            let Some((normal, level)) = rows.get(held.row) else { continue };
+            balance.iter_mut().zip(normal).for_each(|(b, a)| *b += held.multiplier * a);
+            prop_assert!((dot(normal, x) - depth - level).abs() < 1e-9 * size, "{point:?}");
+        }
+        prop_assert!(balance.iter().all(|b| b.abs() < 1e-9), "{balance:?}");
+        Ok(())
+    }
+
+    /// An edge that rises by 2e-6 over a length of 1. Corners by elimination in fractions: the upper one is
+    /// (-0.108, -0.278, -0.486) at a depth of -0.114 641 518 089 681 27.
+    #[test]
+    fn of_nearly_level_edges_the_higher_end_is_found() {
+        let rows = [
+            (vec![0.9413309181437038, -0.8639406653083862, 0.5194989338345024], 0.0),
+            (vec![-0.8593923931211953, 0.33509511964269273, 0.23586161720763274], 0.0),
+            (vec![-0.9757476174678755, 0.8580810771530126, 0.8871393169496077], -0.44921481569361793),
+            (vec![0.08799948055057977, 0.09715565023731912, -0.2299596200531202], 0.18993859794459775),
+            (vec![0.0, 0.0, -0.9171303545971431], 0.0),
+        ];
+        let (point, _) = deepest(&rows, &[0.0; 3]);
+        let corner = [-0.10827657628128794, -0.2776140979462413, -0.4861598766716261, -0.11464151808968127];
+        assert!(point.iter().zip(corner).all(|(x, c)| (x - c).abs() < 1e-12), "{point:?}");
+    }
+
+    #[test]
+    fn where_there_is_no_highest_point_none_is_given() {
+        let open = polyhedron(2, &[(vec![1.0, 0.0], 1.0), (vec![-1.0, -1e-7], -2.0)]);
+        assert!(open.highest(&mut [1.5, 0.0], 1e-12).is_some_and(|held| held.len() == 2));
+        let open = polyhedron(2, &[(vec![1.0, 0.0], 1.0), (vec![-1.0, 1e-7], -2.0)]);
+        assert!(open.highest(&mut [1.5, 0.0], 1e-12).is_none());
     }
 
     proptest! {
@@ -297,15 +478,19 @@ mod tests {
                 }
             } else {
                 // Farkas, by another way: the least common violation is positive.
-                let mut lifted = Polyhedron::new(4);
-                for (normal, level) in &rows {
-                    lifted.add(normal.iter(), 1.0, Some(-1.0), *level);
-                }
-                lifted.add([0.0; 3].iter(), 1.0, Some(-1.0), -1.0);
-                let mut point = vec![0.0; 4];
-                lifted.highest(&mut point, 1.0, 1e-12).unwrap();
+                let (point, _) = deepest(&rows, &start);
                 prop_assert!(point[3] < 1e-9, "{point:?}");
             }
+        }
+
+        /// Optimality without a second solver: the point is inside, and what holds it is on its walls and balances the
+        /// lift.
+        #[test]
+        fn the_highest_point_solves_the_linear_problem_and_its_dual(
+            rows in prop::collection::vec((prop::collection::vec(-1.0f64..1.0, 3), -1.0f64..0.5), 1..24),
+            start in prop::collection::vec(-5.0f64..5.0, 3),
+        ) {
+            check_deepest(&rows, &start)?;
         }
 
         /// Against all corners, in the plane.
@@ -331,7 +516,7 @@ mod tests {
                 }
             }
             let mut x = vec![0.5, -100.0];
-            polyhedron(2, &all).highest(&mut x, 1.0, 1e-12).unwrap();
+            polyhedron(2, &all).highest(&mut x, 1e-12).unwrap();
             prop_assert!((x[1] - best).abs() < 1e-8, "{} {best}", x[1]);
         }
     }

@@ -424,8 +424,7 @@ impl<'a> Search<'a> {
             set.nearest(&mut point, tolerance)
         } else {
             point.push(0.0);
-            let limits = linear.limits.iter().flatten().filter(|bound| bound.at.is_finite());
-            set.highest(&mut point, limits.fold(self.size, |most, bound| most.max(bound.at.abs())), tolerance)
+            set.highest(&mut point, tolerance)
         };
         let Some(held) = held else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.

@@ -94,7 +94,8 @@ fn climb(search: &mut Search<'_>) -> bool {
         let arrived = step.gain <= GAIN * here.value.abs() + here.rounding;
         let start = Start { tau: search.tensions(), value: here.value, step };
         part = 1.0;
-        start.go(search, part);
+        // Where the step's own rounding is all that it changes, only the balance is restored.
+        start.go(search, if start.step.gain > 0.0 { part } else { 0.0 });
         if arrived {
             return search.settle();
         }

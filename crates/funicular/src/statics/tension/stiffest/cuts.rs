@@ -99,7 +99,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         let mut point = z.clone();
         point.push(height);
         let tolerance = 1e-12 * (search.size() + stiffness.amax() / unit);
-        if set.highest(&mut point, search.size(), tolerance).is_none() {
+        if set.highest(&mut point, tolerance).is_none() {
             break;
         }
         let bound = point.pop().unwrap_or(height);

@@ -20,8 +20,9 @@ const FALL: f64 = 0.3;
 /// Most cuts of a step in which eigenvalues meet.
 const MOST_CUTS: usize = 40;
 
-/// How little the height of a cut is held back, in parts of what the step promises.
-const HOLD: f64 = 1e-6;
+/// How little the height of a cut is held back, in parts of what the step promises: what the rounding of the far point,
+/// which is the inverse of this, leaves of the height must be small as well.
+const HOLD: f64 = 1e-4;
 
 /// Motions of the platform whose stiffness the least eigenvalue is made of, in parts that sum to one.
 pub(super) type Weights = Vec<(f64, Vec6)>;
