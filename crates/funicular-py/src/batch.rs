@@ -6,7 +6,7 @@ use crate::errors;
 use crate::pose;
 use crate::request::{Options, check_pose};
 use crate::threads::Threads;
-use crate::waiting::{LOOK, look};
+use crate::waiting::{hand_over, look};
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
@@ -17,9 +17,8 @@ use pyo3::types::PyDict;
 use std::convert::Infallible;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Sender, channel};
 use std::thread;
-use std::time::Instant;
 
 /// States that a thread takes at once: some milliseconds.
 const AT_ONCE: usize = 64;
@@ -181,22 +180,11 @@ fn side_by_side(work: &Work<'_>, threads: usize, mut put: impl FnMut(Range<usize
             scope.spawn(move || work.run(&sender));
         }
         drop(sender);
-        let mut looked = Instant::now();
-        loop {
-            match receiver.recv_timeout(LOOK) {
-                Ok((rows, found)) => put(rows, found),
-                Err(RecvTimeoutError::Disconnected) => return Ok(()),
-                Err(RecvTimeoutError::Timeout) => {}
-            }
-            if looked.elapsed() < LOOK {
-                continue;
-            }
-            looked = Instant::now();
-            if let Err(interrupt) = look() {
-                work.stop.store(true, Ordering::Relaxed);
-                return Err(interrupt);
-            }
-        }
+        let mut take = |(rows, found)| {
+            put(rows, found);
+            Ok(())
+        };
+        hand_over(&receiver, &work.stop, &mut take, &mut look)
     })
 }
 

@@ -1,12 +1,13 @@
 //! Long work without Python's lock, given up at Ctrl-C.
 
 use pyo3::prelude::*;
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Time between two looks for Ctrl-C.
-pub(crate) const LOOK: Duration = Duration::from_millis(50);
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Looks for Ctrl-C, from where Python's lock is not held.
 #[expect(clippy::redundant_closure_for_method_calls, reason = "the method is of one lifetime, the closure of any")]
@@ -37,4 +38,32 @@ pub(crate) fn interruptible<T: Send + 'static>(
             }
         }
     })
+}
+
+/// Hands over results as they come, until there are none or one cannot be taken: then none behind it can, either. An
+/// error of `look` asks with `cancel` for the end, takes what is finished, and is the result.
+pub(crate) fn hand_over<T>(
+    arriving: &Receiver<T>,
+    cancel: &AtomicBool,
+    take: &mut impl FnMut(T) -> PyResult<()>,
+    look: &mut impl FnMut() -> PyResult<()>,
+) -> PyResult<()> {
+    let mut looked = Instant::now();
+    loop {
+        match arriving.recv_timeout(LOOK) {
+            Ok(result) => take(result)?,
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if looked.elapsed() < LOOK {
+            continue;
+        }
+        looked = Instant::now();
+        if let Err(interrupt) = look() {
+            cancel.store(true, Ordering::Relaxed);
+            // What is finished is not thrown away; if it cannot be taken, the reason to end is known already.
+            let _ = arriving.iter().try_for_each(take);
+            return Err(interrupt);
+        }
+    }
 }

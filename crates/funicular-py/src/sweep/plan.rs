@@ -7,7 +7,7 @@ use crate::names;
 use crate::request::{Asked, Options};
 use crate::robot::PyRobot;
 use crate::threads::Threads;
-use crate::waiting::LOOK;
+use crate::waiting::hand_over;
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics;
 use funicular::sweep::{Chunk, Plan, Points, Poses, Quantity, Steps};
@@ -20,9 +20,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::mpsc::sync_channel;
 use std::thread;
-use std::time::Instant;
 
 /// Chunks that may wait between the threads and who takes them.
 const WAITING: usize = 8;
@@ -242,33 +241,6 @@ impl Whole {
                 Ok(_) => ended,
             }
         })
-    }
-}
-
-/// Hands over chunks as they come, until there are none or one cannot be taken: then none behind it can, either.
-fn hand_over(
-    arriving: &Receiver<Chunk>,
-    cancel: &AtomicBool,
-    take: &mut impl FnMut(Chunk) -> PyResult<()>,
-    look: &mut impl FnMut() -> PyResult<()>,
-) -> PyResult<()> {
-    let mut looked = Instant::now();
-    loop {
-        match arriving.recv_timeout(LOOK) {
-            Ok(chunk) => take(chunk)?,
-            Err(RecvTimeoutError::Disconnected) => return Ok(()),
-            Err(RecvTimeoutError::Timeout) => {}
-        }
-        if looked.elapsed() < LOOK {
-            continue;
-        }
-        looked = Instant::now();
-        if let Err(interrupt) = look() {
-            cancel.store(true, Ordering::Relaxed);
-            // What is finished is not thrown away; if it cannot be taken, the reason to end is known already.
-            let _ = arriving.iter().try_for_each(take);
-            return Err(interrupt);
-        }
     }
 }
 
