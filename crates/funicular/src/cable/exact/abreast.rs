@@ -308,8 +308,12 @@ mod tests {
                     k.out_of_plane,
                 ];
                 let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
+                // Where the cable hangs in a loop, what is left is a millionth of the elastic stiffness, whose rounding stays.
+                let rope = cables[i].rope();
+                let elastic = rope.axial_stiffness / rope.unstrained_length;
                 for (ours, theirs) in ours.into_iter().zip(theirs) {
-                    prop_assert!((ours - theirs).abs() < 1e-8 * size, "{ours} for {theirs}, largest {size}");
+                    let bound = 1e-8 * size + 1e-12 * elastic;
+                    prop_assert!((ours - theirs).abs() < bound, "{ours} for {theirs}, largest {size}, elastic {elastic}");
                 }
             }
         }
