@@ -21,6 +21,10 @@ use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// The first natural mode of a robot.
+///
+/// Energies and shape are of a motion whose Rayleigh quotient is the frequency's, and contain of other modes what its
+/// width of 5e-10 leaves room for: with the next frequency a part d above, at most `√(5e-10/d)` of them, and the energies
+/// are off by no more than twice that; usually by less than 1e-6.
 #[derive(Debug, Clone, PartialEq)]
 pub struct First {
     /// Natural frequency, undamped [Hz].

@@ -33,7 +33,9 @@ fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
     let size = mode.shape.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
     // The platform hardly moves in a cable's own mode, and its largest component may be another one.
     let moves = mode.platform_energy_fraction > 1e-6;
-    (energy > 1e-6 || first.kind != mode.kind || (moves && shape > 1e-4 * size))
+    // What the frequency's width of 5e-10 leaves room for; nearly all are off by less than 1e-6.
+    let mixed = 2.0 * (5e-10 / apart).sqrt();
+    (energy > mixed || first.kind != mode.kind || (moves && shape > 1e-4 * size))
         .then(|| format!("energy {energy:e}, shape {shape:e} off, {apart:e} from the next mode"))
 }
 
