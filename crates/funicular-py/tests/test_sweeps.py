@@ -248,7 +248,7 @@ def test_a_full_disk_is_explained_and_what_was_written_goes_on(robot: funicular.
     line = [sys.executable, "-c", FULL, str(path)]
     done = subprocess.run(line, cwd=Path(__file__).parent, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and "panicked" not in done.stderr, done.stderr
-    assert "cannot write" in done.stdout and "make room, then go on with `resume=True`" in done.stdout
+    assert "cannot write" in done.stdout and "mend that, then go on with `resume=True`" in done.stdout
     begun: list[int] = []
     workers.ask_long(robot, file=path, resume=True, progress=lambda done, _: begun.append(done))
     workers.ask_long(robot, file=whole)
