@@ -12,11 +12,11 @@ pub(super) struct Polyhedron {
 
 /// An inequality that holds the nearest point, and how hard it has to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Active {
+pub(super) struct Active<M = f64> {
     /// Its number, in the order in which it was added.
     pub row: usize,
     /// Multiplier, not negative.
-    pub multiplier: f64,
+    pub multiplier: M,
 }
 
 /// Normals shorter than this, of columns of an orthogonal matrix, are rounding: the unknowns do not reach the quantity.
@@ -60,10 +60,8 @@ impl Polyhedron {
     /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
     /// holds it there; `None` if there is no such point.
     pub(super) fn nearest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
-        // What the point has of rounding where it starts, it keeps.
-        let tolerance = x.iter().fold(tolerance, |most, x| most.max(ROUNDING * x.abs()));
-        let held = self.approach(x, tolerance)?;
-        Some(held.into_iter().map(|Held { row, multiplier }| Active { row, multiplier }).collect())
+        let tolerance = tolerance.max(rounding(x));
+        self.approach(x, tolerance)
     }
 
     /// Moves `x` to a point whose last component is greatest, of all these the one nearest to where `x` was, and
@@ -74,19 +72,18 @@ impl Polyhedron {
     pub(super) fn highest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
         let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
         point[self.dimension - 1].far = 1.0;
-        let tolerance = x.iter().fold(tolerance, |most, x| most.max(ROUNDING * x.abs()));
-        let held = self.approach(&mut point, tolerance)?;
+        let held = self.approach(&mut point, tolerance.max(rounding(x)))?;
         if point.iter().any(|x| x.far != 0.0) {
             return None;
         }
         x.iter_mut().zip(&point).for_each(|(x, point)| *x = point.near);
-        Some(held.into_iter().map(|Held { row, multiplier }| Active { row, multiplier: multiplier.far }).collect())
+        Some(held.into_iter().map(|Active { row, multiplier }| Active { row, multiplier: multiplier.far }).collect())
     }
 
     /// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
     /// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
-    fn approach<M: Magnitude>(&self, x: &mut [M], tolerance: f64) -> Option<Vec<Held<M>>> {
-        let mut active: Vec<Held<M>> = Vec::with_capacity(self.dimension + 1);
+    fn approach<M: Magnitude>(&self, x: &mut [M], tolerance: f64) -> Option<Vec<Active<M>>> {
+        let mut active: Vec<Active<M>> = Vec::with_capacity(self.dimension + 1);
         let mut basis = Basis::new(self.dimension);
         // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
         for _ in 0..100 * (self.dimension + 1) {
@@ -119,7 +116,7 @@ impl Polyhedron {
                 }
                 let Some((_, at)) = blocked else {
                     basis.push();
-                    active.push(Held { row, multiplier });
+                    active.push(Active { row, multiplier });
                     M::settle(x, &mut basis);
                     break;
                 };
@@ -144,10 +141,9 @@ impl Polyhedron {
     }
 }
 
-/// An active inequality on the way.
-struct Held<M> {
-    row: usize,
-    multiplier: M,
+/// What a point has of rounding where it starts, and keeps.
+fn rounding(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most, x| most.max(ROUNDING * x.abs()))
 }
 
 /// What coordinates, violations and multipliers are counted in: numbers, or numbers of two sizes.
