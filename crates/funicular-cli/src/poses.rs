@@ -33,15 +33,16 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
             }
             _ => anyhow!("cannot read the poses {shown}: {error}"),
         })?;
-        let line = record.position().map_or(0, |position| line_at(&bytes, position));
+        // Counted from the beginning, so only for what is told of.
+        let line = || record.position().map_or(0, |position| line_at(&bytes, position));
         let mut pose = [0.0; 6];
         for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
             let Some(place) = place else { continue };
             *value = finite(record.get(place).unwrap_or_default())
-                .map_err(|reason| anyhow!("{shown}, line {line}, column `{column}`: {reason}"))?;
+                .map_err(|reason| anyhow!("{shown}, line {}, column `{column}`: {reason}", line()))?;
         }
         if robot.platform.freedoms == Freedoms::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
-            bail!("{shown}, line {line}: a point mass has no orientation; leave out the angles");
+            bail!("{shown}, line {}: a point mass has no orientation; leave out the angles", line());
         }
         poses.push(pose);
     }
