@@ -1,34 +1,27 @@
-//! Files of funicular: robot files edited by path, and the results of sweeps.
+//! Files of funicular: the results of maps and sweeps.
 //!
 //! A [`Job`] takes the [chunks](funicular::sweep::Chunk) of a [plan](funicular::sweep::Plan) in order. They go to a
 //! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
 //! as a whole. Parquet, CSV and VTK hold the same rows; [`arrow::batch`] gives them in memory.
 
 pub mod arrow;
-mod asked;
 mod csv;
-pub mod edit;
 mod job;
 mod journal;
 mod merge;
 mod parquet;
 mod read;
-mod record;
 pub mod table;
-mod variations;
 mod vti;
 pub mod whole;
 
-pub use asked::{Asked, Source};
 pub use job::{Begin, Job, Opened};
 pub use merge::merge;
 pub use read::SweepFile;
-pub use record::{Difference, Part, Record};
 pub use table::Table;
-pub use variations::{Variation, Variations};
-pub use vti::Grid;
 
 use funicular::sweep::Chunk;
+use funicular_study::sweep::{Difference, Part, Record};
 use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,10 @@
 //! Parts become the file that one run would have written.
 
 use crate::parquet::ParquetFile;
-use crate::record::SCHEMA;
-use crate::{FilesError, Format, Part, Record, Rows, behind_link, job, write_whole};
+use crate::{FilesError, Format, Rows, behind_link, job, write_whole};
 use funicular::sweep::{Chunk, Column, Kind};
+use funicular_study::sweep::SCHEMA;
+use funicular_study::sweep::{Part, Record};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::io;

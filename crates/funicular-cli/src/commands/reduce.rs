@@ -1,203 +1,68 @@
-//! `reduce`: a small second-order model of the robot for control design.
+//! `reduce`: text, CSV and the files of the matrices.
 
-use crate::args::ReduceArgs;
-use crate::output::{self, Results, Target};
-use crate::progress::Waiting;
-use crate::state::{self, Models};
+use crate::output::{self, Printed, Target};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::{Context, Result, bail};
-use funicular::math::{DMat, Vec3};
-use funicular::modes;
-use funicular::ports::{Input, OnCable, Output, cable_of};
-use funicular::reduction::{Coordinate, DampingAt, Place, SecondOrder, StateSpace, Wanted, reduce};
-use funicular::response::Quantity;
-use funicular::robot::Robot;
+use funicular::math::DMat;
+use funicular::reduction::{SecondOrder, StateSpace};
+use funicular_study::analyses::Found;
+use funicular_study::analyses::reduce::{ChannelRow, Reduced};
+use funicular_study::json;
 use npyz::WriterBuilder;
-use serde::Serialize;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 
-/// Most natural frequencies that one model is to have: it has about twice as many coordinates.
-const MOST_MODES: usize = 400;
-
-#[derive(Serialize)]
-pub(crate) struct Reduced {
-    #[serde(skip)]
-    robot: String,
-    below_hz: f64,
-    #[serde(flatten)]
-    models: Models,
-    order: usize,
-    frequency_error: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    truncation_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    damping_error: Option<f64>,
-    damping: String,
-    inputs: Vec<ChannelRow>,
-    outputs: Vec<ChannelRow>,
-    coordinates: Vec<CoordinateRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    model_file: Option<String>,
-    #[serde(skip)]
-    warnings: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct ChannelRow {
-    name: String,
-    unit: &'static str,
-}
-
-#[derive(Serialize)]
-struct CoordinateRow {
-    name: String,
-    unit: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    clamped_frequency_hz: Option<f64>,
-}
-
-pub(crate) fn run(robot: Robot, args: &ReduceArgs) -> Result<Reduced> {
-    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, &args.robot.robot)).transpose()?;
-    let inputs = inputs(&robot, args)?;
-    let outputs = outputs(&robot, args)?;
-    let at_rest = state::equilibrium(robot, &args.state)?;
-    let linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, args.below_hz)?;
-    modes::check_count(&dynamics, args.below_hz, MOST_MODES)?;
-    let damping_at = args.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
-    let wanted = Wanted { below_hz: args.below_hz, tolerance: args.tolerance, damping_at };
-    let waiting = Waiting::for_("the model, and what it leaves out");
-    let from: Vec<Place> = inputs.iter().map(|(_, place)| place.clone()).collect();
-    let to: Vec<(Place, Quantity)> = outputs.iter().map(|(output, place)| (place.clone(), output.quantity)).collect();
-    let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, wanted)?;
-    drop(waiting);
-    let mut reduced = Reduced {
-        robot: at_rest.robot.name.clone(),
-        below_hz: args.below_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
-        order: model.mass.nrows(),
-        frequency_error: model.frequency_error,
-        truncation_error: model.truncation_error,
-        damping_error: model.damping_error,
-        damping: match (model.damping_error, damping_at) {
-            (Some(0.0), _) => "viscous, exactly".to_owned(),
-            (_, DampingAt::NaturalFrequencies) => {
-                "constant ratios made viscous, right at every natural frequency".to_owned()
-            }
-            (_, DampingAt::Hz(hz)) => format!("constant ratios made viscous, right at {hz} Hz"),
-        },
-        inputs: inputs
-            .iter()
-            .map(|(input, _)| ChannelRow { name: input.name.clone(), unit: if input.is_moment { "N m" } else { "N" } })
-            .collect(),
-        outputs: outputs
-            .iter()
-            .map(|(output, _)| ChannelRow { name: output.name.clone(), unit: unit(output) })
-            .collect(),
-        coordinates: model.coordinates.iter().map(|of| CoordinateRow::of(&at_rest.robot, of)).collect(),
-        model_file: args.model_file.as_ref().map(|path| path.display().to_string()),
-        warnings,
-    };
-    if reduced.truncation_error.is_some_and(|error| error > args.tolerance) {
-        reduced.warnings.push(format!(
-            "with all modes of the cables the error is {}, more than the {} asked: a force on a cable and the motion \
-             beside it have a kink that modes do not have",
-            significant(reduced.truncation_error.unwrap_or_default(), 2),
-            args.tolerance
-        ));
+impl Printed for Reduced {
+    fn text(&self) -> String {
+        let mut errors = Table::new(&["", "largest relative error"]);
+        let mut row = |what: &str, error: Option<f64>| {
+            errors.row(vec![what.to_owned(), error.map_or("no response: undamped".to_owned(), |e| format!("{e:.1e}"))]);
+        };
+        row("natural frequencies", Some(self.frequency_error));
+        row("responses, by modes left out", self.truncation_error);
+        row("responses, by viscous damping", self.damping_error);
+        let names = |channels: &[ChannelRow]| {
+            channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
+        };
+        let highest = self.coordinates.iter().filter_map(|of| of.clamped_frequency_hz).fold(0.0, f64::max);
+        let clamped = self.coordinates.iter().filter(|of| of.clamped_frequency_hz.is_some()).count();
+        let kept = match clamped {
+            0 => String::new(),
+            n => format!(" and {} of cables up to {} Hz", counted(n, "clamped mode"), decimals(highest, 2)),
+        };
+        let written = match &self.model_file {
+            None => "Nothing is written: give --model model.npz, or --model FOLDER for CSV files.".to_owned(),
+            Some(path) => format!(
+                "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state space; \
+                 description.json"
+            ),
+        };
+        format!(
+            "{}: second-order model for frequencies below {} Hz\n{}\n\n{} coordinates: the platform's {}{kept}\n\
+             inputs: {}\noutputs: {}\ndamping: {}\n\n{errors}\n{written}\n",
+            self.robot,
+            self.below_hz,
+            self.models.line(),
+            self.order,
+            self.order - clamped,
+            names(&self.inputs),
+            names(&self.outputs),
+            self.damping,
+        )
     }
-    if let Some(file) = file {
-        file.write(&model, &reduced)?;
-    }
-    Ok(reduced)
-}
 
-/// The inputs asked, or every force and moment on the platform.
-fn inputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Input, Place)>> {
-    let all = ["fx", "fy", "fz", "mx", "my", "mz"];
-    let asked = if args.input.is_empty() {
-        let possible = robot.platform.freedoms.components();
-        possible.iter().map(|&i| Input::parse(all[i])).collect::<Result<Vec<_>, _>>()?
-    } else {
-        args.input.clone()
-    };
-    let place = |input: Input| {
-        let direction = input.direction(robot, args.points.input_point_m)?;
-        let place = place(robot, input.on_cable.as_ref(), input.direction_w, direction)?;
-        Ok((input, place))
-    };
-    asked.into_iter().map(place).collect()
-}
-
-/// The outputs asked, or every displacement and rotation of the platform.
-fn outputs(robot: &Robot, args: &ReduceArgs) -> Result<Vec<(Output, Place)>> {
-    let all = ["x", "y", "z", "rx", "ry", "rz"];
-    let asked = if args.output.is_empty() {
-        let possible = robot.platform.freedoms.components();
-        possible.iter().map(|&i| Output::parse(all[i])).collect::<Result<Vec<_>, _>>()?
-    } else {
-        args.output.clone()
-    };
-    let place = |output: Output| {
-        let direction = output.direction(robot, args.points.output_point_m)?;
-        let place = place(robot, output.on_cable.as_ref(), output.direction_w, direction)?;
-        Ok((output, place))
-    };
-    asked.into_iter().map(place).collect()
-}
-
-fn place(
-    robot: &Robot,
-    on_cable: Option<&OnCable>,
-    direction_w: Vec3,
-    direction: funicular::response::Direction,
-) -> Result<Place> {
-    Ok(match on_cable {
-        None => Place::Platform(direction),
-        Some(place) => Place::Cable {
-            cable: cable_of(robot, place)?,
-            fraction: place.fraction,
-            direction_w: direction_w.normalize(),
-        },
-    })
-}
-
-fn unit(output: &Output) -> &'static str {
-    match (output.is_rotation, output.quantity) {
-        (false, Quantity::Displacement) => "m",
-        (false, Quantity::Velocity) => "m/s",
-        (false, Quantity::Acceleration) => "m/s²",
-        (true, Quantity::Displacement) => "rad",
-        (true, Quantity::Velocity) => "rad/s",
-        (true, Quantity::Acceleration) => "rad/s²",
-    }
-}
-
-impl CoordinateRow {
-    fn of(robot: &Robot, coordinate: &Coordinate) -> Self {
-        match coordinate {
-            Coordinate::Platform(i) => Self {
-                name: robot.platform.freedoms.coordinate_names()[*i].to_owned(),
-                unit: if robot.platform.freedoms.is_rotation(*i) { "rad" } else { "m" },
-                clamped_frequency_hz: None,
-            },
-            Coordinate::Clamped { cable, out_of_plane, frequency_hz } => Self {
-                name: format!(
-                    "cable {} {}",
-                    robot.cables[*cable].name,
-                    if *out_of_plane { "out of plane" } else { "in plane" }
-                ),
-                unit: "m √kg",
-                clamped_frequency_hz: Some(*frequency_hz),
-            },
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        out.write_record(["coordinate", "unit", "clamped_frequency_hz"])?;
+        for of in &self.coordinates {
+            out.serialize((&of.name, of.unit, of.clamped_frequency_hz))?;
         }
+        Ok(())
     }
 }
 
 /// Where the matrices go.
-enum ModelFile {
+pub(crate) enum ModelFile {
     /// One NumPy archive.
     Npz(Target),
     /// A folder of CSV files, new or empty.
@@ -206,7 +71,7 @@ enum ModelFile {
 
 impl ModelFile {
     /// Checks before the work that it can be written.
-    fn open(path: &Path, robot: &Path) -> Result<Self> {
+    pub(crate) fn open(path: &Path, robot: &Path) -> Result<Self> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
             return Ok(Self::Npz(Target::open(Some(path), Some(robot))?));
         }
@@ -231,11 +96,12 @@ impl ModelFile {
         }
     }
 
-    fn write(&self, model: &SecondOrder, reduced: &Reduced) -> Result<()> {
+    pub(crate) fn write(&self, reduced: &Reduced) -> Result<()> {
+        let model = &reduced.model;
         let space = model.state_space();
         let matrices = matrices(model, &space);
         let mut description = Vec::new();
-        crate::json::write(&mut description, Reduced::COMMAND, &reduced.robot, reduced, &reduced.warnings)?;
+        json::write(&mut description, Reduced::COMMAND, &reduced.robot, reduced, &reduced.warnings)?;
         match self {
             Self::Npz(target) => target.write(&npz(&matrices, &description)?),
             Self::Folder(path) => {
@@ -301,62 +167,4 @@ fn folder(path: &Path, matrices: &[(&str, &DMat)], description: &[u8]) -> Result
     std::fs::rename(made.path(), path)?;
     let _ = made.keep();
     Ok(())
-}
-
-impl Results for Reduced {
-    const COMMAND: &'static str = "reduce";
-
-    fn robot(&self) -> &str {
-        &self.robot
-    }
-
-    fn warnings(&self) -> &[String] {
-        &self.warnings
-    }
-
-    fn text(&self) -> String {
-        let mut errors = Table::new(&["", "largest relative error"]);
-        let mut row = |what: &str, error: Option<f64>| {
-            errors.row(vec![what.to_owned(), error.map_or("no response: undamped".to_owned(), |e| format!("{e:.1e}"))]);
-        };
-        row("natural frequencies", Some(self.frequency_error));
-        row("responses, by modes left out", self.truncation_error);
-        row("responses, by viscous damping", self.damping_error);
-        let names = |channels: &[ChannelRow]| {
-            channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
-        };
-        let highest = self.coordinates.iter().filter_map(|of| of.clamped_frequency_hz).fold(0.0, f64::max);
-        let clamped = self.coordinates.iter().filter(|of| of.clamped_frequency_hz.is_some()).count();
-        let kept = match clamped {
-            0 => String::new(),
-            n => format!(" and {} of cables up to {} Hz", counted(n, "clamped mode"), decimals(highest, 2)),
-        };
-        let written = match &self.model_file {
-            None => "Nothing is written: give --model model.npz, or --model FOLDER for CSV files.".to_owned(),
-            Some(path) => format!(
-                "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state space; \
-                 description.json"
-            ),
-        };
-        format!(
-            "{}: second-order model for frequencies below {} Hz\n{}\n\n{} coordinates: the platform's {}{kept}\n\
-             inputs: {}\noutputs: {}\ndamping: {}\n\n{errors}\n{written}\n",
-            self.robot,
-            self.below_hz,
-            self.models.line(),
-            self.order,
-            self.order - clamped,
-            names(&self.inputs),
-            names(&self.outputs),
-            self.damping,
-        )
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["coordinate", "unit", "clamped_frequency_hz"])?;
-        for of in &self.coordinates {
-            out.serialize((&of.name, of.unit, of.clamped_frequency_hz))?;
-        }
-        Ok(())
-    }
 }

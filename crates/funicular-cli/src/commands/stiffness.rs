@@ -1,63 +1,8 @@
-//! `stiffness`: the 6×6 at one frequency.
+//! `stiffness`: text and CSV.
 
-use crate::args::StiffnessArgs;
-use crate::output::Results;
-use crate::state::{self, Models};
+use crate::output::Printed;
 use crate::table::{Table, significant};
-use anyhow::Result;
-use funicular::cable::CableModel;
-use funicular::dynamics::{DynamicsError, Linearisation};
-use funicular::math::{CMat6, Complex};
-use funicular::robot::Robot;
-use funicular::statics::{self, StaticModel};
-use serde::Serialize;
-use std::f64::consts::TAU;
-
-#[derive(Serialize)]
-pub(crate) struct Stiffness {
-    #[serde(skip)]
-    robot: String,
-    frequency_hz: f64,
-    #[serde(flatten)]
-    models: Models,
-    real: [[f64; 6]; 6],
-    imag: [[f64; 6]; 6],
-    #[serde(skip)]
-    warnings: Vec<String>,
-}
-
-pub(crate) fn run(robot: Robot, args: &StiffnessArgs) -> Result<Stiffness> {
-    let at_rest = state::equilibrium(robot, &args.state)?;
-    let mut linearisation = state::linearisation(&args.model, at_rest.equilibrium.model);
-    if args.model.cable_model.is_none() && args.at_hz == 0.0 {
-        // The tangent of the static model, which the exact model has at rest, whatever the static model is.
-        linearisation.cable_model = CableModel::CatenaryTangent;
-    }
-    if linearisation.cable_model == CableModel::CatenaryTangent && at_rest.equilibrium.model == StaticModel::Ideal {
-        return Err(DynamicsError::Rigid.into());
-    }
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, args.at_hz)?;
-    let whole_tangent = Linearisation { cable_model: CableModel::CatenaryTangent, ..Linearisation::default() };
-    let exact = match linearisation {
-        l if l == whole_tangent => statics::tangent_stiffness(&at_rest.robot, &at_rest.equilibrium),
-        _ => None,
-    };
-    let matrix: CMat6 = match exact {
-        Some(tangent) => tangent.map(|k| Complex::new(k, 0.0)),
-        None => dynamics.stiffness(args.at_hz * TAU),
-    };
-    // `+ 0.0` makes a negative zero positive: the sign would mean nothing.
-    let rows =
-        |part: fn(&Complex) -> f64| std::array::from_fn(|i| std::array::from_fn(|j| part(&matrix[(i, j)]) + 0.0));
-    Ok(Stiffness {
-        robot: at_rest.robot.name.clone(),
-        frequency_hz: args.at_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
-        real: rows(|k| k.re),
-        imag: rows(|k| k.im),
-        warnings,
-    })
-}
+use funicular_study::analyses::stiffness::Stiffness;
 
 /// Wrench components and motions, in the order of rows and columns.
 const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
@@ -72,17 +17,7 @@ fn unit(row: usize, column: usize) -> &'static str {
     }
 }
 
-impl Results for Stiffness {
-    const COMMAND: &'static str = "stiffness";
-
-    fn robot(&self) -> &str {
-        &self.robot
-    }
-
-    fn warnings(&self) -> &[String] {
-        &self.warnings
-    }
-
+impl Printed for Stiffness {
     fn text(&self) -> String {
         let table = |rows: &[[f64; 6]; 6]| {
             let mut table =

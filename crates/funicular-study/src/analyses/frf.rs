@@ -1,0 +1,142 @@
+//! `frf`: one frequency response and its peaks.
+
+use super::found;
+use crate::Watch;
+use crate::at_rest::{self, Models, directions};
+use crate::error::Cancelled;
+use crate::request;
+use anyhow::Result;
+use funicular::math::Complex;
+use funicular::ports::{Input, Output, Places};
+use funicular::response::{self, Peak, Quantity};
+use funicular::robot::Robot;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+/// Frequencies between two looks at the clock: some 10 ms. A multiple of every number of lanes, so that the numbers do
+/// not depend on it.
+const CHUNK: usize = 16_384;
+
+#[derive(Serialize)]
+pub struct Frf {
+    #[serde(skip)]
+    pub robot: String,
+    #[serde(flatten)]
+    pub models: Models,
+    pub input: String,
+    #[serde(flatten, serialize_with = "input_place")]
+    pub input_place: PlaceRow,
+    pub output: String,
+    #[serde(flatten, serialize_with = "output_place")]
+    pub output_place: PlaceRow,
+    pub unit: String,
+    pub prominence_db: f64,
+    pub peaks: Vec<PeakRow>,
+    pub frequency_hz: Vec<f64>,
+    pub real: Vec<f64>,
+    pub imag: Vec<f64>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+pub struct PeakRow {
+    pub frequency_hz: f64,
+    pub prominence_db: f64,
+    pub magnitude: f64,
+}
+
+impl From<Peak> for PeakRow {
+    fn from(peak: Peak) -> Self {
+        let Peak { frequency_hz, prominence_db, magnitude } = peak;
+        Self { frequency_hz, prominence_db, magnitude }
+    }
+}
+
+/// One frequency response, and its peaks.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, a robot without that equilibrium, an undamped resonance at one of the
+/// frequencies, or work that was stopped.
+pub fn run(robot: Robot, request: &request::Frf, watch: &mut dyn Watch) -> Result<Frf> {
+    let frequencies = request.range.frequencies()?;
+    request::check_not_negative("prominence_db", request.prominence_db)?;
+    let (from, to) = (request::input(&request.input)?, request::output(&request.output)?);
+    let (input, output) = directions(&robot, &from, &to, &request.signal_points)?;
+    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.range.to_hz)?;
+
+    let places = at_rest.places(&dynamics, from.on_cable.as_ref(), to.on_cable.as_ref())?;
+    let pose = &at_rest.equilibrium.pose;
+    let input = places.port(places.input, input.vector(pose), from.direction_w);
+    let output = places.port(places.output, output.vector(pose), to.direction_w);
+    let mut values: Vec<Complex> = Vec::with_capacity(frequencies.len());
+    for chunk in frequencies.chunks(CHUNK) {
+        values.extend(response::between(&dynamics, chunk, &input, &output, to.quantity)?);
+        watch.progress(values.len(), frequencies.len(), "frequencies");
+        if watch.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+    }
+    let peaks = response::peaks(&frequencies, &values, request.prominence_db);
+    Ok(Frf {
+        robot: at_rest.robot.name.clone(),
+        models: Models::of(&at_rest.equilibrium, linearisation),
+        input: from.name.clone(),
+        input_place: PlaceRow::of(&places, places.input, request.signal_points.input_point_m),
+        output: to.name.clone(),
+        output_place: PlaceRow::of(&places, places.output, request.signal_points.output_point_m),
+        unit: unit(&from, &to),
+        prominence_db: request.prominence_db,
+        peaks: peaks.into_iter().map(PeakRow::from).collect(),
+        frequency_hz: frequencies,
+        real: values.iter().map(|value| value.re).collect(),
+        imag: values.iter().map(|value| value.im).collect(),
+        warnings,
+    })
+}
+
+/// Where one end of a response is.
+pub struct PlaceRow {
+    /// The point is one of the world, at rest, and not of the platform frame.
+    pub on_cable: bool,
+    pub point_m: [f64; 3],
+}
+
+impl PlaceRow {
+    fn of(places: &Places, place: Option<(usize, usize)>, point: Option<[f64; 3]>) -> Self {
+        match place {
+            None => Self { on_cable: false, point_m: point.unwrap_or_default() },
+            Some((at, station)) => Self { on_cable: true, point_m: places.stations[at].points_w[station].into() },
+        }
+    }
+
+    fn serialize<S: Serializer>(&self, keys: [&'static str; 2], to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(1))?;
+        map.serialize_entry(keys[usize::from(self.on_cable)], &self.point_m)?;
+        map.end()
+    }
+}
+
+fn input_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
+    place.serialize(["input_point_m", "input_point_w_m"], to)
+}
+
+fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
+    place.serialize(["output_point_m", "output_point_w_m"], to)
+}
+
+/// Unit of motion over excitation.
+pub fn unit(input: &Input, output: &Output) -> String {
+    let motion = if output.is_rotation { "rad" } else { "m" };
+    let by_time = match output.quantity {
+        Quantity::Displacement => "",
+        Quantity::Velocity => "/s",
+        Quantity::Acceleration => "/s²",
+    };
+    let effort = if input.is_moment { "(N·m)" } else { "N" };
+    if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
+}
+
+found!(Frf, "frf");
