@@ -7,7 +7,8 @@ use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::{
-    PyBool, PyByteArray, PyBytes, PyComplex, PyDict, PyFloat, PyInt, PyList, PyMemoryView, PySequence, PyString, PyTuple,
+    PyBool, PyByteArray, PyBytes, PyComplex, PyDict, PyFloat, PyInt, PyList, PyMemoryView, PySequence, PyString,
+    PyTuple,
 };
 use std::convert::Infallible;
 use std::ops::RangeInclusive;
@@ -200,6 +201,14 @@ impl Unusable {
     fn at(self, outer: &str) -> Self {
         match self {
             Self::Refused { place, reason } => Self::Refused { place: format!("{outer}{place}"), reason },
+            raised @ Self::Raised(_) => raised,
+        }
+    }
+
+    /// Adds a rule to what is wrong.
+    fn with(self, rule: &str) -> Self {
+        match self {
+            Self::Refused { place, reason } => Self::Refused { place, reason: format!("{reason}; {rule}") },
             raised @ Self::Raised(_) => raised,
         }
     }
@@ -484,10 +493,8 @@ impl Count {
 
     /// The number, which has to be in a range; `rule` says in an error what to give.
     pub(crate) fn within(self, what: &str, range: RangeInclusive<usize>, rule: &str) -> PyResult<usize> {
-        let Whole { text, value } = self.0.map_err(|error| error.named(what))?;
-        value
-            .filter(|value| range.contains(value))
-            .ok_or_else(|| errors::input(format!("`{what}` is {text}: {rule}")))
+        let Whole { text, value } = self.0.map_err(|error| error.with(rule).named(what))?;
+        value.filter(|value| range.contains(value)).ok_or_else(|| errors::input(format!("`{what}` is {text}: {rule}")))
     }
 }
 

@@ -303,7 +303,11 @@ pub(crate) fn receptance(
 ///     Least height of a peak above the valleys beside it [dB]; 1 if not given.
 #[pyfunction]
 #[pyo3(signature = (hz, response, *, prominence_db=Number::of(1.0)))]
-pub(crate) fn peaks(hz: Numbers, response: ComplexNumbers, prominence_db: Number) -> PyResult<(Vector, Vector, Vector)> {
+pub(crate) fn peaks(
+    hz: Numbers,
+    response: ComplexNumbers,
+    prominence_db: Number,
+) -> PyResult<(Vector, Vector, Vector)> {
     let (frequencies, _) = hz.frequencies()?;
     let prominence_db = prominence_db.not_negative("prominence_db")?;
     let values = response.row("response")?;

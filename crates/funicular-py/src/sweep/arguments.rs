@@ -45,7 +45,7 @@ fn steps(name: &str, values: &Bound<'_, PyAny>) -> PyResult<StepsAsked> {
         && tuple.len() == 3
     {
         let third = format!("{name}[2]");
-        let rule = "the third of a tuple is how many values, 2 or more: give a list for values";
+        let rule = "the third of a tuple is how many values there are, 2 or more; give a list for values";
         let count = tuple.get_item(2)?.extract::<Count>()?.within(&third, 2..=usize::MAX, rule)?;
         let end = |place: usize| tuple.get_item(place)?.extract::<Number>()?.finite(&format!("{name}[{place}]"));
         return Ok(StepsAsked::Range { from: end(0)?, to: end(1)?, count });
