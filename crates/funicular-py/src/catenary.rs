@@ -1,6 +1,6 @@
 //! One hanging cable.
 
-use crate::arrays::{Matrix, Numbers, Reduced};
+use crate::arrays::{Matrix, Number, Numbers, Reduced};
 use crate::errors;
 use funicular::catenary::{self, Rope};
 use pyo3::prelude::*;
@@ -28,17 +28,18 @@ impl Catenary {
     #[new]
     #[pyo3(signature = (span_m, rise_m, *, unstrained_length_m, weight_n_per_m, axial_stiffness_n))]
     fn new(
-        span_m: f64,
-        rise_m: f64,
-        unstrained_length_m: f64,
-        weight_n_per_m: f64,
-        axial_stiffness_n: f64,
+        span_m: Number,
+        rise_m: Number,
+        unstrained_length_m: Number,
+        weight_n_per_m: Number,
+        axial_stiffness_n: Number,
     ) -> PyResult<Self> {
         let rope = Rope {
-            unstrained_length: unstrained_length_m,
-            weight_per_length: weight_n_per_m,
-            axial_stiffness: axial_stiffness_n,
+            unstrained_length: unstrained_length_m.value("unstrained_length_m")?,
+            weight_per_length: weight_n_per_m.value("weight_n_per_m")?,
+            axial_stiffness: axial_stiffness_n.value("axial_stiffness_n")?,
         };
+        let (span_m, rise_m) = (span_m.value("span_m")?, rise_m.value("rise_m")?);
         catenary::Catenary::between(span_m, rise_m, rope).map(Self).map_err(|error| errors::input(error.to_string()))
     }
 

@@ -1,5 +1,6 @@
 //! The text of a robot file made and changed from Python, so that every check of the reader holds.
 
+use crate::arrays;
 use crate::errors;
 use funicular_files::edit;
 use pyo3::prelude::*;
@@ -99,9 +100,9 @@ fn value_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Valu
         let items: PyResult<Array> = value.try_iter()?.map(|item| value_of(path, &item?, depth + 1)).collect();
         return Ok(Value::Array(items?));
     }
-    // Of NumPy: its numbers and arrays know themselves as Python's.
-    if let Ok(of_numpy) = value.getattr("tolist") {
-        return value_of(path, &of_numpy.call0()?, depth + 1);
+    // Numbers and arrays of other libraries, such as NumPy.
+    if let Some(plain) = arrays::as_python(path, value, errors::change)? {
+        return value_of(path, &plain, depth + 1);
     }
     let kind = value.get_type().name()?.to_string();
     Err(errors::change(format!("`{path}` is of type {kind}: a robot file holds numbers, text, and lists of them")))

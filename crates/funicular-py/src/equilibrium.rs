@@ -1,6 +1,6 @@
 //! A robot at rest.
 
-use crate::arrays::{Keyed, Matrix, Numbers, Reduced, Tensor, Vector};
+use crate::arrays::{Count, Keyed, Matrix, Number, Numbers, Reduced, Tensor, Vector};
 use crate::errors;
 use crate::pose::PyPose;
 use crate::request::{Asked, Options};
@@ -198,12 +198,10 @@ impl PyEquilibrium {
     }
 
     /// Points along every cable at rest, world axes [m]: (cables, points, 3), from the platform to the anchor, at equal
-    /// parts of the unstrained length.
-    #[pyo3(signature = (points=33))]
-    fn cable_points(&self, points: usize) -> PyResult<Tensor> {
-        if !(2..=10_000).contains(&points) {
-            return Err(errors::input(format!("`points` is {points}: it must be from 2 to 10000")));
-        }
+    /// parts of the unstrained length; 33 on each if `points` is not given.
+    #[pyo3(signature = (points=Count::of(33)))]
+    fn cable_points(&self, points: Count) -> PyResult<Tensor> {
+        let points = points.within("points", 2..=10_000, "it must be from 2 to 10000")?;
         let mut flat = Vec::with_capacity(3 * points * self.robot.cables.len());
         for cable in &self.rest.equilibrium.cables {
             for i in 0..points {
@@ -256,13 +254,13 @@ impl PyEquilibrium {
     /// cable_model, assembly, in_plane_only
     ///     As of `stiffness`.
     /// damped
-    ///     Seek the damped partner of every mode, too: damping ratios are then those of complex frequencies and not of
-    ///     first order.
-    #[pyo3(signature = (below_hz, *, cable_model=None, assembly="consistent", in_plane_only=false, damped=false))]
+    ///     Seek the damped partner of every mode, too, as the program does: damping ratios are then those of complex
+    ///     frequencies. False is faster; damping ratios are then of first order and there are no eigenvalues.
+    #[pyo3(signature = (below_hz, *, cable_model=None, assembly="consistent", in_plane_only=false, damped=true))]
     fn modes(
         &self,
         py: Python<'_>,
-        below_hz: f64,
+        below_hz: Number,
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,

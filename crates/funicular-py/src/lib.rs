@@ -26,6 +26,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _funicular {
     #[pymodule_export]
+    use crate::arrays::{complex_numbers, real_numbers};
+    #[pymodule_export]
     use crate::catenary::Catenary;
     #[pymodule_export]
     use crate::equilibrium::PyEquilibrium;

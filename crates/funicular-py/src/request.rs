@@ -1,6 +1,6 @@
 //! Which equilibrium is asked for: a state, models, limits and loads, checked as the program checks its options.
 
-use crate::arrays::{Numbers, Vector, finite, not_negative, positive};
+use crate::arrays::{Number, Numbers, Vector, finite, not_negative};
 use crate::errors;
 use crate::names;
 use crate::pose::PyPose;
@@ -26,8 +26,8 @@ pub(crate) struct Given<'a> {
     pub(crate) model: &'a str,
     pub(crate) tension_rule: Option<&'a str>,
     pub(crate) wanted_tension_n: Option<Numbers>,
-    pub(crate) min_tension_n: Option<f64>,
-    pub(crate) max_tension_n: Option<f64>,
+    pub(crate) min_tension_n: Option<Number>,
+    pub(crate) max_tension_n: Option<Number>,
     pub(crate) force_n: Option<Numbers>,
     pub(crate) moment_n_m: Option<Numbers>,
     pub(crate) load_point_m: Option<Numbers>,
@@ -41,8 +41,8 @@ impl Options {
             model: names::static_model(given.model)?,
             rule: names::tension_rule(given.tension_rule, wanted)?,
             limits: TensionLimits {
-                minimum: given.min_tension_n.map(|value| not_negative("min_tension_n", value)).transpose()?,
-                maximum: given.max_tension_n.map(|value| positive("max_tension_n", value)).transpose()?,
+                minimum: given.min_tension_n.map(|value| value.not_negative("min_tension_n")).transpose()?,
+                maximum: given.max_tension_n.map(|value| value.positive("max_tension_n")).transpose()?,
             },
             force_n: three(given.force_n, "force_n")?,
             moment_n_m: three(given.moment_n_m, "moment_n_m")?,
@@ -110,8 +110,7 @@ impl Options {
 
 /// Wanted tensions, one for all or one a cable.
 fn one_or_more(numbers: Numbers) -> PyResult<Vec<f64>> {
-    let values =
-        if numbers.0.ndim() == 0 { numbers.0.iter().copied().collect() } else { numbers.row("wanted_tension_n")? };
+    let (values, _) = numbers.one_or_row("wanted_tension_n")?;
     for &value in &values {
         not_negative("wanted_tension_n", value)?;
     }

@@ -1,6 +1,6 @@
 //! The robot: a text, and what the core read in it.
 
-use crate::arrays::{Keyed, Matrix, Numbers, Reduced, Tensor, Vector, positive};
+use crate::arrays::{Count, Keyed, Matrix, Number, Numbers, Reduced, Tensor, Vector};
 use crate::batch;
 use crate::edit;
 use crate::equilibrium::PyEquilibrium;
@@ -132,13 +132,13 @@ impl PyRobot {
     /// RobotFileError
     ///     There is no such place in the file, or the value is not one for it.
     #[pyo3(signature = (changes=None, *, mass_kg=None))]
-    fn with_(&self, py: Python<'_>, changes: Option<Keyed<'_>>, mass_kg: Option<f64>) -> PyResult<Self> {
+    fn with_(&self, py: Python<'_>, changes: Option<Keyed<'_>>, mass_kg: Option<Number>) -> PyResult<Self> {
         let all = PyDict::new(py);
         if let Some(Keyed(changes)) = changes {
             all.update(changes.as_mapping())?;
         }
         if let Some(mass) = mass_kg {
-            all.set_item("platform.mass_kg", positive("mass_kg", mass)?)?;
+            all.set_item("platform.mass_kg", mass.positive("mass_kg")?)?;
         }
         Self::read(edit::with_values(&self.text, &all)?, "<changed robot>")
     }
@@ -236,8 +236,8 @@ impl PyRobot {
         model: &str,
         tension_rule: Option<&str>,
         wanted_tension_n: Option<Numbers>,
-        min_tension_n: Option<f64>,
-        max_tension_n: Option<f64>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
         force_n: Option<Numbers>,
         moment_n_m: Option<Numbers>,
         load_point_m: Option<Numbers>,
@@ -283,8 +283,8 @@ impl PyRobot {
         model: &str,
         tension_rule: Option<&str>,
         wanted_tension_n: Option<Numbers>,
-        min_tension_n: Option<f64>,
-        max_tension_n: Option<f64>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
         force_n: Option<Numbers>,
         moment_n_m: Option<Numbers>,
         load_point_m: Option<Numbers>,
@@ -350,7 +350,7 @@ impl PyRobot {
     ///     The executor's workers died; its `resume` goes on.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths=None, model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=funicular::sweep::HIGHEST_HZ, tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular::sweep::HIGHEST_HZ), tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, force_n=None, moment_n_m=None, load_point_m=None,
         file=None, resume=false, force=false, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
@@ -367,11 +367,11 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: f64,
+        up_to_hz: Number,
         tension_rule: Option<&str>,
         wanted_tension_n: Option<Numbers>,
-        min_tension_n: Option<f64>,
-        max_tension_n: Option<f64>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
         force_n: Option<Numbers>,
         moment_n_m: Option<Numbers>,
         load_point_m: Option<Numbers>,
@@ -380,7 +380,7 @@ impl PyRobot {
         force: bool,
         threads: Option<Threads>,
         executor: Option<Makes>,
-        chunks_per_task: Option<i64>,
+        chunks_per_task: Option<Count>,
         progress: Option<Told>,
     ) -> PyResult<SweepObject> {
         let points = match (grid, poses) {
@@ -422,7 +422,7 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths=None, model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=funicular::sweep::HIGHEST_HZ, tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular::sweep::HIGHEST_HZ), tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, force_n=None, moment_n_m=None, load_point_m=None,
         file=None, resume=false, force=false, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
@@ -438,11 +438,11 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: f64,
+        up_to_hz: Number,
         tension_rule: Option<&str>,
         wanted_tension_n: Option<Numbers>,
-        min_tension_n: Option<f64>,
-        max_tension_n: Option<f64>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
         force_n: Option<Numbers>,
         moment_n_m: Option<Numbers>,
         load_point_m: Option<Numbers>,
@@ -451,7 +451,7 @@ impl PyRobot {
         force: bool,
         threads: Option<Threads>,
         executor: Option<Makes>,
-        chunks_per_task: Option<i64>,
+        chunks_per_task: Option<Count>,
         progress: Option<Told>,
     ) -> PyResult<SweepObject> {
         let points = PointsAsked::Vary(vary.0);
@@ -492,11 +492,11 @@ impl PyRobot {
     }
 
     /// `Equilibrium.modes` in the state of the robot file.
-    #[pyo3(signature = (below_hz, *, cable_model=None, assembly="consistent", in_plane_only=false, damped=false))]
+    #[pyo3(signature = (below_hz, *, cable_model=None, assembly="consistent", in_plane_only=false, damped=true))]
     fn modes(
         slf: Py<Self>,
         py: Python<'_>,
-        below_hz: f64,
+        below_hz: Number,
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,

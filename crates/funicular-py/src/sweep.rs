@@ -12,6 +12,7 @@ pub(crate) use plan::{PointsAsked, PyPlan};
 pub(crate) use table::PyTable;
 pub(crate) use work::PyWork;
 
+use crate::arrays::Count;
 use crate::threads::Threads;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
@@ -42,20 +43,22 @@ pub(crate) struct Run {
     pub(crate) force: bool,
     pub(crate) threads: Option<Threads>,
     pub(crate) executor: Option<Makes>,
-    pub(crate) chunks_per_task: Option<i64>,
+    pub(crate) chunks_per_task: Option<Count>,
     pub(crate) progress: Option<Told>,
 }
 
 impl Run {
     /// All rows of a plan.
     pub(crate) fn rows(self, py: Python<'_>, plan: PyPlan) -> PyResult<SweepObject> {
+        let at_least_one = |count: Count| count.within("chunks_per_task", 1..=usize::MAX, "give at least one");
+        let chunks_per_task = self.chunks_per_task.map(at_least_one).transpose()?;
         let keywords = PyDict::new(py);
         keywords.set_item("file", self.file)?;
         keywords.set_item("resume", self.resume)?;
         keywords.set_item("force", self.force)?;
         keywords.set_item("threads", self.threads.map(|threads| threads.0))?;
         keywords.set_item("executor", self.executor.map(|executor| executor.0))?;
-        keywords.set_item("chunks_per_task", self.chunks_per_task)?;
+        keywords.set_item("chunks_per_task", chunks_per_task)?;
         keywords.set_item("progress", self.progress.map(|progress| progress.0))?;
         let run = py.import("funicular._sweeps")?.getattr("run")?;
         Ok(SweepObject(run.call((plan,), Some(&keywords))?.unbind()))

@@ -1,7 +1,6 @@
 //! How many threads of this process compute.
 
-use crate::errors;
-use pyo3::exceptions::PyOverflowError;
+use crate::arrays::Count;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
@@ -27,14 +26,8 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Threads {
     const INPUT_TYPE: PyStaticExpr = <usize as FromPyObject<'a, 'py>>::INPUT_TYPE;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let count = match object.extract::<usize>() {
-            // Negative or huge.
-            Err(error) if error.is_instance_of::<PyOverflowError>(object.py()) => None,
-            count => NonZeroUsize::new(count?).filter(|count| count.get() <= Self::MOST),
-        };
-        count.map(Self).ok_or_else(|| {
-            let most = Self::MOST;
-            errors::input(format!("`threads` is {}: give at least one and at most {most}", object.as_any()))
-        })
+        let rule = format!("give at least one and at most {}", Self::MOST);
+        let count = object.extract::<Count>()?.within("threads", 1..=Self::MOST, &rule)?;
+        Ok(Self(NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN)))
     }
 }

@@ -1,6 +1,6 @@
 //! Stiffness, modes and responses of a robot at rest.
 
-use crate::arrays::{ComplexRow, Matrix, Numbers, Tensor, Vector, not_negative, positive};
+use crate::arrays::{ComplexNumbers, Matrix, Number, Numbers, Tensor, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::names;
@@ -149,13 +149,13 @@ struct Found {
 pub(crate) fn modes(
     py: Python<'_>,
     of: &PyEquilibrium,
-    below_hz: f64,
+    below_hz: Number,
     cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
     damped: bool,
 ) -> PyResult<ModesObject> {
-    positive("below_hz", below_hz)?;
+    let below_hz = below_hz.positive("below_hz")?;
     let linearisation = names::linearisation(cable_model, assembly, in_plane_only, of.rest.equilibrium.model)?;
     let mut warnings = of.static_warnings();
     let about = validity::of_dynamics(&of.robot, &of.rest.equilibrium, linearisation.cable_model, below_hz);
@@ -300,13 +300,17 @@ pub(crate) fn receptance(
 /// response
 ///     What `frf` gives at them.
 /// prominence_db
-///     Least height of a peak above the valleys beside it [dB].
+///     Least height of a peak above the valleys beside it [dB]; 1 if not given.
 #[pyfunction]
-#[pyo3(signature = (hz, response, *, prominence_db=1.0))]
-pub(crate) fn peaks(hz: Numbers, response: ComplexRow, prominence_db: f64) -> PyResult<(Vector, Vector, Vector)> {
+#[pyo3(signature = (hz, response, *, prominence_db=Number::of(1.0)))]
+pub(crate) fn peaks(
+    hz: Numbers,
+    response: ComplexNumbers,
+    prominence_db: Number,
+) -> PyResult<(Vector, Vector, Vector)> {
     let (frequencies, _) = hz.frequencies()?;
-    not_negative("prominence_db", prominence_db)?;
-    let ComplexRow(values) = response;
+    let prominence_db = prominence_db.not_negative("prominence_db")?;
+    let values = response.row("response")?;
     if values.len() != frequencies.len() {
         return Err(errors::input(format!("{} frequencies for {} values", frequencies.len(), values.len())));
     }

@@ -56,7 +56,7 @@ def test_processes_get_robots_and_give_results(method: str, robot: funicular.Rob
     "long",
     [
         "robot.equilibria(poses=numpy.full((1_000_000, 3), [0, 0, 0.5]), threads=1)",
-        "robot.modes(260, damped=True)",
+        "robot.modes(260)",
         "robot.frf(numpy.linspace(0.1, 20, 30_000_000), 'fz', 'az')",
     ],
 )

@@ -49,19 +49,91 @@ def test_stiffness_is_that_of_the_program(hz: float, robot: funicular.Robot, pro
 @pytest.mark.parametrize("model", ["exact", "closed-form", "static-sag", "catenary-tangent", "spring"])
 def test_modes_of_every_cable_model_are_those_of_the_program(model: str, robot: funicular.Robot, program: Program) -> None:
     theirs = program("modes", "robots/yuan2014-4mm.toml", "--below-hz", 8, "--cable-model", model)
-    ours = robot.modes(8, cable_model=model, damped=True).to_dict()
+    ours = robot.modes(8, cable_model=model).to_dict()
     for key in ours:
         assert theirs[key] == ours[key], key
     for key in theirs:
         assert key in ours or key in ("schema", "command"), key
 
 
-def test_damping_is_of_first_order_unless_asked_for(robot: funicular.Robot) -> None:
-    first, exact = robot.modes(5), robot.modes(5, damped=True)
+def test_damping_is_of_first_order_only_where_that_is_asked_for(robot: funicular.Robot) -> None:
+    first, exact = robot.modes(5, damped=False), robot.modes(5)
     assert first.eigenvalue_per_s is None and first.damped_certified is None
     assert exact.eigenvalue_per_s is not None and exact.damped_certified
     assert np.allclose(first.damping_ratio, exact.damping_ratio, rtol=0.05)
     assert np.array_equal(first.frequency_hz, exact.frequency_hz)
+
+
+# Robots with more, as many and fewer cables than degrees of freedom, planar, a point mass, of lengths and of poses; and a
+# limit [Hz] below which each has modes.
+DEFAULTS = [
+    ("yuan2014-4mm", 4),
+    ("cogiro", 4),
+    ("expo2015-lucia", 2),
+    ("stadium-camera", 1),
+    ("kntu-planar", 60),
+    ("nist-robocrane", 15),
+    ("sap2000-8-cable-point-mass", 15),
+]
+
+
+@pytest.mark.parametrize("static_model", [None, "spring"])
+@pytest.mark.parametrize(("name", "below_hz"), DEFAULTS)
+def test_what_is_not_given_is_as_in_the_program(name: str, below_hz: float, static_model: str | None, program: Program) -> None:
+    """A call without options is the program's command without options, whichever state and models these stand for."""
+    path = f"robots/{name}.toml"
+    options = [] if static_model is None else ["--static-model", static_model]
+    robot = funicular.Robot.from_file(ROBOTS / f"{name}.toml")
+    rest = robot.equilibrium() if static_model is None else robot.equilibrium(model=static_model)
+
+    theirs, ours = program("statics", path, *options), rest.to_dict()
+    assert theirs["pose"] == ours["pose"] and theirs["warnings"] == ours["warnings"]
+    assert theirs["static_model"] == ours["static_model"] and theirs.get("tension_rule") == ours.get("tension_rule")
+    for their, our in zip(theirs["cables"], ours["cables"], strict=True):
+        assert {key: their[key] for key in our} == our
+
+    theirs = program("modes", path, *options, "--below-hz", below_hz)
+    found = rest.modes(below_hz)
+    ours = found.to_dict()
+    assert len(found) > 0 and {key: theirs[key] for key in ours} == ours
+    assert set(theirs) - set(ours) <= {"schema", "command"}
+
+    for at in ([], ["--at-hz", 1.5]):
+        theirs = program("stiffness", path, *options, *at)
+        matrix = rest.stiffness(*at[1:])
+        assert matrix.real.tolist() == theirs["real"] and matrix.imag.tolist() == theirs["imag"]
+
+    theirs = program("frf", path, *options, *"--from-hz 0.5 --to-hz 3 --points 9 --input fx --output ax".split())
+    response = rest.frf(theirs["frequency_hz"], "fx", "ax")
+    assert response.real.tolist() == theirs["real"] and response.imag.tolist() == theirs["imag"]
+    peaks = [[peak[key] for peak in theirs["peaks"]] for key in ("frequency_hz", "prominence_db", "magnitude")]
+    assert [column.tolist() for column in funicular.peaks(theirs["frequency_hz"], response)] == peaks
+
+    # In the state of the file the robot's own methods are those of its equilibrium.
+    if static_model is None:
+        assert robot.modes(below_hz) == found
+        assert np.array_equal(robot.stiffness(), rest.stiffness())
+        assert np.array_equal(robot.frf(theirs["frequency_hz"], "fx", "ax"), response)
+
+
+@pytest.mark.parametrize("quantities", [None, "first-frequency,frequencies:2,stiffness-min,tension-margin"])
+@pytest.mark.parametrize("name", [name for name, _ in DEFAULTS])
+def test_so_is_it_in_maps_and_sweeps(name: str, quantities: str | None, executable: str, tmp_path: Path) -> None:
+    robot = funicular.Robot.from_file(ROBOTS / f"{name}.toml")
+    at, mass = float(robot.equilibrium().pose.position_m[0]), robot.mass_kg
+    options = [] if quantities is None else ["--quantity", quantities]
+    keywords: dict[str, Any] = {} if quantities is None else {"quantities": quantities.split(",")}
+    for command, axis, path, values in [
+        ("map", "--grid", "x", [at, at + 0.125]),
+        ("sweep", "--vary", "platform.mass_kg", [mass, 1.25 * mass]),
+    ]:
+        file = tmp_path / f"{command}.parquet"
+        line = [executable, command, f"robots/{name}.toml", axis, f"{path}={','.join(map(repr, values))}", *options]
+        subprocess.run([*line, "-o", str(file)], check=True, capture_output=True, cwd=ROOT)
+        rows = getattr(robot, command)({path: values}, **keywords)
+        assert rows.feasible[0] and rows.plan == funicular.Sweep.read(file).plan
+        rows.to_parquet(tmp_path / "ours.parquet")
+        assert (tmp_path / "ours.parquet").read_bytes() == file.read_bytes()
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "peaks"]
+__all__ = ["__version__", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "complex_numbers", "peaks", "real_numbers"]
 
 __version__: Final[str]
 
@@ -84,10 +84,10 @@ class Equilibrium:
         """
         Tensions at the anchors [N].
         """
-    def cable_points(self, /, points: SupportsIndex = 33) -> NDArray[float64]:
+    def cable_points(self, /, points: SupportsIndex = ...) -> NDArray[float64]:
         """
         Points along every cable at rest, world axes [m]: (cables, points, 3), from the platform to the anchor, at equal
-        parts of the unstrained length.
+        parts of the unstrained length; 33 on each if `points` is not given.
         """
     @property
     def cables(self, /) -> list[dict[str, Any]]:
@@ -153,7 +153,7 @@ class Equilibrium:
         """
         How cables carry their load: `ideal`, `spring` or `catenary`.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
         """
         Every natural frequency below a limit, counted: none missed.
 
@@ -164,8 +164,8 @@ class Equilibrium:
         cable_model, assembly, in_plane_only
             As of `stiffness`.
         damped
-            Seek the damped partner of every mode, too: damping ratios are then those of complex frequencies and not of
-            first order.
+            Seek the damped partner of every mode, too, as the program does: damping ratios are then those of complex
+            frequencies. False is faster; damping ratios are then of first order and there are no eigenvalues.
         """
     @property
     def nearest_pose_distance_m(self, /) -> float | None:
@@ -485,7 +485,7 @@ class Robot:
         """
         Mass of the platform [kg].
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
         """
         `Equilibrium.modes` in the state of the robot file.
         """
@@ -664,7 +664,12 @@ class SweepWork:
         Computes all chunks that are missing here, side by side; `progress` is called with the rows there and all rows.
         """
 
-def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex = 1.0) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+def complex_numbers(name: str, values: ArrayLike) -> NDArray[complex128]:
+    """
+    Complex numbers of any shape as an array; `name` is what errors call them. For the package's own functions in Python.
+    """
+
+def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex = ...) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
     """
     Peaks of a response: frequencies [Hz], heights above the valleys beside them [dB], magnitudes.
 
@@ -675,5 +680,10 @@ def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | 
     response
         What `frf` gives at them.
     prominence_db
-        Least height of a peak above the valleys beside it [dB].
+        Least height of a peak above the valleys beside it [dB]; 1 if not given.
+    """
+
+def real_numbers(name: str, values: ArrayLike) -> NDArray[float64]:
+    """
+    Real numbers of any shape as an array; `name` is what errors call them. For the package's own functions in Python.
     """

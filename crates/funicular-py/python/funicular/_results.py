@@ -37,9 +37,9 @@ class Modes(_Columns):
     multiplicity: NDArray[np.int64]
     """How many modes share the frequency."""
     damping_ratio: NDArray[np.float64]
-    """Of the damped partner if that was asked for, else to first order in the damping."""
+    """Of the damped partner; to first order in the damping where `damped=False` was asked for."""
     eigenvalue_per_s: NDArray[np.complex128] | None
-    """λ = −ζω + iω√(1 − ζ²) of the damped partner; None if it was not asked for."""
+    """λ = −ζω + iω√(1 − ζ²) of the damped partner; None where `damped=False` was asked for."""
     kind: NDArray[np.str_]
     """Whose vibration it is, by kinetic energy: platform, cable or mixed."""
     platform_energy_fraction: NDArray[np.float64]
@@ -62,7 +62,7 @@ class Modes(_Columns):
     unstable_directions: int
     """Directions without a frequency, in which the equilibrium is unstable; they are in the count."""
     damped_certified: bool | None
-    """Whether every mode has its damped partner, counted; None if these were not asked for."""
+    """Whether every mode has its damped partner, counted; None where `damped=False` was asked for."""
     cable_names: tuple[str, ...]
     robot: str
     static_model: str

@@ -5,13 +5,13 @@ Figure). Neither is imported before it is used.
 """
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
-from funicular._funicular import Equilibrium
+from funicular._funicular import Equilibrium, complex_numbers, real_numbers
 from funicular._results import Modes
 
 __all__ = ["frf", "modes", "robot"]
@@ -90,8 +90,8 @@ def frf(
 ) -> Any:
     """Magnitude of a response over frequency, or of several; a row each, named by `labels`. Magnitudes are on a scale of
     powers."""
-    frequencies = np.asarray(hz, dtype=float)
-    curves: NDArray[np.complex128] = np.atleast_2d(np.asarray(response, dtype=complex))
+    frequencies = real_numbers("hz", hz)
+    curves: NDArray[np.complex128] = np.atleast_2d(complex_numbers("response", cast(ArrayLike, response)))
     names = [f"response {i + 1}" for i in range(len(curves))] if labels is None else list(labels)
     if curves.shape[1:] != frequencies.shape or len(names) != len(curves):
         raise InputError(

@@ -1,13 +1,13 @@
 //! What Python hands to a sweep, with the types that the `.pyi` names.
 
 use super::plan::{PointsAsked, Request, StepsAsked};
-use crate::arrays::{ARRAY_LIKE, Numbers, finite, positive};
+use crate::arrays::{ARRAY_LIKE, Count, Number, Numbers, finite};
 use crate::errors;
 use crate::request::{Given, Options};
 use funicular::statics::TensionRule;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyMapping, PyTuple};
+use pyo3::types::{PyMapping, PyTuple};
 
 const ABC: PyStaticExpr = PyStaticExpr::Name { id: "collections.abc" };
 const CALLABLE: PyStaticExpr = PyStaticExpr::Attribute { value: &ABC, attr: "Callable" };
@@ -44,29 +44,18 @@ fn steps(name: &str, values: &Bound<'_, PyAny>) -> PyResult<StepsAsked> {
     if let Ok(tuple) = values.cast::<PyTuple>()
         && tuple.len() == 3
     {
-        let count = how_many(name, &tuple.get_item(2)?)?;
-        let (from, to): (f64, f64) = (tuple.get_item(0)?.extract()?, tuple.get_item(1)?.extract()?);
-        return Ok(StepsAsked::Range { from: finite(name, from)?, to: finite(name, to)?, count });
+        let third = format!("{name}[2]");
+        let rule = "the third of a tuple is how many values there are, 2 or more; give a list for values";
+        let count = tuple.get_item(2)?.extract::<Count>()?.within(&third, 2..=usize::MAX, rule)?;
+        let end = |place: usize| tuple.get_item(place)?.extract::<Number>()?.finite(&format!("{name}[{place}]"));
+        return Ok(StepsAsked::Range { from: end(0)?, to: end(1)?, count });
     }
-    let values = values.extract::<Numbers>()?;
-    let values: Vec<f64> = if values.0.ndim() == 0 { values.0.iter().copied().collect() } else { values.row(name)? };
+    let (values, _) = values.extract::<Numbers>()?.one_or_row(name)?;
     if values.is_empty() {
         return Err(errors::input(format!("`{name}` has no values: give (first, last, how many), or values")));
     }
     values.iter().try_for_each(|value| finite(name, *value).map(drop))?;
     Ok(StepsAsked::List { values })
-}
-
-/// The number of values of a range: whatever has an index, NumPy's whole numbers, too, but no flag.
-fn how_many(name: &str, count: &Bound<'_, PyAny>) -> PyResult<usize> {
-    let whole = if count.is_instance_of::<PyBool>() { None } else { count.call_method0("__index__").ok() };
-    let Some(whole) = whole else {
-        return Err(errors::input(format!(
-            "`{name}` is a tuple of three, whose third is how many, a whole number, not {}: give a list for values",
-            count.repr()?
-        )));
-    };
-    whole.extract().map_err(|_| errors::input(format!("`{name}` has {whole} values: a range has 2 or more")))
 }
 
 /// An executor, or what makes one.
@@ -128,7 +117,7 @@ pub(crate) struct Settings<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
-    pub(crate) up_to_hz: f64,
+    pub(crate) up_to_hz: Number,
     pub(crate) pose: Option<Numbers>,
     pub(crate) lengths: Option<Numbers>,
 }
@@ -160,7 +149,7 @@ impl Settings<'_> {
             cable_model: self.cable_model.map(str::to_owned),
             assembly: self.assembly.to_owned(),
             in_plane_only: self.in_plane_only,
-            up_to_hz: positive("up_to_hz", self.up_to_hz)?,
+            up_to_hz: self.up_to_hz.positive("up_to_hz")?,
             pose,
             lengths,
         })
