@@ -132,7 +132,8 @@ fn plane(start_w: &Vec3, end_w: &Vec3, up_w: &Vec3) -> (f64, f64, Vec3) {
     // Of a cable that is vertical to rounding, what is left across is rounding and may even point up: made horizontal again.
     if span < NEARLY_VERTICAL * rise.abs() {
         across -= up_w * across.dot(up_w);
-        span = across.norm();
+        // Where most of it pointed up, all of it was rounding: the cable is vertical.
+        span = if across.norm() < 0.5 * span { 0.0 } else { across.norm() };
     }
     (span, rise, if span > 0.0 { across / span } else { any_normal(up_w) })
 }
