@@ -313,9 +313,8 @@ fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one
             let effect = statics::drag_effect(&robot, &rest).unwrap();
             assert!(effect > last, "{name} {speed}: {effect} {last}");
             last = effect;
-            let warned = validity::of_dynamics(&robot, &rest, CableModel::Exact, 1.0)
-                .iter()
-                .any(|warning| matches!(warning, Warning::DragTurns { effect: told } if *told == effect));
+            let warned =
+                validity::of_dynamics(&robot, &rest, CableModel::Exact, 1.0).contains(&Warning::DragTurns { effect });
             assert_eq!(warned, effect > validity::DRAG_TURN_LIMIT, "{name} {speed}: {effect}");
             *(if warned { &mut seen } else { &mut unseen }) += 1;
 
