@@ -87,7 +87,7 @@ pub(crate) fn stiffness(
         } else {
             linearisation
         };
-        let tangent = if at_rest(&frequencies) { Some(tangent(of, still)?) } else { None };
+        let tangent = if at_rest(&frequencies) { Some(tangent(of, still, cable_model.is_none())?) } else { None };
         let moving = if frequencies.iter().any(|hz| *hz > 0.0) {
             Some(linearised(of, linearisation, highest(&frequencies))?)
         } else {
@@ -108,15 +108,16 @@ pub(crate) fn stiffness(
     })
 }
 
-/// The stiffness at 0 Hz, as the program gives it.
-fn tangent(of: &PyEquilibrium, linearisation: Linearisation) -> Result<CMat6, DynamicsError> {
+/// The stiffness at 0 Hz, as the program gives it; without a named cable model the drag of the wind turns with the cables.
+fn tangent(of: &PyEquilibrium, linearisation: Linearisation, drag_turns: bool) -> Result<CMat6, DynamicsError> {
     let equilibrium = &of.rest.equilibrium;
     if linearisation.cable_model == CableModel::CatenaryTangent && equilibrium.model == StaticModel::Ideal {
         return Err(DynamicsError::Rigid);
     }
     let whole_tangent = Linearisation { cable_model: CableModel::CatenaryTangent, ..Linearisation::default() };
+    let of_statics = if drag_turns { statics::tangent_with_drag } else { statics::tangent_stiffness };
     if linearisation == whole_tangent
-        && let Some(tangent) = statics::tangent_stiffness(&of.robot, equilibrium)
+        && let Some(tangent) = of_statics(&of.robot, equilibrium)
     {
         return Ok(tangent.map(|k| Complex64::new(k, 0.0)));
     }

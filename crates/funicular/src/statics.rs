@@ -1,6 +1,7 @@
 //! Static equilibrium: lengths to pose ([`forward`]), pose to lengths ([`inverse`]).
 
 mod all;
+mod drag;
 mod energy;
 mod forward;
 mod inverse;
@@ -11,6 +12,7 @@ mod start;
 mod tension;
 
 pub use all::{Candidate, Candidates, all, other_stable};
+pub use drag::{antisymmetric_part, drag_effect, drag_stiffness, tangent_with_drag};
 pub use energy::energy;
 pub use forward::forward;
 pub use inverse::inverse;
@@ -112,7 +114,8 @@ pub struct Equilibrium {
     pub stability: Stability,
 }
 
-/// What the static stiffness says of an equilibrium.
+/// What the static stiffness says of an equilibrium: the signs of the eigenvalues of its symmetric part, which is the work
+/// that a small displacement takes. In wind it is the symmetric part of [`tangent_with_drag`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stability {
     /// Every small displacement is opposed; the least eigenvalue of the scaled stiffness S K S [N/m].
@@ -495,6 +498,9 @@ pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
 /// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
 /// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
 ///
+/// Every load keeps its direction: in wind this is the stiffness under the drag of the equilibrium, held. The stiffness with
+/// a drag that turns with the cables is [`tangent_with_drag`].
+///
 /// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. Of a moment
 /// the antisymmetric half is left out: such a moment has no energy.
 ///
@@ -617,7 +623,7 @@ fn collect(
         .collect();
     let residual = residual_of(robot, &pose, &cables);
     let mut equilibrium = Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid };
-    if let Some(stiffness) = tangent_stiffness(robot, &equilibrium) {
+    if let Some(stiffness) = tangent_with_drag(robot, &equilibrium) {
         equilibrium.stability = stability(robot, &stiffness);
     }
     equilibrium

@@ -80,6 +80,11 @@ pub enum Warning {
         /// The model.
         model: CableModel,
     },
+    /// Wind whose drag turns with the cables, which the symmetric stiffness of vibration leaves out.
+    DragTurns {
+        /// Largest relative change of the static displacement under a small load, [`crate::statics::drag_effect`].
+        effect: f64,
+    },
     /// Frequencies near a cable's first axial resonance, which no model here contains.
     AxialWaves {
         /// Name of the cable with the lowest one.
@@ -136,6 +141,10 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
 /// Tension per worst unit wrench from which a pose is called nearly singular: ten times the largest at the poses of the
 /// library's robots, which have 0.9 to 3.1.
 pub const SINGULAR_GAIN: f64 = 30.0;
+
+/// Relative change of static displacements from which the turn of the drag is warned of; a drag coefficient is hardly known
+/// to one per cent.
+pub const DRAG_TURN_LIMIT: f64 = 0.01;
 
 /// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
 /// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
@@ -218,6 +227,13 @@ impl fmt::Display for Warning {
                     cables.iter().map(one).collect::<Vec<_>>().join(", ")
                 )
             }
+            Self::DragTurns { effect } => write!(
+                f,
+                "the drag of the wind turns with the cables and changes the static displacement under a small load by up \
+                 to {:.1} % (rotations times the platform's size); this stiffness, symmetric and with the drag held, leaves \
+                 it out: take static displacements from `stiffness` at 0 Hz without a cable model, which has it",
+                100.0 * effect
+            ),
             Self::AxialWaves { cable, axial_hz, below_hz } => write!(
                 f,
                 "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \"{cable}\": \
@@ -302,6 +318,9 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
     let cables: Vec<DeepSag> = states.filter_map(|(i, state)| DeepSag::of(robot, i, state, model)).collect();
     if !cables.is_empty() {
         warnings.push(Warning::DeepSag { cables, model });
+    }
+    if let Some(effect) = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT) {
+        warnings.push(Warning::DragTurns { effect });
     }
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {

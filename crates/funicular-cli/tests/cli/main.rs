@@ -5,6 +5,7 @@ mod export;
 mod files;
 mod freedoms;
 mod import;
+mod links;
 mod pages;
 mod plots;
 mod readme;

@@ -21,6 +21,9 @@ pub struct Stiffness {
     pub models: Models,
     pub real: [[f64; 6]; 6],
     pub imag: [[f64; 6]; 6],
+    /// Size of the antisymmetric part over that of the whole; absent where the matrix is symmetric by its theory.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub antisymmetric_part: Option<f64>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -40,16 +43,30 @@ pub fn run(robot: Robot, request: &request::Stiffness) -> Result<Stiffness> {
     if linearisation.cable_model == CableModel::CatenaryTangent && at_rest.equilibrium.model == StaticModel::Ideal {
         return Err(DynamicsError::Rigid.into());
     }
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.at_hz)?;
     let whole_tangent = Linearisation { cable_model: CableModel::CatenaryTangent, ..Linearisation::default() };
-    let exact = match linearisation {
-        l if l == whole_tangent => statics::tangent_stiffness(&at_rest.robot, &at_rest.equilibrium),
-        _ => None,
+    let (robot, rest) = (&at_rest.robot, &at_rest.equilibrium);
+
+    // Without a cable model the drag of the wind turns with the cables; a named one is that of vibration, with held drag.
+    let turning = (linearisation == whole_tangent && request.model.cable_model.is_none())
+        .then(|| statics::drag_stiffness(robot, rest))
+        .flatten();
+    let exact = match (linearisation == whole_tangent, turning) {
+        (true, Some(_)) => statics::tangent_with_drag(robot, rest),
+        (true, None) => statics::tangent_stiffness(robot, rest),
+        (false, _) => None,
     };
-    let matrix: CMat6 = match exact {
-        Some(tangent) => tangent.map(|k| Complex::new(k, 0.0)),
-        None => dynamics.stiffness(request.at_hz * TAU),
+    let antisymmetric_part =
+        exact.filter(|_| turning.is_some()).map(|tangent| statics::antisymmetric_part(robot, &tangent));
+
+    let (matrix, warnings): (CMat6, _) = match exact {
+        Some(tangent) if turning.is_some() => (tangent.map(|k| Complex::new(k, 0.0)), at_rest.warnings(None)),
+        _ => {
+            let (dynamics, warnings) = at_rest.dynamics(linearisation, request.at_hz)?;
+            let matrix = exact.map(|tangent| tangent.map(|k| Complex::new(k, 0.0)));
+            (matrix.unwrap_or_else(|| dynamics.stiffness(request.at_hz * TAU)), warnings)
+        }
     };
+
     // `+ 0.0` makes a negative zero positive: the sign would mean nothing.
     let rows =
         |part: fn(&Complex) -> f64| std::array::from_fn(|i| std::array::from_fn(|j| part(&matrix[(i, j)]) + 0.0));
@@ -59,6 +76,7 @@ pub fn run(robot: Robot, request: &request::Stiffness) -> Result<Stiffness> {
         models: Models::of(&at_rest.equilibrium, linearisation),
         real: rows(|k| k.re),
         imag: rows(|k| k.im),
+        antisymmetric_part,
         warnings,
     })
 }

@@ -123,6 +123,30 @@ mod tests {
         }
     }
 
+    /// (36a): what is left of the vertical force beside its terms falls by the order of the first one left out when the
+    /// tension doubles, and what is left beside the straight line by the order of (36a)'s own.
+    #[test]
+    fn the_vertical_force_bends_with_the_first_power_of_weight_over_tension_in_inclined_cables() {
+        // So stiff that the strain, 3e-12 at most, is far below the last term looked at, 2e-8.
+        let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 1e13 };
+        for (sin, line_order, remainder_order) in [(0.6, 1, 3), (-0.8, 1, 3), (0.0, 2, 4)] {
+            let cos2: f64 = 1.0 - sin * sin;
+            let left = |tau: f64| {
+                let cable = Catenary::with_parallel_tension(cos2.sqrt(), sin, rope, tau);
+                let beside_line = cable.vertical_force_at_start() - (tau * sin - 0.5);
+                (beside_line, beside_line - (sin / (12.0 * tau) - cos2 / (48.0 * tau * tau)))
+            };
+            for tau in [6.0, 12.0] {
+                let ((line, rest), (line_2, rest_2)) = (left(tau), left(2.0 * tau));
+                // The next order adds some per cents to each at these tensions.
+                let order = |one: f64, two: f64| (one / two).log2();
+                assert!((order(line, line_2) - f64::from(line_order)).abs() < 0.1, "{sin} {tau}: {line} {line_2}");
+                let found = order(rest, rest_2);
+                assert!((found - f64::from(remainder_order)).abs() < 0.1, "{sin} {tau}: {rest:e} {rest_2:e} {found}");
+            }
+        }
+    }
+
     #[test]
     fn a_massless_cable_is_a_spring() {
         let rope = Rope { unstrained_length: 1.0, weight_per_length: 0.0, axial_stiffness: 1000.0 };
