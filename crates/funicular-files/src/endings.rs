@@ -121,7 +121,8 @@ fn ending(path: &Path) -> Option<String> {
 
 /// The first ending of each kind: ".json, .csv or .txt".
 fn listed(kinds: &[Kind]) -> String {
-    let first = |kind: &Kind| ENDINGS.iter().find(|(_, other)| other == kind).map(|(endings, _)| format!(".{}", endings[0]));
+    let first =
+        |kind: &Kind| ENDINGS.iter().find(|(_, other)| other == kind).map(|(endings, _)| format!(".{}", endings[0]));
     let mut endings: Vec<String> = kinds.iter().filter_map(first).collect();
     match endings.pop() {
         None => ".txt".to_owned(),

@@ -72,7 +72,10 @@ impl Guard {
                 true => String::new(),
                 false => format!(" ({} is the same file)", used.path.display()),
             };
-            return Err(FilesError::Clash(format!("refusing to write {role} over {} {shown}{same}; {advice}", source.role)));
+            return Err(FilesError::Clash(format!(
+                "refusing to write {role} over {} {shown}{same}; {advice}",
+                source.role
+            )));
         }
         if let Some(other) = self.written.iter().find(|other| used.meets(other)) {
             let both = format!("refusing to write {role} and {} both to {}", other.role, other.path.display());

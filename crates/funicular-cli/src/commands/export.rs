@@ -16,8 +16,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<()> {
         ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
     };
     let content = Content { name: "the exported robot", option: "-o", in_words, fitting };
-    let target =
-        Target::open(Some(&args.output_file), content, &mut robot_file::guard(Some(&args.robot.robot)))?;
+    let target = Target::open(Some(&args.output_file), content, &mut robot_file::guard(Some(&args.robot.robot)))?;
     if !matches!(args.state.static_model, StaticModelName::Catenary) {
         bail!("export writes cables that hang: leave out --static-model");
     }

@@ -251,7 +251,8 @@ mod tests {
     #[test]
     fn names_of_line_types_differ_whatever_the_ropes_are_called() {
         let long = "rope".repeat(1000);
-        let ropes = [long.clone(), format!("{long}a"), format!("{long}b"), "a b".to_owned(), "a_b".to_owned(), "索".into()];
+        let ropes =
+            [long.clone(), format!("{long}a"), format!("{long}b"), "a b".to_owned(), "a_b".to_owned(), "索".into()];
         let names: Vec<String> = ropes.iter().enumerate().map(|(i, rope)| type_name(rope, i)).collect();
         for (i, name) in names.iter().enumerate() {
             assert!(!names[..i].contains(name) && name.len() < 80, "{name}");
