@@ -68,9 +68,10 @@ impl Guard {
         let advice = format!("choose another name for {option}");
         if let Some(source) = self.read.iter().find(|source| used.meets(source)) {
             let shown = source.path.display();
-            let same = match source.path == used.path {
-                true => String::new(),
-                false => format!(" ({} is the same file)", used.path.display()),
+            let same = if source.path == used.path {
+                String::new()
+            } else {
+                format!(" ({} is the same file)", used.path.display())
             };
             return Err(FilesError::Clash(format!(
                 "refusing to write {role} over {} {shown}{same}; {advice}",
