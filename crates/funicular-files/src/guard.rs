@@ -139,15 +139,17 @@ impl Place {
     }
 }
 
-#[cfg(unix)]
+/// Device and number of a file, where the system gives them.
 fn number(metadata: &fs::Metadata) -> Option<(u64, u64)> {
-    use std::os::unix::fs::MetadataExt;
-    Some((metadata.dev(), metadata.ino()))
-}
-
-#[cfg(not(unix))]
-fn number(_: &fs::Metadata) -> Option<(u64, u64)> {
-    None
+    #[cfg(unix)]
+    let number = {
+        use std::os::unix::fs::MetadataExt;
+        Some((metadata.dev(), metadata.ino()))
+    };
+    #[cfg(not(unix))]
+    let number = None;
+    let _ = metadata;
+    number
 }
 
 /// Whether names in a folder that differ in case alone are one; tried with a file that vanishes again.

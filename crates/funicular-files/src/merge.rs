@@ -16,7 +16,9 @@ use std::path::{Path, PathBuf};
 pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     let format = Format::of(to)?;
     let mut guard = Guard::default();
-    parts.iter().for_each(|part| guard.reads("the part", part));
+    for part in parts {
+        guard.reads("the part", part);
+    }
     guard.writes_rows("-o", to, false)?;
     let mut files = Vec::with_capacity(parts.len());
     for path in parts {

@@ -217,7 +217,7 @@ fn complete_part(job: Box<Job>, chunks: &[Chunk], record: &Record) {
     complete(job, chunks, record.range().end);
 }
 
-/// A sweep of one row of text and numbers, short enough that each of its bytes can be damaged.
+/// A sweep of a few rows, short enough that each of its bytes can be damaged.
 fn small() -> (Record, Vec<Chunk>) {
     let (record, chunks) = sweep();
     let columns = record.columns[..4].to_vec();
@@ -315,7 +315,9 @@ fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_tak
         let kept = pairs.iter().filter(|pair| keep(pair)).cloned().collect();
         let properties = WriterProperties::builder().set_key_value_metadata(Some(kept)).build();
         let mut writer = ArrowWriter::try_new(File::create(&path).unwrap(), schema.clone(), Some(properties)).unwrap();
-        batches.iter().for_each(|batch| writer.write(batch).unwrap());
+        for batch in &batches {
+            writer.write(batch).unwrap();
+        }
         writer.close().unwrap();
         SweepFile::open(&path).err().expect("refused").to_string()
     };

@@ -12,7 +12,9 @@ use funicular_files::endings::Kind;
 pub(crate) fn run(args: &ImportArgs) -> Result<()> {
     let files = args.files.iter().map(|path| SourceFile::read(path)).collect::<Result<Vec<_>>>()?;
     let mut guard = Guard::default();
-    args.files.iter().for_each(|path| guard.reads("the source file", path));
+    for path in &args.files {
+        guard.reads("the source file", path);
+    }
     let content = Content { name: "the robot file", option: "-o", in_words: "a robot file", fitting: &[Kind::Toml] };
     let target = Target::open(Some(&args.output_file), content, &mut guard)?;
     let mut draft = import::read(&files, &Wanted { cable_set: args.cable_set.as_deref() })?;
