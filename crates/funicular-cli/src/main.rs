@@ -21,7 +21,9 @@ use anyhow::Result;
 use args::{Cli, Command, OutputArgs, RobotArgs, ValidateArgs};
 use clap::Parser;
 use funicular::robot::Robot;
+use funicular_files::Guard;
 use output::{Results, Sink};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -30,11 +32,17 @@ fn main() -> ExitCode {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => errors::report(&error),
         },
-        Err(usage) => {
-            // Help for a closed pipe is help for nobody.
-            let _ = usage.print();
-            ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2))
-        }
+        Err(usage) => tell(&usage),
+    }
+}
+
+/// Prints help or the version, which were asked for, to standard output; what is wrong with the command line to stderr.
+fn tell(usage: &clap::Error) -> ExitCode {
+    let printed = usage.print().and_then(|()| io::stdout().flush());
+    match printed {
+        // Help for a closed pipe is help for nobody, and so is a message to a closed stderr.
+        Err(error) if !usage.use_stderr() => errors::report(&output::of_stdout(error)),
+        _ => ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2)),
     }
 }
 
@@ -48,7 +56,9 @@ fn run(command: &Command) -> Result<()> {
         Command::Compare(args) => steps(&args.robot, &args.output, |robot| commands::compare::run(robot, args)),
         Command::PoseError(args) => steps(&args.robot, &args.output, |robot| commands::pose_error::run(&robot, args)),
         Command::Cable(args) => steps(&args.robot, &args.output, |robot| commands::cable::run(robot, args)),
-        Command::Reduce(args) => steps(&args.robot, &args.sink, |robot| commands::reduce::run(robot, args)),
+        Command::Reduce(args) => {
+            guarded_steps(&args.robot, &args.sink, |robot, guard| commands::reduce::run(robot, args, guard))
+        }
         Command::Map(args) => commands::map::run(args),
         Command::Sweep(args) => commands::sweep::run(args),
         Command::Merge(args) => commands::merge::run(args),
@@ -63,15 +73,25 @@ fn run(command: &Command) -> Result<()> {
 
 /// What every command does that prints a result.
 fn steps<R: Results>(robot: &RobotArgs, output: &OutputArgs, analyse: impl FnOnce(Robot) -> Result<R>) -> Result<()> {
+    guarded_steps(robot, output, |robot, _| analyse(robot))
+}
+
+/// The steps of a command that writes other files, too.
+fn guarded_steps<R: Results>(
+    robot: &RobotArgs,
+    output: &OutputArgs,
+    analyse: impl FnOnce(Robot, &mut Guard) -> Result<R>,
+) -> Result<()> {
     let file = robot_file::read(Some(&robot.robot), &robot.changes)?;
-    let sink = Sink::open(output, Some(&robot.robot))?;
-    let results = analyse(file.robot)?;
+    let mut guard = robot_file::guard(Some(&robot.robot));
+    let sink = Sink::open(output, &mut guard)?;
+    let results = analyse(file.robot, &mut guard)?;
     sink.write(&results)
 }
 
 /// The command without a robot.
 fn validate(args: &ValidateArgs) -> Result<()> {
-    let sink = Sink::open(&args.output, None)?;
+    let sink = Sink::open(&args.output, &mut Guard::default())?;
     let results = commands::validate::run()?;
     sink.write(&results)?;
     results.verdict()

@@ -4,7 +4,7 @@ use crate::args::ChangeArgs;
 use crate::errors::Rendered;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
-use funicular_files::edit;
+use funicular_files::{Guard, edit};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -47,6 +47,16 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotFil
         Ok(robot) => Ok(RobotFile { robot, name, text }),
         Err(error) => Err(Rendered(error.render(&name, &text, crate::errors::stderr_has_colour())).into()),
     }
+}
+
+/// Guard of a command's files that knows the robot file, also where that is standard input.
+pub(crate) fn guard(path: Option<&Path>) -> Guard {
+    let mut guard = Guard::default();
+    if let Some(path) = path {
+        let path = if path.as_os_str() == "-" { Path::new("/dev/stdin") } else { path };
+        guard.reads("the robot file", path);
+    }
+    guard
 }
 
 fn open(path: &Path, name: &str) -> Result<File> {

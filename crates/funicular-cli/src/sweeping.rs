@@ -8,12 +8,13 @@ use crate::args::{EachArgs, OutputArgs, RunArgs};
 use crate::errors::{self, Interrupted};
 use crate::output::{self, Sink};
 use crate::progress::Progress;
+use crate::robot_file;
 use crate::state;
 use crate::table::counted;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
 use funicular::sweep::{Options, Outcome, Plan, Points};
-use funicular_files::{Asked, Begin, CsvRows, Opened, Record, Source, SweepFile};
+use funicular_files::{Asked, Begin, CsvRows, Guard, Opened, Record, Source, SweepFile};
 use std::io::{self, BufWriter};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -26,8 +27,10 @@ pub(crate) struct Job<'a> {
     /// One of its robots.
     pub(crate) robot: &'a Robot,
     pub(crate) robot_file: String,
-    /// Files that are read, and not to be written over.
-    pub(crate) inputs: &'a [&'a Path],
+    /// Robot file that is read.
+    pub(crate) robot_path: &'a Path,
+    /// File of poses that is read, if there is one.
+    pub(crate) poses_path: Option<&'a Path>,
     pub(crate) points: &'a dyn Points,
     pub(crate) source: Source<'a>,
     pub(crate) point: &'a EachArgs,
@@ -206,18 +209,14 @@ fn refuse_output(job: &Job, path: &Path) -> Result<()> {
     if job.run.format == Some(Format::Csv) {
         bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
     }
-    let same =
-        |input: &Path| path.canonicalize().ok().is_some_and(|to| input.canonicalize().is_ok_and(|from| from == to));
-    if job.inputs.iter().any(|input| same(input)) {
-        bail!(
-            "refusing to write the rows over {}, which they are computed from; choose another name for -o",
-            path.display()
-        );
+    let mut guard = robot_file::guard(Some(job.robot_path));
+    if let Some(poses) = job.poses_path {
+        guard.reads("the poses", poses);
     }
-    Ok(())
+    Ok(guard.writes_rows("-o", path, true)?)
 }
 
 /// The sink of a summary.
 fn sink(format: Option<Format>) -> Result<Sink> {
-    Sink::open(&OutputArgs { format, output_file: None }, None)
+    Sink::open(&OutputArgs { format, output_file: None }, &mut Guard::default())
 }

@@ -3,13 +3,20 @@
 use crate::args::{ExportArgs, ExportFormat, StaticModelName};
 use crate::errors;
 use crate::export::{moordyn, opensees, vtk};
-use crate::output::Target;
+use crate::output::{Content, Target};
 use crate::{robot_file, state};
 use anyhow::{Result, bail};
+use funicular_files::endings::Kind;
 
 pub(crate) fn run(args: &ExportArgs) -> Result<()> {
     let file = robot_file::read(Some(&args.robot.robot), &args.robot.changes)?;
-    let target = Target::open(Some(&args.output_file), Some(&args.robot.robot))?;
+    let (in_words, fitting): (_, &[Kind]) = match args.to {
+        ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
+        ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
+        ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
+    };
+    let content = Content { name: "the exported robot", option: "-o", in_words, fitting };
+    let target = Target::open(Some(&args.output_file), content, &mut robot_file::guard(Some(&args.robot.robot)))?;
     if !matches!(args.state.static_model, StaticModelName::Catenary) {
         bail!("export writes cables that hang: leave out --static-model");
     }

@@ -4,13 +4,19 @@ use crate::args::ImportArgs;
 use crate::errors;
 use crate::import::text::SourceFile;
 use crate::import::{self, Wanted};
-use crate::output::Target;
+use crate::output::{Content, Target};
 use anyhow::Result;
-use std::path::{Path, PathBuf};
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
 
 pub(crate) fn run(args: &ImportArgs) -> Result<()> {
     let files = args.files.iter().map(|path| SourceFile::read(path)).collect::<Result<Vec<_>>>()?;
-    let target = target(&args.output_file, &args.files)?;
+    let mut guard = Guard::default();
+    for path in &args.files {
+        guard.reads("the source file", path);
+    }
+    let content = Content { name: "the robot file", option: "-o", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let target = Target::open(Some(&args.output_file), content, &mut guard)?;
     let mut draft = import::read(&files, &Wanted { cable_set: args.cable_set.as_deref() })?;
     draft.complete(&args.ropes, &args.platform)?;
     let text = draft.to_toml()?;
@@ -25,13 +31,4 @@ pub(crate) fn run(args: &ImportArgs) -> Result<()> {
         errors::warn(&format!("not carried over: {lost}"));
     }
     Ok(())
-}
-
-/// Where the robot file goes: over none of the files that are read.
-fn target(path: &Path, sources: &[PathBuf]) -> Result<Target> {
-    let mut target = Target::open(Some(path), None)?;
-    for source in sources {
-        target = Target::open(Some(path), Some(source))?;
-    }
-    Ok(target)
 }

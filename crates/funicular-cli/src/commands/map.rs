@@ -15,9 +15,7 @@ pub(crate) fn run(args: &MapArgs) -> Result<()> {
     let robot = sweeping::adjusted(file.robot, &args.point)?;
     let (listed, base);
     let points;
-    let mut inputs = vec![args.robot.robot.as_path()];
     let source = if let Some(path) = &args.poses {
-        inputs.push(path);
         listed = poses::read(path, &robot)?;
         points = Poses::list(robot.clone(), listed.clone());
         Source::List(&listed)
@@ -30,7 +28,8 @@ pub(crate) fn run(args: &MapArgs) -> Result<()> {
         command: "map",
         robot: &robot,
         robot_file: file.text,
-        inputs: &inputs,
+        robot_path: &args.robot.robot,
+        poses_path: args.poses.as_deref(),
         points: &points,
         source,
         point: &args.point,

@@ -3,7 +3,7 @@
 use crate::args::PlotArgs;
 use crate::commands::report::{command_line, write};
 use crate::errors;
-use crate::output::Target;
+use crate::output::{Content, Target};
 use crate::page::plot::{PlotInput, Tracking, plot};
 use crate::progress::{Progress, Waiting};
 use crate::sweeping::again::Again;
@@ -12,7 +12,7 @@ use anyhow::{Result, bail};
 use funicular::modes::Mode;
 use funicular::modes::track::{Tracked, branches};
 use funicular::sweep::{Points as _, Quantity, lowest_modes};
-use funicular_files::{Record, SweepFile};
+use funicular_files::{Guard, Record, SweepFile};
 
 /// Most values of a sweep whose modes are computed again to be tracked: a minute of work.
 const MOST_TRACKED: usize = 2000;
@@ -20,11 +20,9 @@ const MOST_TRACKED: usize = 2000;
 pub(crate) fn run(args: &PlotArgs) -> Result<()> {
     let file = SweepFile::open(&args.file)?;
     let to = args.output_file.clone().unwrap_or_else(|| args.file.with_extension("html"));
-    let same = |a: &std::path::Path| a.canonicalize().ok();
-    if same(&to).is_some_and(|to| same(&args.file) == Some(to)) {
-        bail!("refusing to write the page over the rows in {}; choose another name for -o", args.file.display());
-    }
-    let target = Target::open(Some(&to), None)?;
+    let mut guard = Guard::default();
+    guard.reads("the rows in", &args.file);
+    let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
     if file.rows == 0 {
         let shown = args.file.display();
         match file.record.part.filter(|_| file.complete) {

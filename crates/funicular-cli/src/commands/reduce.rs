@@ -1,7 +1,7 @@
 //! `reduce`: a small second-order model of the robot for control design.
 
 use crate::args::ReduceArgs;
-use crate::output::{self, Results, Target};
+use crate::output::{self, Content, Results, Target};
 use crate::progress::Waiting;
 use crate::state::{self, Models};
 use crate::table::{Table, counted, decimals, significant};
@@ -12,6 +12,8 @@ use funicular::ports::{Input, OnCable, Output, cable_of};
 use funicular::reduction::{Coordinate, DampingAt, Place, SecondOrder, StateSpace, Wanted, reduce};
 use funicular::response::Quantity;
 use funicular::robot::Robot;
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
 use npyz::WriterBuilder;
 use serde::Serialize;
 use std::io::{Cursor, Write};
@@ -58,8 +60,8 @@ struct CoordinateRow {
     clamped_frequency_hz: Option<f64>,
 }
 
-pub(crate) fn run(robot: Robot, args: &ReduceArgs) -> Result<Reduced> {
-    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, &args.robot.robot)).transpose()?;
+pub(crate) fn run(robot: Robot, args: &ReduceArgs, guard: &mut Guard) -> Result<Reduced> {
+    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, guard)).transpose()?;
     let inputs = inputs(&robot, args)?;
     let outputs = outputs(&robot, args)?;
     let at_rest = state::equilibrium(robot, &args.state)?;
@@ -196,6 +198,10 @@ impl CoordinateRow {
     }
 }
 
+/// The matrices in one file.
+const MATRICES: Content =
+    Content { name: "the matrices", option: "--model", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
+
 /// Where the matrices go.
 enum ModelFile {
     /// One NumPy archive.
@@ -206,11 +212,12 @@ enum ModelFile {
 
 impl ModelFile {
     /// Checks before the work that it can be written.
-    fn open(path: &Path, robot: &Path) -> Result<Self> {
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
-            return Ok(Self::Npz(Target::open(Some(path), Some(robot))?));
+    fn open(path: &Path, guard: &mut Guard) -> Result<Self> {
+        if Kind::of(path) == Some(Kind::Npz) {
+            return Ok(Self::Npz(Target::open(Some(path), MATRICES, guard)?));
         }
         let shown = path.display();
+        guard.writes_folder(MATRICES.name, MATRICES.option, path)?;
         if path.extension().is_some() && !path.is_dir() {
             bail!(
                 "--model {shown} is neither an .npz file nor a folder: write model.npz, or a folder without an ending"

@@ -3,7 +3,7 @@
 use crate::args::ReportArgs;
 use crate::commands::frf;
 use crate::errors;
-use crate::output::Target;
+use crate::output::{Content, Target};
 use crate::page::report::{ReportInput, report};
 use crate::page::table::listed;
 use crate::progress::Waiting;
@@ -19,7 +19,7 @@ use std::path::Path;
 pub(crate) fn run(args: &ReportArgs) -> Result<()> {
     let path = args.robot.as_deref();
     let RobotFile { robot, name, text } = robot_file::read(path, &args.changes)?;
-    let target = Target::open(Some(&args.output_file), path)?;
+    let target = Target::open(Some(&args.output_file), Content::PAGE, &mut robot_file::guard(path))?;
     let waiting = Waiting::for_("the robot's figures and tables");
     let (from, to) = response(args, &robot)?;
     if let Some(name) = [(&from.on_cable, &from.name), (&to.on_cable, &to.name)]
