@@ -1,10 +1,12 @@
 //! `reduce`: text, CSV and the files of the matrices.
 
-use crate::output::{self, Printed, Target};
-use crate::table::{Table, counted, decimals, significant};
+use crate::output::{self, Content, Printed, Target};
+use crate::table::{Table, counted, decimals};
 use anyhow::{Context, Result, bail};
 use funicular::math::DMat;
 use funicular::reduction::{SecondOrder, StateSpace};
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
 use funicular_study::analyses::Found;
 use funicular_study::analyses::reduce::{ChannelRow, Reduced};
 use funicular_study::json;
@@ -61,6 +63,10 @@ impl Printed for Reduced {
     }
 }
 
+/// The matrices in one file.
+const MATRICES: Content =
+    Content { name: "the matrices", option: "--model", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
+
 /// Where the matrices go.
 pub(crate) enum ModelFile {
     /// One NumPy archive.
@@ -71,11 +77,12 @@ pub(crate) enum ModelFile {
 
 impl ModelFile {
     /// Checks before the work that it can be written.
-    pub(crate) fn open(path: &Path, robot: &Path) -> Result<Self> {
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
-            return Ok(Self::Npz(Target::open(Some(path), Some(robot))?));
+    pub(crate) fn open(path: &Path, guard: &mut Guard) -> Result<Self> {
+        if Kind::of(path) == Some(Kind::Npz) {
+            return Ok(Self::Npz(Target::open(Some(path), MATRICES, guard)?));
         }
         let shown = path.display();
+        guard.writes_folder(MATRICES.name, MATRICES.option, path)?;
         if path.extension().is_some() && !path.is_dir() {
             bail!(
                 "--model {shown} is neither an .npz file nor a folder: write model.npz, or a folder without an ending"

@@ -23,6 +23,12 @@ fn robot(name: &str) -> String {
     path.to_str().expect("the path is text").to_owned()
 }
 
+/// Path of a file of the project.
+fn project(name: &str) -> String {
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", name].iter().collect();
+    path.to_str().expect("the path is text").to_owned()
+}
+
 /// Text of the robot most tests use.
 fn yuan() -> String {
     std::fs::read_to_string(robot("yuan2014-4mm.toml")).expect("the robot file is there")

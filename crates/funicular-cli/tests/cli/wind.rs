@@ -40,7 +40,7 @@ fn a_load_along_the_cables_makes_them_sag_and_is_refused_where_it_cannot_be_said
     let iced = json(&["statics", "ROBOT", "--cable-load-n-per-m", "0,0,-0.6"]);
     let sag = |of: &serde_json::Value| of["cables"][0]["sag_ratio"].as_f64().unwrap();
     assert!(sag(&iced) > 1.3 * sag(&plain), "{} {}", sag(&iced), sag(&plain));
-    let output = run(&["export", "ROBOT", "--to", "moordyn", "--cable-load-n-per-m", "0,0,-0.6", "-o", "x.py"]);
+    let output = run(&["export", "ROBOT", "--to", "moordyn", "--cable-load-n-per-m", "0,0,-0.6"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("along the cables"), "{}", stderr(&output));
 }
