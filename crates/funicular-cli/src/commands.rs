@@ -91,7 +91,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
 fn request_of(command: &Command) -> Result<Request> {
     let robot = |args: &RobotArgs| robot_file::read(Some(&args.robot), &args.changes);
     Ok(match command {
-        Command::Check(args) => Request::Check(requests::Check { robot: robot(&args.robot)? }),
+        Command::Check(args) => Request::Check(requests::CheckRequest { robot: robot(&args.robot)? }),
         Command::Statics(args) => Request::Statics(args.request(robot(&args.robot)?)),
         Command::Stiffness(args) => Request::Stiffness(args.request(robot(&args.robot)?)),
         Command::Modes(args) => Request::Modes(args.request(robot(&args.robot)?)),
@@ -105,16 +105,16 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Merge(args) => Request::Merge(args.request()),
         Command::Plot(args) => Request::Plot(args.request()),
         Command::Report(args) => Request::Report(args.request(robot_file::read(args.robot.as_deref(), &args.changes)?)),
-        Command::Paper(_) => Request::Paper(requests::Paper {}),
+        Command::Paper(_) => Request::Paper(requests::PaperRequest {}),
         Command::Import(args) => Request::Import(args.request(sources(&args.files)?)),
         Command::Export(args) => Request::Export(args.request(robot(&args.robot)?)),
-        Command::Validate(_) => Request::Validate(requests::Validate {}),
+        Command::Validate(_) => Request::Validate(requests::ValidateRequest {}),
         Command::Request(args) => request::read(&args.file)?,
     })
 }
 
 /// A map's request; errors of its poses name the line of their file.
-fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapPoses> {
+fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest> {
     let poses = match &args.poses {
         Some(path) => Some(pose_csv::read(path, &robot.read()?.robot)?),
         None => None,
@@ -191,7 +191,7 @@ fn import(args: &ImportArgs) -> Result<()> {
     write_import(&request, &mut guard, &args.output_file)
 }
 
-fn write_import(request: &requests::Import, guard: &mut Guard, path: &Path) -> Result<()> {
+fn write_import(request: &requests::ImportRequest, guard: &mut Guard, path: &Path) -> Result<()> {
     let content = Content { name: "the robot file", option: "-o", in_words: "a robot file", fitting: &[Kind::Toml] };
     let target = Target::open(Some(path), content, guard)?;
     let imported = import::run(request, Words::Program)?;
@@ -233,7 +233,7 @@ fn export(request: &Request, args: &ExportArgs) -> Result<()> {
     write_export(of, robot, &mut robot_file::guard(Some(&args.robot.robot)), &args.output_file)
 }
 
-fn write_export(of: &requests::Export, robot: Robot, guard: &mut Guard, path: &Path) -> Result<()> {
+fn write_export(of: &requests::ExportRequest, robot: Robot, guard: &mut Guard, path: &Path) -> Result<()> {
     let (in_words, fitting): (_, &[Kind]) = match of.to {
         ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
         ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),

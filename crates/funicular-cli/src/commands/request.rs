@@ -23,7 +23,7 @@ pub(crate) fn read(path: &Path) -> Result<Request> {
     } else {
         text = fs::read_to_string(path).with_context(|| format!("cannot read the request {shown}"))?;
     }
-    Ok(Request::from_json(&text).with_context(|| format!("{shown}"))?)
+    Request::from_json(&text).with_context(|| format!("{shown}"))
 }
 
 /// Prints a request as JSON.

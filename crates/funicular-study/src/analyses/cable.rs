@@ -1,7 +1,8 @@
 //! `cable`: the dynamic stiffness of one cable's platform end, anchor held.
 
 use super::found;
-use crate::at_rest::{self, SagNumbers};
+use super::shared::SagNumbers;
+use crate::at_rest;
 use crate::error::NoSolution;
 use crate::names::suggestion;
 use crate::request;
@@ -17,6 +18,7 @@ use std::f64::consts::TAU;
 /// Most clamped frequencies of one list.
 const MOST_CLAMPED: usize = 10_000;
 
+/// Results of `cable`: the stiffness of one cable's platform end over frequency.
 #[derive(Serialize)]
 pub struct CableResult {
     #[serde(skip)]
@@ -41,6 +43,7 @@ pub struct CableResult {
     pub warnings: Vec<String>,
 }
 
+/// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
 #[derive(Serialize)]
 pub struct Axes {
     pub e: [f64; 3],
@@ -56,7 +59,6 @@ impl Axes {
 
 /// Along the chord, coupling, normal in plane, out of plane [N/m].
 #[derive(Serialize)]
-#[expect(clippy::struct_field_names, reason = "the symbols of the cited equations, and the keys of the JSON")]
 pub struct Local {
     pub k_a: Curve,
     pub k_b: Curve,
@@ -64,6 +66,7 @@ pub struct Local {
     pub k_o: Curve,
 }
 
+/// One complex number over frequency.
 #[derive(Serialize)]
 pub struct Curve {
     pub real: Vec<f64>,
@@ -81,7 +84,7 @@ pub struct World {
 ///
 /// # Errors
 /// A name that no cable has, a robot without that equilibrium, or an undamped resonance at one of the frequencies.
-pub fn run(robot: Robot, request: &request::Cable) -> Result<CableResult> {
+pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
     let frequency_hz = request.range.frequencies()?;
     let Some(i) = robot.cables.iter().position(|cable| cable.name == request.name) else {
         let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
@@ -184,7 +187,7 @@ fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
 }
 
 /// Frequencies of the cable with both ends held in the range [Hz].
-fn clamped(stiffness: &EndStiffness, request: &request::Cable) -> Result<Option<Vec<f64>>> {
+fn clamped(stiffness: &EndStiffness, request: &request::CableRequest) -> Result<Option<Vec<f64>>> {
     let EndStiffness::Dynamic(form) = stiffness else { return Ok(None) };
     let limit = request.range.to_hz * TAU;
     let count = form.clamped_modes_below(limit);
@@ -205,7 +208,7 @@ fn warnings(
     state: &CableState,
     sag: &Sag,
     model: CableModel,
-    request: &request::Cable,
+    request: &request::CableRequest,
 ) -> Vec<String> {
     use funicular::validity::{AXIAL_PART, DeepSag, Warning};
     let cable = request.name.clone();

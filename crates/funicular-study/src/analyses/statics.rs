@@ -2,7 +2,8 @@
 
 use super::check::{LoadRow, WindRow};
 use super::found;
-use crate::at_rest::{self, AtRest, SagNumbers};
+use super::shared::SagNumbers;
+use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::Sag;
@@ -11,6 +12,7 @@ use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
 use serde::Serialize;
 
+/// Results of `statics`: the equilibrium.
 #[derive(Serialize)]
 pub struct Statics {
     #[serde(skip)]
@@ -107,6 +109,7 @@ impl OtherStable {
     }
 }
 
+/// Pose of the platform.
 #[derive(Serialize)]
 pub struct PoseRow {
     pub position_m: [f64; 3],
@@ -124,6 +127,7 @@ impl PoseRow {
     }
 }
 
+/// One cable at the equilibrium.
 #[derive(Serialize)]
 pub struct CableRow {
     pub name: String,
@@ -174,7 +178,7 @@ impl LimitNumbers {
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, or a robot without that equilibrium.
-pub fn run(robot: Robot, request: &request::Statics) -> Result<Statics> {
+pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
     let at_rest = at_rest::equilibrium(robot, &request.state, &request.tensions)?;
     let AtRest { robot, equilibrium, rule, .. } = &at_rest;
     let limited = rule.is_some() || robot.cables.iter().any(|cable| cable.limits() != TensionLimits::default());

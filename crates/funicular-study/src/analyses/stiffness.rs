@@ -1,7 +1,8 @@
 //! `stiffness`: the 6×6 at one frequency.
 
 use super::found;
-use crate::at_rest::{self, Models};
+use super::shared::Models;
+use crate::at_rest;
 use crate::request;
 use anyhow::Result;
 use funicular::cable::CableModel;
@@ -12,6 +13,7 @@ use funicular::statics::{self, StaticModel};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
+/// Results of `stiffness`: the 6×6 matrix about the platform origin, world axes.
 #[derive(Serialize)]
 pub struct Stiffness {
     #[serde(skip)]
@@ -32,7 +34,7 @@ pub struct Stiffness {
 ///
 /// # Errors
 /// A robot without that equilibrium, or a model that has no stiffness there.
-pub fn run(robot: Robot, request: &request::Stiffness) -> Result<Stiffness> {
+pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffness> {
     crate::request::check_not_negative("at_hz", request.at_hz)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
     let mut linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);

@@ -16,7 +16,7 @@ use funicular::robot::Robot;
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without that equilibrium, or no finite response there.
-pub fn of_request(request: &request::Report, file: RobotFile, command_line: String) -> Result<Report> {
+pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_line: String) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     let RobotFile { robot, name, text } = file;
     let (from, to) = response(request, &robot)?;
@@ -44,7 +44,7 @@ pub fn of_request(request: &request::Report, file: RobotFile, command_line: Stri
 }
 
 /// Input and output of the response: those of the request, else along z, or along x where a guide holds z.
-fn response(request: &request::Report, robot: &Robot) -> Result<(Input, Output)> {
+fn response(request: &request::ReportRequest, robot: &Robot) -> Result<(Input, Output)> {
     const Z: usize = 2;
     let (force, acceleration) =
         if robot.platform.freedoms.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };
