@@ -239,12 +239,25 @@ pub enum StaticsError {
         /// Greatest tension [N] of cables that do hold the pose, but with tensions out of all proportion.
         greatest: Option<f64>,
     },
-    /// No tensions within the limits hold the pose.
+    /// No tensions within the limits hold the pose; proved.
     #[error(
         "no tensions within their limits hold this pose: the nearest miss the limits {0}; choose another pose, mass or \
          centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     BeyondLimits(Miss),
+    /// No tensions within the limits were found, and no proof that there are none: the balance of sagging cables is not
+    /// linear.
+    #[error(
+        "no tensions within their limits found that hold this pose, in a search from {starts} starts: the nearest miss \
+         the limits {miss}; choose another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, \
+         `maximum_tension_n`)"
+    )]
+    NotFoundWithinLimits {
+        /// By how much the nearest tensions found miss the limits, and which.
+        miss: Miss,
+        /// Number of starts of the search.
+        starts: usize,
+    },
     /// Limits between which there is nothing.
     #[error(
         "cable \"{cable}\" may have tensions from {minimum} N to {maximum} N, which is nothing: give it a \
@@ -383,6 +396,7 @@ impl StaticsError {
             Self::Singular => "singular",
             Self::WouldPush { .. } | Self::NotFound { .. } => "would-push",
             Self::BeyondLimits(_) => "beyond-limits",
+            Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NeedsMaximum { .. } => "needs-maximum",
             Self::WantedCount { .. } => "wanted-count",
@@ -402,6 +416,7 @@ impl StaticsError {
                 | Self::WouldPush { .. }
                 | Self::NotFound { .. }
                 | Self::BeyondLimits(_)
+                | Self::NotFoundWithinLimits { .. }
                 | Self::NotNearest { .. }
                 | Self::NotConverged { .. }
                 | Self::Unsettled { .. }

@@ -82,6 +82,26 @@ impl Line {
         tau
     }
 
+    /// Hangs it with the τ at which the greatest tension is the maximum; without a maximum, with its axial stiffness,
+    /// which stretches it to twice its length.
+    pub(super) fn at_maximum(&mut self) {
+        if self.range.maximum.is_infinite() {
+            self.set(self.rope().axial_stiffness);
+            return;
+        }
+        let mut tau = self.range.maximum.max(self.slackest);
+        // As for the least tension.
+        for _ in 0..30 {
+            self.set(tau);
+            let greatest = self.greatest();
+            let next = (tau + (self.range.maximum - greatest.value) / greatest.slope).max(self.slackest);
+            if (next - tau).abs() <= 1e-12 * next {
+                break;
+            }
+            tau = next;
+        }
+    }
+
     fn rope(&self) -> Rope {
         self.hanging.catenary.rope()
     }
