@@ -241,6 +241,10 @@ impl<'a> Search<'a> {
             let Some(step) = self.step(&linear, target, &scales)? else {
                 self.least_violation()?;
                 last = None;
+                if self.rescued.is_some() {
+                    // From where another start has led, shorter steps.
+                    part = (0.5 * part).max(0.05);
+                }
                 continue;
             };
             let change = self.change(&step.tau);
@@ -295,6 +299,7 @@ impl<'a> Search<'a> {
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
         let mut stride = Stride::default();
+        let mut reach = 1.0;
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
@@ -302,6 +307,11 @@ impl<'a> Search<'a> {
             if level.distance < -VIOLATION {
                 self.least_violation()?;
                 stride = Stride::default();
+                if self.rescued.is_some() {
+                    // From where another start has led, next to the limits, shorter steps each time.
+                    reach *= 0.3;
+                    stride.climb = Some(Climb { from: 0.0, by: reach * self.size });
+                }
                 continue;
             }
             let change = self.change(&level.tau);
