@@ -111,6 +111,21 @@ impl Line {
         self.tau
     }
 
+    /// The unstrained length [m] and its derivative by τ [m/N].
+    pub(super) fn length(&self) -> [f64; 2] {
+        [self.rope().unstrained_length, self.length_rate]
+    }
+
+    /// Load per unstrained length [N/m].
+    pub(super) fn weight_per_length(&self) -> f64 {
+        self.rope().weight_per_length
+    }
+
+    /// Sine of the chord's slope, positive if the anchor is above the platform.
+    pub(super) fn sin(&self) -> f64 {
+        self.rise / self.hanging.chord_w().norm()
+    }
+
     /// Force on the platform and lever arm, world axes.
     pub(super) fn force(&self) -> (Vec3, Vec3) {
         (self.hanging.force_on_start_w(), self.lever_w)

@@ -7,15 +7,17 @@
 
 use super::line::Line;
 use super::polyhedron::Polyhedron;
-use crate::math::Vec6;
+use crate::math::{Vec3, Vec6};
 use crate::robot::Freedoms;
 
-/// Limit of intervals that are halved for one direction; 0 in nine of ten proofs, up to 20 where heavy ropes miss their
-/// limits by little.
+/// Limit of intervals that are halved for one direction.
 const MAX_HALVINGS: usize = 100;
 
 /// Limit of directions that are tried after the first.
 const MAX_CUTS: usize = 60;
+
+/// Sine of a chord's slope up to which the unstrained length is a convex function of the tension; it is up to 0.98.
+const STEEP: f64 = 0.95;
 
 /// Rounding of the sum of all shares, in parts of their sizes.
 const ROUNDING: f64 = 1e-12;
@@ -40,26 +42,63 @@ impl Reach {
         Self { ends }
     }
 
+    fn seen(&self, y: &Vec6, freedoms: &Freedoms) -> Seen {
+        let line = &self.ends[0];
+        let in_direction = |force_w: &Vec3| y.dot(&freedoms.reduced(&line.wrench(force_w)));
+        let upward = in_direction(&line.hanging.axes_w().1);
+        let sin = line.sin();
+        Seen {
+            along: in_direction(&line.hanging.chord_w().normalize()),
+            of_length: -0.5 * upward * line.weight_per_length(),
+            convex_bend: upward * sin >= 0.0,
+            steep: sin.abs() > STEEP,
+        }
+    }
+
     /// The least and the greatest τ [N].
     pub(super) fn limits(&self) -> [f64; 2] {
         [self.ends[0].tau(), self.ends[1].tau()]
     }
 }
 
-/// A point of a cable's share `y·w(τ)`.
+/// A cable seen in one direction: its share is `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    /// What the share is per τ of a straight cable.
+    along: f64,
+    /// The factor of the length, `−½ b w` [N/m in parts of y].
+    of_length: f64,
+    /// D enters it as a convex function.
+    convex_bend: bool,
+    /// The length is no convex function of the tension.
+    steep: bool,
+}
+
+/// A point of a cable's share.
 #[derive(Debug, Clone, Copy)]
 struct Point {
     tau: f64,
     /// The cable's wrench, scaled, in the platform's coordinates.
     wrench: Vec6,
-    share: f64,
-    slope: f64,
+    /// `along τ`.
+    straight: f64,
+    /// The part of D and that of the length, each with its derivative by τ.
+    bend: [f64; 2],
+    length: [f64; 2],
 }
 
 impl Point {
-    fn of(line: &Line, y: &Vec6, freedoms: &Freedoms) -> Self {
+    fn of(line: &Line, y: &Vec6, seen: &Seen, freedoms: &Freedoms) -> Self {
         let wrench = freedoms.reduced(&line.wrench(&line.force().0));
-        Self { tau: line.tau(), wrench, share: y.dot(&wrench), slope: y.dot(&freedoms.reduced(&line.column())) }
+        let straight = seen.along * line.tau();
+        let length = line.length().map(|value| seen.of_length * value);
+        let slope = y.dot(&freedoms.reduced(&line.column()));
+        let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
+        Self { tau: line.tau(), wrench, straight, bend, length }
+    }
+
+    fn share(&self) -> f64 {
+        self.straight + self.bend[0] + self.length[0]
     }
 }
 
@@ -71,18 +110,35 @@ struct Part {
 }
 
 impl Part {
-    /// Nothing between the ends is above. The share's second derivative changes its sign at most once (the bend of a
-    /// cable's vertical force does: a property test): where it is concave, the tangents at the outer end are above it;
-    /// where it is convex, its own ends are.
-    fn bound(&self) -> f64 {
+    /// Nothing between the ends is above: (39b).
+    fn bound(&self, seen: &Seen) -> f64 {
         let [from, to] = &self.ends;
         let width = to.tau - from.tau;
-        (from.share + from.slope.max(0.0) * width).max(to.share + (-to.slope).max(0.0) * width)
+
+        // Straight lines above each part, by their values at both ends: a convex part is below its chord, a concave one
+        // below the tangent at either end.
+        let lines = |[p, q]: [[f64; 2]; 2], convex: bool| {
+            if convex { [[p[0], q[0]]; 2] } else { [[p[0], p[0] + p[1] * width], [q[0] - q[1] * width, q[0]]] }
+        };
+        let bends = lines([from.bend, to.bend], seen.convex_bend);
+        let lengths = if seen.steep {
+            // All that is known is that the length falls.
+            [[from.length[0].max(to.length[0]); 2]; 2]
+        } else {
+            lines([from.length, to.length], seen.of_length >= 0.0)
+        };
+
+        // The least of the sums.
+        let above = |bend: &[f64; 2], length: &[f64; 2]| {
+            (from.straight + bend[0] + length[0]).max(to.straight + bend[1] + length[1])
+        };
+        let sums = bends.iter().flat_map(|bend| lengths.iter().map(move |length| above(bend, length)));
+        sums.fold(f64::INFINITY, f64::min)
     }
 
     fn best(&self) -> Point {
         let [from, to] = self.ends;
-        if from.share > to.share { from } else { to }
+        if from.share() > to.share() { from } else { to }
     }
 }
 
@@ -144,35 +200,37 @@ impl Claim<'_> {
     /// Whether one direction proves it, and the points of the cables with the greatest shares in it.
     fn examine(&self, y: &Vec6) -> (bool, Vec<Point>) {
         let mut parts: Vec<Part> = Vec::with_capacity(self.reaches.len());
+        let seen: Vec<Seen> = self.reaches.iter().map(|reach| reach.seen(y, &self.freedoms)).collect();
         for (cable, reach) in self.reaches.iter().enumerate() {
-            parts.push(Part { cable, ends: [0, 1].map(|k| Point::of(&reach.ends[k], y, &self.freedoms)) });
+            let end = |k: usize| Point::of(&reach.ends[k], y, &seen[cable], &self.freedoms);
+            parts.push(Part { cable, ends: [end(0), end(1)] });
         }
         let mut best: Vec<Point> = parts.iter().map(Part::best).collect();
         let own = y.dot(&self.load);
-        let size = own.abs() + best.iter().map(|point| point.share.abs()).sum::<f64>();
+        let size = own.abs() + best.iter().map(|point| point.share().abs()).sum::<f64>();
 
         for _ in 0..=MAX_HALVINGS {
             // The sum of all bounds decides, …
-            let mut bounds: Vec<f64> = best.iter().map(|point| point.share).collect();
-            parts.iter().for_each(|part| bounds[part.cable] = bounds[part.cable].max(part.bound()));
+            let mut bounds: Vec<f64> = best.iter().map(|point| point.share()).collect();
+            parts.iter().for_each(|part| bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable])));
             if own + bounds.iter().sum::<f64>() < -ROUNDING * size {
                 return (true, best);
             }
 
             // … or that of shares that the cables do have.
-            if own + best.iter().map(|point| point.share).sum::<f64>() >= -ROUNDING * size {
+            if own + best.iter().map(|point| point.share()).sum::<f64>() >= -ROUNDING * size {
                 break;
             }
 
             // Between both the part that is least known is halved.
-            let excess = |part: &Part| part.bound() - best[part.cable].share;
+            let excess = |part: &Part| part.bound(&seen[part.cable]) - best[part.cable].share();
             let widest = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])));
             let Some(widest) = widest else { break };
             let Part { cable, ends: [from, to] } = parts[widest];
             let mut line = self.reaches[cable].ends[0].clone();
             line.set((from.tau * to.tau).sqrt());
-            let middle = Point::of(&line, y, &self.freedoms);
-            if middle.share > best[cable].share {
+            let middle = Point::of(&line, y, &seen[cable], &self.freedoms);
+            if middle.share() > best[cable].share() {
                 best[cable] = middle;
             }
             parts[widest].ends = [from, middle];
