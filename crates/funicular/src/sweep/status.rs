@@ -18,7 +18,10 @@ pub const CODES: [(&str, &str); 15] = [
     ("out-of-plane", "infeasible: a pose that a planar platform cannot have"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends"),
     ("singular", "infeasible: the cables' directions are dependent"),
-    ("would-push", "infeasible: a straight cable would have to push, and no sagging ones that hold the pose were found"),
+    (
+        "would-push",
+        "infeasible: a straight cable would have to push, and no sagging ones that hold the pose were found",
+    ),
     ("beyond-limits", "infeasible: no tensions within the limits, or beyond what a rope bears"),
     ("not-found", "infeasible: no tensions within the limits found, and no proof that there are none"),
     ("not-converged", "infeasible: no equilibrium found"),
