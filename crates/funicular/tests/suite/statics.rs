@@ -5,6 +5,7 @@ use funicular::math::{Mat6, Vec3, Vec6};
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, Stability, StaticModel, StaticsError};
 use proptest::prelude::*;
+use std::fmt::Write;
 
 use crate::reference::{number, numbers, rows};
 
@@ -181,7 +182,7 @@ fn slack_robot(index: u64) -> (Robot, Vec<f64>) {
     for k in 0..2 {
         let per_length = mass * ropes * draw.between(0.5, 1.5) / (6.0 * size);
         let axial = mass * 9.81 * stiffness * draw.between(0.5, 2.0);
-        text += &format!("[materials.m{k}]\naxial_stiffness_n = {axial:?}\nmass_kg_per_m = {per_length:?}\n");
+        write!(text, "[materials.m{k}]\naxial_stiffness_n = {axial:?}\nmass_kg_per_m = {per_length:?}\n").unwrap();
     }
     let below = draw.between(0.0, 1.0) < 0.15;
     let slackest = draw.between(0.01, 0.25);
@@ -196,16 +197,18 @@ fn slack_robot(index: u64) -> (Robot, Vec<f64>) {
         let chord = (Vec3::from(anchor) - Vec3::from(attachment)).norm();
         let length = chord * (1.0 + draw.between(-0.02, slackest));
         let material = u8::from(draw.between(0.0, 1.0) >= 0.5);
-        text += &format!(
+        write!(
+            text,
             "[[cables]]\nname = \"c{i}\"\nmaterial = \"m{material}\"\nanchor_m = {anchor:?}\n\
              attachment_m = {attachment:?}\nunstrained_length_m = {length:?}\n"
-        );
+        )
+        .unwrap();
     }
     if draw.between(0.0, 1.0) < 0.4 {
         let weight = mass * 9.81;
         let (force, point) = (draw.vector(0.3 * weight), draw.vector(radius));
         let moment = draw.vector(0.1 * weight * radius);
-        text += &format!("[loads]\nforce_n = {force:?}\npoint_m = {point:?}\nmoment_n_m = {moment:?}\n");
+        write!(text, "[loads]\nforce_n = {force:?}\npoint_m = {point:?}\nmoment_n_m = {moment:?}\n").unwrap();
     }
     load(&text)
 }

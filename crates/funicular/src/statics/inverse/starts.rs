@@ -39,10 +39,10 @@ const MAX_CHANGE: f64 = 2.0;
 /// Irrational numbers whose multiples spread over [0, 1) without pattern (Weyl), one for each cable.
 const SPREAD: [f64; 6] = [
     std::f64::consts::SQRT_2,
-    1.732_050_807_568_877_2,
+    1.732_050_807_568_877,
     2.236_067_977_499_79,
-    2.645_751_311_064_590_7,
-    3.316_624_790_355_399_8,
+    2.645_751_311_064_591,
+    3.316_624_790_355_4,
     3.605_551_275_463_989,
 ];
 

@@ -182,7 +182,9 @@ impl Claim<'_> {
             seen.push(std::array::from_fn(|k| unit[k]));
 
             let mut sides = Polyhedron::new(n);
-            seen.iter().for_each(|unit| sides.add(unit[..n].iter(), -1.0, None, 1.0));
+            for unit in &seen {
+                sides.add(unit[..n].iter(), -1.0, None, 1.0);
+            }
             let mut next = [0.0; 6];
             if sides.nearest(&mut next[..n], 1e-9).is_none() {
                 break;
@@ -211,14 +213,16 @@ impl Claim<'_> {
 
         for _ in 0..=MAX_HALVINGS {
             // The sum of all bounds decides, …
-            let mut bounds: Vec<f64> = best.iter().map(|point| point.share()).collect();
-            parts.iter().for_each(|part| bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable])));
+            let mut bounds: Vec<f64> = best.iter().map(Point::share).collect();
+            for part in &parts {
+                bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable]));
+            }
             if own + bounds.iter().sum::<f64>() < -ROUNDING * size {
                 return (true, best);
             }
 
             // … or that of shares that the cables do have.
-            if own + best.iter().map(|point| point.share()).sum::<f64>() >= -ROUNDING * size {
+            if own + best.iter().map(Point::share).sum::<f64>() >= -ROUNDING * size {
                 break;
             }
 
