@@ -212,7 +212,7 @@ pub enum StaticsError {
     /// The pose is singular: the cables do not span the freedoms.
     #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
     Singular,
-    /// A cable would have to push.
+    /// A straight cable would have to push.
     #[error(
         "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose; choose \
          another pose, mass or centre of mass"
@@ -223,12 +223,44 @@ pub enum StaticsError {
         /// Its tension [N], not positive.
         tension: f64,
     },
-    /// No tensions within the limits hold the pose.
+    /// No tensions found for sagging cables where a straight one would have to push. That is no proof that there are
+    /// none: the balance of sagging cables is not linear.
+    #[error(
+        "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N; sagging, {}; \
+         choose another pose, mass or centre of mass",
+        searched(*starts, *residual, *greatest)
+    )]
+    NotFound {
+        /// Name of the cable that lacks most if straight.
+        cable: String,
+        /// Its tension if straight [N], not positive.
+        tension: f64,
+        /// Number of starts of the search.
+        starts: usize,
+        /// Least scaled residual reached.
+        residual: f64,
+        /// Greatest tension [N] of cables that do hold the pose, but with tensions out of all proportion.
+        greatest: Option<f64>,
+    },
+    /// No tensions within the limits hold the pose; proved.
     #[error(
         "no tensions within their limits hold this pose: the nearest miss the limits {0}; choose another pose, mass or \
          centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     BeyondLimits(Miss),
+    /// No tensions within the limits were found, and no proof that there are none: the balance of sagging cables is not
+    /// linear.
+    #[error(
+        "no tensions within their limits found that hold this pose, in a search from {starts} starts: the nearest miss \
+         the limits {miss}; choose another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, \
+         `maximum_tension_n`)"
+    )]
+    NotFoundWithinLimits {
+        /// By how much the nearest tensions found miss the limits, and which.
+        miss: Miss,
+        /// Number of starts of the search.
+        starts: usize,
+    },
     /// Limits between which there is nothing.
     #[error(
         "cable \"{cable}\" may have tensions from {minimum} N to {maximum} N, which is nothing: give it a \
@@ -337,6 +369,14 @@ pub enum StaticsError {
     },
 }
 
+fn searched(starts: usize, residual: f64, greatest: Option<f64>) -> String {
+    let starts = crate::counted(starts, "start");
+    greatest.map_or_else(
+        || format!("a search from {starts} left a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e})"),
+        |greatest| format!("a search from {starts} found only tensions up to {greatest:.3e} N, out of all proportion"),
+    )
+}
+
 fn unrest(change: f64, limit: f64) -> String {
     if change.is_finite() {
         format!("a step still changes them by {change:.3e} of their size (limit {limit:.0e})")
@@ -357,8 +397,9 @@ impl StaticsError {
             Self::OutOfPlane(_) => "out-of-plane",
             Self::CoincidingEnds { .. } => "coinciding-ends",
             Self::Singular => "singular",
-            Self::WouldPush { .. } => "would-push",
+            Self::WouldPush { .. } | Self::NotFound { .. } => "would-push",
             Self::BeyondLimits(_) => "beyond-limits",
+            Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NeedsMaximum { .. } => "needs-maximum",
             Self::WantedCount { .. } => "wanted-count",
@@ -376,7 +417,9 @@ impl StaticsError {
             self,
             Self::Singular
                 | Self::WouldPush { .. }
+                | Self::NotFound { .. }
                 | Self::BeyondLimits(_)
+                | Self::NotFoundWithinLimits { .. }
                 | Self::NotNearest { .. }
                 | Self::NotConverged { .. }
                 | Self::Unsettled { .. }

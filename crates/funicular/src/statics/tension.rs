@@ -9,6 +9,7 @@
 mod balance;
 mod line;
 mod polyhedron;
+mod proof;
 mod search;
 mod stiffest;
 
@@ -70,7 +71,8 @@ impl fmt::Display for Miss {
         };
         let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
-        write!(f, "by {:.4} N, held by {}", self.by, limits.join(" and "))
+        write!(f, "by {:.4} N", self.by)?;
+        if limits.is_empty() { Ok(()) } else { write!(f, ", held by {}", limits.join(" and ")) }
     }
 }
 
