@@ -7,8 +7,10 @@
 //! which has one or two dimensions in most robots: it takes microseconds, a general solver a tenth of a millisecond.
 
 mod balance;
+mod bounds;
 mod line;
 mod polyhedron;
+mod room;
 mod search;
 mod stiffest;
 
