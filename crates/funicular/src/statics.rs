@@ -288,6 +288,17 @@ pub enum StaticsError {
         "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
     )]
     NothingToStiffen,
+    /// More cables than the rule `stiffest` is made for.
+    #[error(
+        "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the cube \
+         of their number; choose the rule `middle`, `lowest` or `closest`"
+    )]
+    TooManyToStiffen {
+        /// Cables of the robot.
+        cables: usize,
+        /// Most that the rule takes.
+        limit: usize,
+    },
     /// Ideal cables are rigid: their poses are those of a mechanism, not of an energy.
     #[error("a search for all equilibria needs cables that stretch: choose the static model `spring` or `catenary`")]
     OneIdeal,
@@ -407,6 +418,7 @@ impl StaticsError {
             Self::WantedCount { .. } => "wanted-count",
             Self::Wanted { .. } => "wanted",
             Self::NothingToStiffen => "nothing-to-stiffen",
+            Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::OneIdeal => "one-ideal",
             Self::NotNearest { .. } => "not-nearest",
             Self::NotConverged { .. } | Self::LostInRounding { .. } | Self::Unsettled { .. } => "not-converged",
@@ -462,9 +474,7 @@ fn elastic_rounding(robot: &Robot) -> f64 {
 pub fn carries_nothing(robot: &Robot, equilibrium: &Equilibrium) -> bool {
     let tensions: f64 = equilibrium.cables.iter().map(|cable| cable.force_on_platform_w.norm()).sum();
     let loads = LoadedCable::all(robot, &equilibrium.pose, equilibrium.model);
-    load_size(robot) == 0.0
-        && loads.iter().all(|cable| cable.load.size == 0.0)
-        && tensions <= elastic_rounding(robot)
+    load_size(robot) == 0.0 && loads.iter().all(|cable| cable.load.size == 0.0) && tensions <= elastic_rounding(robot)
 }
 
 /// A cable without its length: where its anchor is, what it is made of and what acts on it.

@@ -128,11 +128,11 @@ impl<'a> Search<'a> {
     /// Why a place is no equilibrium.
     fn refused(&self, trial: &Trial, iterations: usize) -> StaticsError {
         let (p, residual) = (trial.pose.position_w, trial.residual);
-        if residual <= trial.limit {
+        if trial.limit > MAX_RESIDUAL_OF_ROUNDING {
             let (rounding, limit) = (self.rounding, MAX_RESIDUAL_OF_ROUNDING);
             return StaticsError::LostInRounding { iterations, residual, limit, rounding, x: p.x, y: p.y, z: p.z };
         }
-        let limit = trial.limit.min(MAX_RESIDUAL_OF_ROUNDING);
+        let limit = trial.limit;
         StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z }
     }
 

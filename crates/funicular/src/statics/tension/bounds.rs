@@ -3,7 +3,7 @@
 //! Every wall bounds one tension (and a height common to all), so nothing of the size of the null space is needed: what
 //! the active-set method asks for are projections, and a projection on the balance of the tensions that are not held
 //! is a system of as many equations as freedoms. A step costs time in proportion to the number of cables; with a basis
-//! of the null space it costs its square, and a wall dropped its cube.
+//! of the null space it costs its square, and a wall dropped its cube. Theory, equations (40a) and (40b).
 
 use super::balance::Solutions;
 use super::polyhedron::{DEPENDENT, Magnitude, NO_NORMAL, Walls, worst};
@@ -25,7 +25,23 @@ pub(super) struct Bounds {
     pin: Option<usize>,
     rest: Vec<f64>,
     shares: Vec<f64>,
+    /// What the basis of the balance makes of every solution.
+    right: Vec6,
+    /// How often in a row a point has been put back on the balance.
+    restored: usize,
 }
+
+/// What may still move, and the matrix (40b) inverted.
+struct Free {
+    /// The height is not held.
+    rises: bool,
+    following: Vec6,
+    weight: f64,
+    inverse: Mat6,
+}
+
+/// Each time takes away all but rounding of what is left.
+const MAX_RESTORED: usize = 3;
 
 #[derive(Debug, Clone, Copy)]
 struct Row {
@@ -40,8 +56,12 @@ impl Bounds {
     /// All tensions that satisfy the balance, with a height if `lifted`.
     pub(super) fn new(solutions: &Solutions, lifted: bool) -> Self {
         let (cables, freedoms) = (solutions.particular.len(), solutions.freedoms());
+        let balance: Vec<Vec6> = (0..cables).map(|i| solutions.balance(i)).collect();
+        let right = balance.iter().zip(&solutions.particular).map(|(balance, p)| balance * *p).sum();
         Self {
-            balance: (0..cables).map(|i| solutions.balance(i)).collect(),
+            balance,
+            right,
+            restored: 0,
             freedoms,
             lifted,
             rows: Vec::new(),
@@ -72,23 +92,18 @@ impl Bounds {
         -row.lift * row.sign
     }
 
-    /// Splits the vector with these components at one cable and at the height.
-    fn split_vector(&mut self, cable: Option<usize>, sign: f64, lift: f64) -> bool {
-        let cables = self.balance.len();
-        let part = |i: usize| if cable == Some(i) { sign } else { 0.0 };
-
-        // What may still move: the tensions that are not held, and the height with all tensions that follow it.
+    /// What may still move: the tensions that are not held, and the height with all tensions that follow it.
+    fn free(&self) -> Free {
         let rises = self.lifted && self.pin.is_none();
         let mut gram = Mat6::from_fn(|i, j| if i == j && i >= self.freedoms { 1.0 } else { 0.0 });
-        let (mut following, mut weight, mut upward) = (Vec6::zeros(), 1.0, lift);
-        for (i, balance) in self.balance.iter().enumerate() {
-            match self.holder[i] {
+        let (mut following, mut weight) = (Vec6::zeros(), 1.0);
+        for (balance, holder) in self.balance.iter().zip(&self.holder) {
+            match holder {
                 None => gram.ger(1.0, balance, balance, 1.0),
                 Some(at) if rises => {
-                    let slope = self.slope(at);
+                    let slope = self.slope(*at);
                     following += balance * slope;
                     weight += slope * slope;
-                    upward += slope * part(i);
                 }
                 Some(_) => {}
             }
@@ -96,9 +111,19 @@ impl Bounds {
         if rises {
             gram.ger(1.0 / weight, &following, &following, 1.0);
         }
+        Free { rises, following, weight, inverse: inverse_of(&gram) }
+    }
+
+    /// Splits the vector with these components at one cable and at the height.
+    fn split_vector(&mut self, cable: Option<usize>, sign: f64, lift: f64) -> bool {
+        let cables = self.balance.len();
+        let part = |i: usize| if cable == Some(i) { sign } else { 0.0 };
+
+        let Free { rises, following, weight, inverse } = self.free();
+        let held = cable.and_then(|i| self.holder[i]);
+        let upward = lift + held.map_or(0.0, |at| self.slope(at) * sign);
 
         // The projection on the balance of all that; repeated, which takes away the rounding of the first time.
-        let inverse = inverse_of(&gram);
         let (mut prices, mut height) = (Vec6::zeros(), 0.0);
         for pass in 0..3 {
             height = if rises { (upward - following.dot(&prices)) / weight } else { 0.0 };
@@ -189,7 +214,37 @@ impl Walls for Bounds {
         &self.shares
     }
 
+    /// Long steps take a point off the balance by their rounding.
+    fn restore<M: Magnitude>(&mut self, x: &mut [M], tolerance: f64) -> bool {
+        let cables = self.balance.len();
+        let mut lacking = self.right;
+        for (balance, x) in self.balance.iter().zip(&*x) {
+            lacking -= balance * x.near();
+        }
+        if self.restored >= MAX_RESTORED || lacking.amax() <= tolerance || lacking.amax().is_nan() {
+            return false;
+        }
+        self.restored += 1;
+
+        // The least motion along the active walls that does it.
+        let Free { rises, following, weight, inverse } = self.free();
+        let prices = inverse * lacking;
+        let height = if rises { following.dot(&prices) / weight } else { 0.0 };
+        for i in 0..cables {
+            let change = match self.holder[i] {
+                None => self.balance[i].dot(&prices),
+                Some(at) => self.slope(at) * height,
+            };
+            x[i] = x[i].plus_near(change);
+        }
+        if self.lifted {
+            x[cables] = x[cables].plus_near(height);
+        }
+        true
+    }
+
     fn hold(&mut self, row: usize) {
+        self.restored = 0;
         self.active.push(row);
         self.place(self.active.len() - 1);
     }
@@ -245,13 +300,20 @@ mod tests {
         room
     }
 
-    fn compare(few: Option<Found>, many: Option<Found>) -> Result<(), TestCaseError> {
+    /// What the method in the null space finds, and what the one in the space of the cables does.
+    fn compare(few: Option<Found>, many: Option<Found>, start: &[f64], height: f64) -> Result<(), TestCaseError> {
         prop_assert_eq!(few.is_some(), many.is_some());
         let (Some(few), Some(many)) = (few, many) else { return Ok(()) };
         prop_assert!((few.height - many.height).abs() < 1e-9, "{} {}", few.height, many.height);
-        for (few, many) in few.sigma.iter().zip(&many.sigma) {
-            prop_assert!((few - many).abs() < 1e-8, "{few} {many}");
-        }
+
+        // Of equally high points the nearer one is right; without ties both are the same.
+        let distance = |found: &Found| {
+            let cables: f64 = found.sigma.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
+            (cables + (found.height - height) * (found.height - height)).sqrt()
+        };
+        prop_assert!(distance(&many) < distance(&few) + 1e-9, "{} {}", distance(&few), distance(&many));
+
+        // What holds the height is the same: the dual linear problem has one solution.
         let multipliers = |found: &Found| {
             let mut sum = std::collections::BTreeMap::new();
             for held in found.held.iter().filter(|held| held.multiplier > 1e-7) {
@@ -261,7 +323,32 @@ mod tests {
         };
         let (few, many) = (multipliers(&few), multipliers(&many));
         prop_assert!(few.keys().eq(many.keys()), "{few:?} {many:?}");
-        prop_assert!(few.values().zip(many.values()).all(|(a, b)| (a - b).abs() < 1e-6 * (1.0 + a)), "{few:?} {many:?}");
+        prop_assert!(
+            few.values().zip(many.values()).all(|(a, b)| (a - b).abs() < 1e-6 * (1.0 + a)),
+            "{few:?} {many:?}"
+        );
+        Ok(())
+    }
+
+    /// All walls and the balance hold.
+    fn check(
+        found: Option<&Found>,
+        columns: &[[f64; 6]],
+        right: &[f64],
+        bounds: &[Bound],
+        lifted: bool,
+    ) -> Result<(), TestCaseError> {
+        let Some(Found { sigma, height, .. }) = found else { return Ok(()) };
+        for (k, right) in right.iter().enumerate() {
+            let sum: f64 = columns.iter().zip(sigma).map(|(column, sigma)| column[k] * sigma).sum();
+            prop_assert!((sum - right).abs() < 1e-10, "{sum} for {right}");
+        }
+        for (sigma, (lower, width, by_lower, by_upper, floor)) in sigma.iter().zip(bounds) {
+            let lift = |by: &f64| if lifted { by * height } else { 0.0 };
+            prop_assert!(*sigma >= lower + lift(by_lower) - 1e-10, "{sigma} {height}");
+            prop_assert!(*sigma <= lower + width - lift(by_upper) + 1e-10, "{sigma} {height}");
+            prop_assert!(*sigma >= lower - floor - 1e-10, "{sigma} {height}");
+        }
         Ok(())
     }
 
@@ -285,12 +372,17 @@ mod tests {
             let many = solutions(columns, &right, freedoms, false);
             prop_assert_eq!(few.is_some(), many.is_some());
             let (Some(few), Some(many)) = (few, many) else { return Ok(()) };
-            let nearest = |all| room(all, bounds, false).nearest(|i| start[i], 0.0, 1e-12);
-            compare(nearest(&few), nearest(&many))?;
-            let highest = |all| room(all, bounds, true).highest(|i| start[i], 1e-12);
-            compare(highest(&few), highest(&many))?;
-            let climbing = |all| room(all, bounds, true).nearest(|i| start[i], 0.1, 1e-12);
-            compare(climbing(&few), climbing(&many))?;
+            let start_at = |i: usize| start[i];
+            let right = &right[..freedoms];
+            let nearest = |all| room(all, bounds, false).nearest(start_at, 0.0, 1e-12);
+            let highest = |all| room(all, bounds, true).highest(start_at, 1e-12);
+            let climbing = |all| room(all, bounds, true).nearest(start_at, 0.1, 1e-12);
+            check(nearest(&many).as_ref(), columns, right, bounds, false)?;
+            check(highest(&many).as_ref(), columns, right, bounds, true)?;
+            check(climbing(&many).as_ref(), columns, right, bounds, true)?;
+            compare(nearest(&few), nearest(&many), &start, 0.0)?;
+            compare(highest(&few), highest(&many), &start, 0.0)?;
+            compare(climbing(&few), climbing(&many), &start, 0.1)?;
         }
     }
 }

@@ -94,6 +94,9 @@ pub(super) trait Walls {
 
     /// Drops the active inequality at this place of their list.
     fn release(&mut self, at: usize);
+
+    /// Puts a point that rounding has moved by more than `tolerance` back to where it may be; whether it had to.
+    fn restore<M: Magnitude>(&mut self, x: &mut [M], tolerance: f64) -> bool;
 }
 
 /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
@@ -125,7 +128,12 @@ fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) 
     let mut active: Vec<Active<M>> = Vec::with_capacity(walls.dimension() + 1);
     // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
     for _ in 0..100 * (walls.dimension() + 1) {
-        let Some((row, mut lack)) = walls.most_violated(x, tolerance) else { return Some(active) };
+        let Some((row, mut lack)) = walls.most_violated(x, tolerance) else {
+            if walls.restore(x, tolerance) {
+                continue;
+            }
+            return Some(active);
+        };
         let mut multiplier = M::ZERO;
         loop {
             let free = walls.split(row);
@@ -184,6 +192,12 @@ pub(super) trait Magnitude:
 
     fn is_nan(&self) -> bool;
 
+    /// The number, or of two sizes the smaller part.
+    fn near(self) -> f64;
+
+    /// That part larger by a number.
+    fn plus_near(self, by: f64) -> Self;
+
     /// Takes rounding from a point that lies on all active inequalities.
     fn settle(x: &mut [Self], walls: &mut impl Walls);
 }
@@ -206,6 +220,14 @@ impl Magnitude for f64 {
 
     fn is_nan(&self) -> bool {
         Self::is_nan(*self)
+    }
+
+    fn near(self) -> f64 {
+        self
+    }
+
+    fn plus_near(self, by: f64) -> Self {
+        self + by
     }
 
     fn settle(_: &mut [Self], _: &mut impl Walls) {}
@@ -278,6 +300,14 @@ impl Magnitude for Far {
         self.far.is_nan() || self.near.is_nan()
     }
 
+    fn near(self) -> f64 {
+        self.near
+    }
+
+    fn plus_near(self, by: f64) -> Self {
+        Self { far: self.far, near: self.near + by }
+    }
+
     /// The far part is what the vertical has outside of the active normals.
     fn settle(x: &mut [Self], walls: &mut impl Walls) {
         walls.split_vertical();
@@ -338,6 +368,11 @@ impl Walls for Dense<'_> {
     fn release(&mut self, at: usize) {
         self.active.remove(at);
         self.basis.rebuild(self.active.iter().map(|row| self.set.normal(*row)));
+    }
+
+    /// Every point of the space is one.
+    fn restore<M: Magnitude>(&mut self, _: &mut [M], _: f64) -> bool {
+        false
     }
 }
 

@@ -424,9 +424,7 @@ impl<'a> Search<'a> {
         let found = match (climb, widths) {
             (Some(climb), _) => room.nearest(|i| here[i], climb.from + climb.by, tolerance),
             (None, None) => room.highest(|i| here[i], tolerance),
-            (None, Some(_)) => {
-                room.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance)
-            }
+            (None, Some(_)) => room.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance),
         };
         let Some(Found { sigma: tau, height, held }) = found else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
