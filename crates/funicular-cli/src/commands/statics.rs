@@ -327,7 +327,7 @@ impl Results for Statics {
             (None, None) => String::new(),
         };
         let balance = if self.carries_nothing {
-            "No load and no tension: nothing to balance".to_owned()
+            "No load and no tension: nothing to balance,".to_owned()
         } else {
             format!("Residual {:.1e}", self.residual)
         };

@@ -64,3 +64,17 @@ fn statics_names_another_stable_equilibrium_and_all_lists_them() {
     let output = run(&["statics", "ROBOT", "--all", "--static-model", "ideal"]);
     assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
 }
+
+#[test]
+fn what_is_no_equilibrium_is_not_given_as_one() {
+    let refused = |args: &[&str], said: &str| {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+        assert!(stderr(&output).contains(said) && stdout(&output).is_empty(), "{}", stderr(&output));
+    };
+    refused(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,-1e-12]"], "the loads are too small for cables as stiff");
+    let push = ["statics", "ROBOT", "--static-model", "ideal", "--pose", "0,3,0.6"];
+    refused(&push, "cable \"2\" would need -138.0502 N");
+    let text = succeed(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,0]"]);
+    assert!(text.contains("No load and no tension: nothing to balance, after"), "{text}");
+}

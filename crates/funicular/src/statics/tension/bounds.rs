@@ -301,17 +301,24 @@ mod tests {
     }
 
     /// What the method in the null space finds, and what the one in the space of the cables does.
-    fn compare(few: Option<Found>, many: Option<Found>, start: &[f64], height: f64) -> Result<(), TestCaseError> {
+    fn compare(
+        few: Option<Found>,
+        many: Option<Found>,
+        start: &[f64],
+        height: Option<f64>,
+    ) -> Result<(), TestCaseError> {
         prop_assert_eq!(few.is_some(), many.is_some());
         let (Some(few), Some(many)) = (few, many) else { return Ok(()) };
         prop_assert!((few.height - many.height).abs() < 1e-9, "{} {}", few.height, many.height);
 
-        // Of equally high points the nearer one is right; without ties both are the same.
-        let distance = |found: &Found| {
-            let cables: f64 = found.sigma.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
-            (cables + (found.height - height) * (found.height - height)).sqrt()
-        };
-        prop_assert!(distance(&many) < distance(&few) + 1e-9, "{} {}", distance(&few), distance(&many));
+        // Which of equally high points is taken, rounding has a say in, in either way; the nearest point is one.
+        if let Some(height) = height {
+            let distance = |found: &Found| {
+                let cables: f64 = found.sigma.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
+                (cables + (found.height - height) * (found.height - height)).sqrt()
+            };
+            prop_assert!((distance(&many) - distance(&few)).abs() < 1e-9, "{} {}", distance(&few), distance(&many));
+        }
 
         // What holds the height is the same: the dual linear problem has one solution.
         let multipliers = |found: &Found| {
@@ -380,9 +387,9 @@ mod tests {
             check(nearest(&many).as_ref(), columns, right, bounds, false)?;
             check(highest(&many).as_ref(), columns, right, bounds, true)?;
             check(climbing(&many).as_ref(), columns, right, bounds, true)?;
-            compare(nearest(&few), nearest(&many), &start, 0.0)?;
-            compare(highest(&few), highest(&many), &start, 0.0)?;
-            compare(climbing(&few), climbing(&many), &start, 0.1)?;
+            compare(nearest(&few), nearest(&many), &start, Some(0.0))?;
+            compare(highest(&few), highest(&many), &start, None)?;
+            compare(climbing(&few), climbing(&many), &start, Some(0.1))?;
         }
     }
 }
