@@ -23,7 +23,7 @@ pub(super) struct Active<M = f64> {
 pub(super) const NO_NORMAL: f64 = 1e-12;
 
 /// Violation that is rounding, in parts of the terms that it is the difference of.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A normal that the others make up to this part of its length adds nothing.
 pub(super) const DEPENDENT: f64 = 1e-10;
@@ -95,8 +95,8 @@ pub(super) trait Walls {
     /// Drops the active inequality at this place of their list.
     fn release(&mut self, at: usize);
 
-    /// Puts a point that rounding has moved by more than `tolerance` back to where it may be; whether it had to.
-    fn restore<M: Magnitude>(&mut self, x: &mut [M], tolerance: f64) -> bool;
+    /// Puts a point that rounding has moved back to where it may be; whether it had to.
+    fn restore<M: Magnitude>(&mut self, x: &mut [M]) -> bool;
 }
 
 /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
@@ -129,7 +129,7 @@ fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) 
     // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
     for _ in 0..100 * (walls.dimension() + 1) {
         let Some((row, mut lack)) = walls.most_violated(x, tolerance) else {
-            if walls.restore(x, tolerance) {
+            if walls.restore(x) {
                 continue;
             }
             return Some(active);
@@ -371,7 +371,7 @@ impl Walls for Dense<'_> {
     }
 
     /// Every point of the space is one.
-    fn restore<M: Magnitude>(&mut self, _: &mut [M], _: f64) -> bool {
+    fn restore<M: Magnitude>(&mut self, _: &mut [M]) -> bool {
         false
     }
 }
