@@ -74,7 +74,7 @@ fn what_is_no_equilibrium_is_not_given_as_one() {
     };
     refused(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,-1e-12]"], "the loads are too small for cables as stiff");
     let push = ["statics", "ROBOT", "--static-model", "ideal", "--pose", "0,3,0.6"];
-    refused(&push, "cable \"2\" would need -138.0502 N");
+    refused(&push, "cable \"2\" would need -138.0");
     let text = succeed(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,0]"]);
     assert!(text.contains("No load and no tension: nothing to balance, after"), "{text}");
 }

@@ -232,12 +232,12 @@ impl Walls for Bounds {
         let Free { rises, following, weight, inverse } = self.free();
         let prices = inverse * lacking;
         let height = if rises { following.dot(&prices) / weight } else { 0.0 };
-        for i in 0..cables {
+        for (i, x) in x.iter_mut().take(cables).enumerate() {
             let change = match self.holder[i] {
                 None => self.balance[i].dot(&prices),
                 Some(at) => self.slope(at) * height,
             };
-            x[i] = x[i].plus_near(change);
+            *x = x.plus_near(change);
         }
         if self.lifted {
             x[cables] = x[cables].plus_near(height);
