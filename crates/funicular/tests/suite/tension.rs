@@ -5,6 +5,7 @@ use funicular::math::{DMat, Vec3, Vec6};
 use funicular::robot::{Freedoms, Pose, Robot, TensionLimits};
 use funicular::statics::{self, Equilibrium, Miss, Stability, StaticModel, StaticsError, TensionRange, TensionRule};
 use proptest::prelude::*;
+use std::fmt::Write as _;
 
 const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
 const POINT: &str = include_str!("../../../../robots/sap2000-8-cable-point-mass.toml");
@@ -439,7 +440,8 @@ fn many_cables(cables: usize, maximum: f64) -> Robot {
     for i in 0..cables {
         let (angle, height) = (2.399_963 * i as f64, 3.0 + 2.0 * (0.618_034 * i as f64).fract());
         let (x, y) = (5.0 * angle.cos(), 5.0 * angle.sin());
-        text += &format!("[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{x}, {y}, {height}]\n");
+        text.push_str("[[cables]]\nmaterial = \"rope\"\n");
+        writeln!(text, "name = \"{i}\"\nanchor_m = [{x}, {y}, {height}]").unwrap();
     }
     changed(Robot::from_toml(&text).unwrap(), 0.01, 1.0, maximum)
 }
