@@ -3,6 +3,7 @@
 use crate::args::StaticsArgs;
 use crate::commands::check::{LoadRow, WindRow};
 use crate::output::Results;
+use crate::progress::Waiting;
 use crate::state::{self, AtRest, SagNumbers};
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use anyhow::Result;
@@ -33,6 +34,9 @@ pub(crate) struct Statics {
     tension_rule: Option<&'static str>,
     cables: Vec<CableRow>,
     residual: f64,
+    /// Neither loads nor tensions: the residual says nothing.
+    #[serde(skip)]
+    carries_nothing: bool,
     iterations: usize,
     /// Absent for ideal cables, which are rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -226,7 +230,9 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
     let mut warnings = at_rest.warnings(None);
     if args.all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let waiting = Waiting::for_("the equilibria of these lengths");
         let all = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
+        drop(waiting);
         if let (true, Some(expected)) = (all.lacks_some(), all.expected_index_sum) {
             warnings.push(format!(
                 "the list of equilibria is not whole: the sum of (−1)^(falling directions) is {}, of all it is {expected} \
@@ -252,6 +258,7 @@ pub(crate) fn run(robot: Robot, args: &StaticsArgs) -> Result<Statics> {
         tension_rule: rule.map(|rule| rule.name()),
         cables,
         residual: equilibrium.residual,
+        carries_nothing: statics::carries_nothing(robot, equilibrium),
         iterations: equilibrium.iterations,
         stable,
         least_stiffness_n_per_m,
@@ -319,15 +326,19 @@ impl Results for Statics {
             (Some(other), None) => other.text(),
             (None, None) => String::new(),
         };
+        let balance = if self.carries_nothing {
+            "No load and no tension: nothing to balance,".to_owned()
+        } else {
+            format!("Residual {:.1e}", self.residual)
+        };
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
-             {cables}\n{stability}. Residual {:.1e} after {}.\n{others}",
+             {cables}\n{stability}. {balance} after {}.\n{others}",
             self.robot,
             self.static_model,
             short(self.mass_kg, 6),
             vector(&self.pose.position_m, 6),
             vector(&self.pose.roll_pitch_yaw_deg, 4),
-            self.residual,
             table::counted(self.iterations, "iteration"),
         )
     }

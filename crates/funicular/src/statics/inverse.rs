@@ -2,7 +2,7 @@
 
 mod starts;
 
-use super::forward::{collect_ideal, straight_tensions};
+use super::forward::{collect_ideal, pushing, straight_tensions};
 use super::{
     Equilibrium, LoadedCable, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute,
     load_size, load_wrench, scaled_residual, scaled_wrench, wrench_of,
@@ -54,7 +54,10 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
         tensions => tensions?,
     };
     match model {
-        StaticModel::Ideal => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+        StaticModel::Ideal => match pushing(&tensions) {
+            Some((i, tension)) => Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension }),
+            None => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+        },
         StaticModel::Spring => {
             if let Some(i) = weakest(&tensions).filter(|&i| tensions[i] <= 0.0) {
                 return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: tensions[i] });

@@ -50,11 +50,10 @@ impl Status {
         Self::new(code, error)
     }
 
-    /// What makes an equilibrium infeasible: limits of tension that the robot has, and cables that push.
+    /// What makes an equilibrium infeasible: limits of tension that the robot has.
     pub(super) fn refusing(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
             Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("beyond-limits", warning)),
-            Warning::Pushing { .. } => Some(Self::new("would-push", warning)),
             _ => None,
         })
     }

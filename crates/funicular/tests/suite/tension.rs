@@ -6,6 +6,7 @@ use funicular::math::{DMat, Vec3, Vec6};
 use funicular::robot::{Freedoms, Pose, Robot, TensionLimits};
 use funicular::statics::{self, Equilibrium, Miss, Stability, StaticModel, StaticsError, TensionRange, TensionRule};
 use proptest::prelude::*;
+use std::fmt::Write as _;
 
 const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
 const POINT: &str = include_str!("../../../../robots/sap2000-8-cable-point-mass.toml");
@@ -429,6 +430,47 @@ fn a_point_mass_on_eight_cables_has_five_dimensions_of_choice() {
             assert!(cost(&robot, &other, &rule) >= best - 1e-6 * best.abs(), "{}", rule.name());
         }
     }
+}
+
+/// A point mass on many cables (a random robot of ours), its anchors spread evenly on a tube by the golden angle.
+fn many_cables(cables: usize, maximum: f64) -> Robot {
+    let mut text = String::from(
+        "name = \"many\"\n[platform]\nmass_kg = 400.0\nfreedoms = \"point-mass\"\n[materials.rope]\n\
+         axial_stiffness_n = 1e5\nmass_kg_per_m = 0.01\n",
+    );
+    for i in 0..cables {
+        let (angle, height) = (2.399_963 * i as f64, 3.0 + 2.0 * (0.618_034 * i as f64).fract());
+        let (x, y) = (5.0 * angle.cos(), 5.0 * angle.sin());
+        text.push_str("[[cables]]\nmaterial = \"rope\"\n");
+        writeln!(text, "name = \"{i}\"\nanchor_m = [{x}, {y}, {height}]").unwrap();
+    }
+    changed(Robot::from_toml(&text).unwrap(), 0.01, 1.0, maximum)
+}
+
+/// The dual problem instead of a second solver: straight cables have τ_i = max(minimum, minimum + e_i·y) with one y in
+/// space, for the sum of squares of what is above the minimum is least there.
+#[test]
+fn a_thousand_cables_have_the_lowest_tensions_within_a_second_or_so() {
+    let robot = many_cables(1000, 1e4);
+    let pose = Pose::new([0.5, 0.2, 1.0], [0.0; 3]);
+    let held = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Lowest).unwrap();
+    check(&robot, &held);
+    // y by least squares of the cables above their minimum, then all of them against it.
+    let above = |tension: f64| tension - 1.0;
+    let (mut gram, mut right) = (funicular::math::Mat3::zeros(), Vec3::zeros());
+    for cable in held.cables.iter().filter(|cable| above(cable.tension_platform) > 1e-6) {
+        let e = cable.chord_w().normalize();
+        gram += e * e.transpose();
+        right += e * above(cable.tension_platform);
+    }
+    let y = gram.try_inverse().unwrap() * right;
+    for cable in &held.cables {
+        let expected = cable.chord_w().normalize().dot(&y).max(0.0);
+        let found = above(cable.tension_platform);
+        assert!((found - expected).abs() < 1e-6 * (1.0 + expected), "{found} for {expected}");
+    }
+    let error = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest).unwrap_err();
+    assert!(error.to_string().contains("is for up to 200 cables, and the robot has 1000"), "{error}");
 }
 
 #[test]

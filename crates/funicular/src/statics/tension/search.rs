@@ -3,8 +3,9 @@
 use super::Miss;
 use super::balance::Solutions;
 use super::line::{Line, Tension};
-use super::polyhedron::{Active, Polyhedron};
+use super::polyhedron::Active;
 use super::proof::{Claim, Reach};
+use super::room::{Found, MANY, Room};
 use crate::math::Vec6;
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::Limit;
@@ -208,7 +209,14 @@ impl<'a> Search<'a> {
 
     pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let freedoms = self.robot.platform.freedoms.count();
-        Solutions::of(&linear.columns, scales, &linear.right, freedoms).ok_or(StaticsError::Singular)
+        Solutions::of(&linear.columns, scales, &linear.right, freedoms, true).ok_or(StaticsError::Singular)
+    }
+
+    /// The same for [`Room`], which can do without directions where they are many.
+    fn room_for(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
+        let freedoms = self.robot.platform.freedoms.count();
+        let few = self.lines.len() < MANY + freedoms;
+        Solutions::of(&linear.columns, scales, &linear.right, freedoms, few).ok_or(StaticsError::Singular)
     }
 
     /// Violation of inequalities that is rounding.
@@ -266,26 +274,25 @@ impl<'a> Search<'a> {
     }
 
     fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<Step>, StaticsError> {
-        let solutions = self.solutions(linear, scales)?;
+        let solutions = self.room_for(linear, scales)?;
         // The least of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
         let aim = |i: usize| {
             let tau = self.lines[i].tau();
             scales[i] * (tau - (tau - target[i]) / (scales[i] * scales[i]))
         };
-        let mut set = Polyhedron::new(solutions.redundancy());
+        let mut room = Room::new(&solutions, false);
         let mut rows = Vec::with_capacity(2 * scales.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let lower = self.floor(i, *lower);
-            set.add(solutions.part(i), 1.0, None, scales[i] * lower.at - solutions.particular[i]);
+            room.add(Some(i), 1.0, 0.0, scales[i] * lower.at);
             rows.push((i, 1.0));
             if upper.at.is_finite() {
-                set.add(solutions.part(i), -1.0, None, solutions.particular[i] - scales[i] * upper.at);
+                room.add(Some(i), -1.0, 0.0, -(scales[i] * upper.at));
                 rows.push((i, -1.0));
             }
         }
-        let mut z = solutions.along(aim);
-        let Some(active) = set.nearest(&mut z, self.tolerance(&solutions)) else { return Ok(None) };
-        let sigma = solutions.at(&z);
+        let found = room.nearest(aim, 0.0, self.tolerance(&solutions));
+        let Some(Found { sigma, held: active, .. }) = found else { return Ok(None) };
         let mut pressed = vec![0.0; scales.len()];
         for held in active {
             let (i, sign) = rows[held.row];
@@ -457,50 +464,42 @@ impl<'a> Search<'a> {
         here: &[f64],
         climb: Option<Climb>,
     ) -> Result<Level, StaticsError> {
-        let solutions = self.solutions(linear, &vec![1.0; self.lines.len()])?;
+        let solutions = self.room_for(linear, &vec![1.0; self.lines.len()])?;
         // The height is in N either way.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
-        let mut set = Polyhedron::new(solutions.redundancy() + 1);
+        let mut room = Room::new(&solutions, true);
         let mut rows = Vec::with_capacity(3 * self.lines.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let width = widths.map_or(1.0, |widths| widths[i] / unit);
             let lower = if widths.is_some() { *lower } else { self.floor(i, *lower) };
-            let particular = solutions.particular[i];
-            set.add(solutions.part(i), 1.0, Some(-width * lower.rate), lower.at - particular);
+            room.add(Some(i), 1.0, -width * lower.rate, lower.at);
             rows.push(Some((i, Limit::Minimum)));
             if upper.at.is_finite() {
-                set.add(solutions.part(i), -1.0, Some(-width * upper.rate), particular - upper.at);
+                room.add(Some(i), -1.0, -width * upper.rate, -upper.at);
                 rows.push(Some((i, Limit::Maximum)));
             }
             if widths.is_some() {
-                set.add(solutions.part(i), 1.0, Some(0.0), self.lines[i].slackest - particular);
+                room.add(Some(i), 1.0, 0.0, self.lines[i].slackest);
                 rows.push(None);
             }
         }
         if widths.is_none() {
-            set.add([0.0].iter().cycle().take(solutions.redundancy()), 1.0, Some(-1.0), 0.0);
+            room.add(None, 1.0, -1.0, 0.0);
             rows.push(None);
         }
-        let mut point = match widths {
-            Some(_) if climb.is_none() => solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at)),
-            _ => solutions.along(|i| here[i]),
-        };
         let tolerance = self.tolerance(&solutions);
-        let held = if let Some(climb) = climb {
-            point.push(climb.from + climb.by);
-            set.nearest(&mut point, tolerance)
-        } else {
-            point.push(0.0);
-            set.highest(&mut point, tolerance)
+        let found = match (climb, widths) {
+            (Some(climb), _) => room.nearest(|i| here[i], climb.from + climb.by, tolerance),
+            (None, None) => room.highest(|i| here[i], tolerance),
+            (None, Some(_)) => room.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance),
         };
-        let Some(held) = held else {
+        let Some(Found { sigma: tau, height, held }) = found else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
             return match widths {
                 Some(_) => self.level(linear, None, here, None),
                 None => Err(self.unsettled(f64::INFINITY, STILL)),
             };
         };
-        let height = point.pop().unwrap_or(f64::NAN);
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
@@ -515,7 +514,7 @@ impl<'a> Search<'a> {
             }
             prices = solutions.prices(|i| -pressed[i]);
         }
-        Ok(Level { tau: solutions.at(&point), height, distance: height / unit, held_by, prices })
+        Ok(Level { tau, height, distance: height / unit, held_by, prices })
     }
 
     fn miss(&mut self, level: &Level) -> Miss {
