@@ -132,7 +132,12 @@ fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<(
     let mut watch = Shown::default();
     match request {
         Request::Check(of) => sink.write(&analyses::check::run(of.robot.read()?.robot)),
-        Request::Statics(of) => sink.write(&analyses::statics::run(of.robot.read()?.robot, of)?),
+        Request::Statics(of) => {
+            let waiting = Waiting::for_("the equilibrium");
+            let found = analyses::statics::run(of.robot.read()?.robot, of)?;
+            drop(waiting);
+            sink.write(&found)
+        }
         Request::Stiffness(of) => sink.write(&analyses::stiffness::run(of.robot.read()?.robot, of)?),
         Request::Modes(of) => sink.write(&analyses::modes::run(of.robot.read()?.robot, of)?),
         Request::Frf(of) => {

@@ -16,13 +16,6 @@ pub enum Warning {
         /// Name of the cable.
         cable: String,
     },
-    /// An ideal cable that would have to push.
-    Pushing {
-        /// Name of the cable.
-        cable: String,
-        /// Its tension [N], negative.
-        tension: f64,
-    },
     /// A rope beyond its breaking load.
     Breaks {
         /// Name of the cable.
@@ -50,7 +43,7 @@ pub enum Warning {
     },
     /// A pose near one at which the cables do not hold the platform.
     NearlySingular {
-        /// Tension per worst unit wrench, [`crate::statics::tension_gain`].
+        /// Tension per worst unit wrench, [`crate::statics::tension_gain`]; infinite at a singular pose.
         gain: f64,
     },
     /// An equilibrium that the platform leaves by itself.
@@ -158,12 +151,6 @@ impl fmt::Display for Warning {
                 "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
                  choose the static model `catenary`, which knows its weight"
             ),
-            Self::Pushing { cable, tension } => write!(
-                f,
-                "cable \"{cable}\" would have to push with {:.3} N: ideal cables cannot hold this pose; choose the \
-                 static model `spring` or `catenary`, or another pose",
-                -tension
-            ),
             Self::Breaks { cable, tension, breaking_load } => write!(
                 f,
                 "cable \"{cable}\" has {tension:.1} N, and its rope breaks at {breaking_load} N: this state cannot be; \
@@ -189,6 +176,11 @@ impl fmt::Display for Warning {
                     ropes.join(", ")
                 )
             }
+            Self::NearlySingular { gain } if gain.is_infinite() => write!(
+                f,
+                "the pose is singular: in some direction no tensions of the cables resist a force; choose a pose from \
+                 which the cables pull in more directions"
+            ),
             Self::NearlySingular { gain } => write!(
                 f,
                 "the pose is nearly singular: in its weakest direction a force of 1 N takes {gain:.0} N of tension (warned \
@@ -278,12 +270,7 @@ pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, asked: &Pose, distance:
 pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
-        if equilibrium.model == StaticModel::Ideal {
-            if state.tension_platform < 0.0 {
-                let (cable, tension) = (cable.name.clone(), state.tension_platform);
-                warnings.push(Warning::Pushing { cable, tension });
-            }
-        } else if state.is_slack() {
+        if equilibrium.model != StaticModel::Ideal && state.is_slack() {
             warnings.push(Warning::Slack { cable: cable.name.clone() });
         }
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));

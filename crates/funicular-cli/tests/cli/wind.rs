@@ -100,3 +100,17 @@ fn stiffness_in_wind_turns_the_drag_and_a_named_model_says_what_it_leaves_out() 
     let still = json(&["stiffness", "ROBOT"]);
     assert!(still.get("antisymmetric_part").is_none() && still["warnings"].as_array().unwrap().is_empty());
 }
+
+#[test]
+fn what_is_no_equilibrium_is_not_given_as_one() {
+    let refused = |args: &[&str], said: &str| {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+        assert!(stderr(&output).contains(said) && stdout(&output).is_empty(), "{}", stderr(&output));
+    };
+    refused(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,-1e-12]"], "the loads are too small for cables as stiff");
+    let push = ["statics", "ROBOT", "--static-model", "ideal", "--pose", "0,3,0.6"];
+    refused(&push, "cable \"2\" would need -138.0");
+    let text = succeed(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,0]"]);
+    assert!(text.contains("No load and no tension: nothing to balance, after"), "{text}");
+}

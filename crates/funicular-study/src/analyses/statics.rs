@@ -34,6 +34,9 @@ pub struct Statics {
     pub tension_rule: Option<&'static str>,
     pub cables: Vec<CableRow>,
     pub residual: f64,
+    /// Neither loads nor tensions: the residual says nothing.
+    #[serde(skip)]
+    pub carries_nothing: bool,
     pub iterations: usize,
     /// Absent for ideal cables, which are rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -232,6 +235,7 @@ pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
         residual: equilibrium.residual,
+        carries_nothing: statics::carries_nothing(robot, equilibrium),
         iterations: equilibrium.iterations,
         stable,
         least_stiffness_n_per_m,

@@ -121,6 +121,37 @@ mod tests {
             prop_assert!(more.greatest_tension() > less.greatest_tension());
             prop_assert!(more.least_tension() > less.least_tension());
         }
+
+        /// What proofs that no tensions exist rest on, (39b): what sag adds to the mean vertical force falls with the
+        /// parallel tension, ever more slowly, and so does the length unless the cable is steep.
+        #[test]
+        fn bend_and_length_are_convex_functions_of_the_parallel_tension(
+            slope in -1.0f64..=1.0, stiffness in 0.0f64..6.0,
+        ) {
+            const STEPS: u32 = 300;
+            const ROUNDING: f64 = 1e-11;
+            let (span, rise) = ((1.0 - slope * slope).sqrt(), slope);
+            let axial_stiffness = 10f64.powf(stiffness);
+            let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness };
+            let high = axial_stiffness.min(1000.0);
+            let mut last: Option<[f64; 2]> = None;
+            for k in 0..=STEPS {
+                let part = f64::from(k) / f64::from(STEPS);
+                let tension = Catenary::SLACKEST * (high / Catenary::SLACKEST).powf(part);
+                let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
+                let by_tension = 1.0 / cable.parallel_tension_by_length();
+                let bend = (cable.vertical_mean - tension * slope) * slope.signum();
+                let by_length = cable.start_force_by_length()[1];
+                let bend_rate = (by_length * by_tension - slope + 0.5 * by_tension) * slope.signum();
+                prop_assert!(bend >= -ROUNDING * (1.0 + tension) && bend_rate <= ROUNDING && by_tension < 0.0);
+                if let Some([bend_before, length_before]) = last {
+                    prop_assert!(bend_rate >= bend_before - ROUNDING, "{bend_before} {bend_rate} at {tension}");
+                    let steep = slope.abs() > 0.95;
+                    prop_assert!(steep || by_tension >= length_before - ROUNDING, "{length_before} {by_tension} at {tension}");
+                }
+                last = Some([bend_rate, by_tension]);
+            }
+        }
     }
 
     /// (36a): what is left of the vertical force beside its terms falls by the order of the first one left out when the
