@@ -236,7 +236,7 @@ pub enum StaticsError {
         cable: String,
         /// Its tension if straight [N], not positive.
         tension: f64,
-        /// Number of starts of the search.
+        /// Number of starts of the search; none where only a cable longer than twice its chord could hold the pose.
         starts: usize,
         /// Least scaled residual reached.
         residual: f64,
@@ -423,6 +423,9 @@ pub enum StaticsError {
 }
 
 fn searched(starts: usize, residual: f64, greatest: Option<f64>) -> String {
+    if starts == 0 {
+        return format!("one of them would have to be more than {} times as long as its chord", inverse::LONGEST);
+    }
     let starts = crate::counted(starts, "start");
     greatest.map_or_else(
         || format!("a search from {starts} left a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e})"),
