@@ -10,7 +10,6 @@ use funicular_files::endings::Kind;
 use funicular_study::analyses::Found;
 use funicular_study::analyses::reduce::{ChannelRow, Reduced};
 use funicular_study::json;
-use npyz::WriterBuilder;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
@@ -139,22 +138,31 @@ fn npz(matrices: &[(&str, &DMat)], description: &[u8]) -> Result<Vec<u8>> {
     // The time of the format's beginning: the same model is the same file.
     let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
     for (name, matrix) in matrices {
-        archive.start_file(npyz::npz::file_name_from_array_name(name), options)?;
-        let mut array = Vec::new();
-        let shape = [matrix.nrows() as u64, matrix.ncols() as u64];
-        let mut writer = npyz::WriteOptions::new()
-            .default_dtype()
-            .shape(&shape)
-            .order(npyz::Order::Fortran)
-            .writer(&mut array)
-            .begin_nd()?;
-        writer.extend(matrix.iter())?;
-        writer.finish()?;
-        archive.write_all(&array)?;
+        archive.start_file(format!("{name}.npy"), options)?;
+        archive.write_all(&npy(matrix))?;
     }
     archive.start_file("description.json", options)?;
     archive.write_all(description)?;
     Ok(archive.finish()?.into_inner())
+}
+
+/// A matrix as NumPy keeps it: format 1.0, little-endian numbers, column by column (numpy.lib.format).
+fn npy(matrix: &DMat) -> Vec<u8> {
+    // The array begins at a multiple of this many bytes; the header ends with a new line before it.
+    const ALIGNMENT: usize = 64;
+    const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
+
+    let mut header =
+        format!("{{'descr': '<f8', 'fortran_order': True, 'shape': ({}, {}), }}", matrix.nrows(), matrix.ncols());
+    let before = MAGIC.len() + 2 + header.len() + 1;
+    header.push_str(&" ".repeat(before.next_multiple_of(ALIGNMENT) - before));
+    header.push('\n');
+
+    let length = u16::try_from(header.len()).expect("two numbers are far shorter than 64 KiB");
+    let mut bytes = [MAGIC, &length.to_le_bytes(), header.as_bytes()].concat();
+    // nalgebra keeps its matrices column by column, too.
+    bytes.extend(matrix.iter().flat_map(|value| value.to_le_bytes()));
+    bytes
 }
 
 /// A folder that takes its name when it is complete.
