@@ -47,7 +47,7 @@ impl RobotText {
     /// # Errors
     /// A change of a value that the file does not have, or [`Refused`].
     pub fn read(&self) -> Result<RobotFile> {
-        let mut name = self.name.clone();
+        let mut name = if self.name.is_empty() { "<request>".to_owned() } else { self.name.clone() };
         if !self.set.is_empty() {
             name.push_str(" with --set");
         }

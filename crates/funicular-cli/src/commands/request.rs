@@ -16,14 +16,14 @@ const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads a request; `-` is standard input.
 pub(crate) fn read(path: &Path) -> Result<Request> {
-    let shown = path.display();
+    let shown = if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() };
     let mut text = String::new();
     if path.as_os_str() == "-" {
         io::stdin().lock().take(MAX_BYTES).read_to_string(&mut text).context("cannot read the request")?;
     } else {
         text = fs::read_to_string(path).with_context(|| format!("cannot read the request {shown}"))?;
     }
-    Request::from_json(&text).with_context(|| format!("{shown}"))
+    Request::from_json(&text).context(shown)
 }
 
 /// Prints a request as JSON.
