@@ -207,7 +207,7 @@ fn a_point_mass_neither_turns_nor_extends() {
 #[test]
 fn no_solution_has_its_own_exit_code() {
     let output = run(&["statics", "ROBOT", "--pose", "0,0,8", "--static-model", "spring"]);
-    assert_refused(&output, 1, "no tensions found", "above the anchors");
+    assert_refused(&output, 1, "no equilibrium", "above the anchors");
     let output = run(&["statics", "ROBOT", "--pose", "30,0,1"]);
     assert_refused(&output, 1, "no tensions found", "outside");
 }

@@ -79,7 +79,7 @@ fn pages_that_cannot_be_are_refused() {
         ("report ROBOT -o ROBOT", 2, "refusing to write the page over the robot file"),
         ("report -o /", 2, "it is a directory"),
         ("report --input mz --input-point-m 0,0,1", 2, "has no effect"),
-        ("report --pose 30,0,1 -o -", 1, "no equilibrium"),
+        ("report --pose 30,0,1 -o -", 1, "no tensions found"),
         ("report --set platform.mass_kg=-1", 2, "robots/yuan2014-4mm.toml with --set:"),
         ("report --format json", 2, "unexpected argument"),
         ("paper ROBOT", 2, "unexpected argument"),
