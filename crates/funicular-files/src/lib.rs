@@ -21,13 +21,14 @@ pub use read::SweepFile;
 pub use table::Table;
 
 use funicular::sweep::Chunk;
-use funicular_study::sweep::{Difference, Part, Record};
+use funicular_study::sweep::{Difference, Record};
 use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a file of a sweep cannot be read or written.
+/// Why a file of a sweep cannot be read or written. A message names options by their keys between ⟪ and ⟫, for
+/// [`worded`](funicular_study::wording::worded).
 #[derive(Debug, Error)]
 pub enum FilesError {
     /// The ending of a file says no format.
@@ -64,7 +65,7 @@ pub enum FilesError {
     },
     /// Work in the way.
     #[error(
-        "{} holds {done} of {rows} rows of a run that did not end: go on with --resume, or begin anew with --discard",
+        "{} holds {done} of {rows} rows of a run that did not end: go on with ⟪resume⟫, or begin anew with ⟪discard⟫",
         .journal.display()
     )]
     Unfinished {
@@ -76,7 +77,7 @@ pub enum FilesError {
         rows: usize,
     },
     /// A file that is no journal where one would be.
-    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with --discard", .path.display())]
+    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with ⟪discard⟫", .path.display())]
     NoJournal {
         /// The file.
         path: PathBuf,

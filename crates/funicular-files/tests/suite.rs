@@ -30,7 +30,13 @@ fn sweep() -> (Record, Vec<Chunk>) {
     let chunks = (0..plan.chunks()).map(|index| plan.evaluate(index, || false).unwrap()).collect();
     let record = Record {
         robot_file: ROBOT.to_owned(),
-        plan: Map::from_iter([("grid".to_owned(), json!(axes.iter().map(|(axis, steps)| Axis::new(axis.clone(), steps)).collect::<Vec<_>>())), ("mass_kg".to_owned(), json!(1.5))]),
+        plan: Map::from_iter([
+            (
+                "grid".to_owned(),
+                json!(axes.iter().map(|(axis, steps)| Axis::new(axis.clone(), steps)).collect::<Vec<_>>()),
+            ),
+            ("mass_kg".to_owned(), json!(1.5)),
+        ]),
         columns: plan.columns().to_vec(),
         rows: plan.rows(),
         chunk_rows: plan.chunk_rows(),

@@ -103,16 +103,24 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     }
     if let Some(pose) = &state.pose {
         let pose = pose.to_robot()?;
-        if robot.platform.freedoms == Freedoms::PointMass && pose.rot_wp.angle() != 0.0 {
-            bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
-        }
-        robot.platform.freedoms.check(&pose)?;
+        check_pose(&robot, &pose)?;
         robot.state = State::Pose(pose);
     }
     if let Some(mass) = state.mass_kg {
         robot.platform.mass = mass;
     }
     with_load(robot, &state.load)
+}
+
+/// Refuses a pose that the platform cannot have, whatever its cables do.
+///
+/// # Errors
+/// An orientation of a point mass, or a pose that a plane excludes.
+pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
+    if robot.platform.freedoms == Freedoms::PointMass && pose.rot_wp.angle() != 0.0 {
+        bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
+    }
+    Ok(robot.platform.freedoms.check(pose)?)
 }
 
 /// The robot with the loads that a request gives; others stay as the robot file has them.

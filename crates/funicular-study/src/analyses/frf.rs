@@ -2,7 +2,7 @@
 
 use super::found;
 use crate::Watch;
-use crate::at_rest::{self, Models, directions};
+use crate::at_rest::{self, AtRest, Models, directions};
 use crate::error::Cancelled;
 use crate::request;
 use anyhow::Result;
@@ -61,11 +61,22 @@ impl From<Peak> for PeakRow {
 pub fn run(robot: Robot, request: &request::Frf, watch: &mut dyn Watch) -> Result<Frf> {
     let frequencies = request.range.frequencies()?;
     request::check_not_negative("prominence_db", request.prominence_db)?;
+    // Signals that mean nothing are refused before the work.
+    directions(&robot, &request::input(&request.input)?, &request::output(&request.output)?, &request.signal_points)?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request, frequencies, watch)
+}
+
+/// The response of a robot that is at rest already, at frequencies [Hz] of which none is negative, whatever the state and the
+/// range of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::Frf, frequencies: Vec<f64>, watch: &mut dyn Watch) -> Result<Frf> {
     let (from, to) = (request::input(&request.input)?, request::output(&request.output)?);
-    let (input, output) = directions(&robot, &from, &to, &request.signal_points)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let (input, output) = directions(&at_rest.robot, &from, &to, &request.signal_points)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.range.to_hz)?;
+    let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
+    let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
 
     let places = at_rest.places(&dynamics, from.on_cable.as_ref(), to.on_cable.as_ref())?;
     let pose = &at_rest.equilibrium.pose;
