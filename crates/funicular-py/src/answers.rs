@@ -167,13 +167,13 @@ pub(crate) fn imported(request: &str) -> PyResult<(String, Vec<String>, Vec<Stri
     Ok((text, assumed, lost))
 }
 
-/// Page and notes of the Parquet file of a map or sweep; `call` is what writes it again.
+/// Page and notes of the Parquet file of a map or sweep; `label` says where the rows are, `call` writes the page again.
 #[pyfunction]
-pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, call: String) -> PyResult<(String, Vec<String>)> {
+pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: String) -> PyResult<(String, Vec<String>)> {
     let file = SweepFile::open(&path).map_err(|error| errors::files(&error))?;
     py.detach(|| {
         let mut watch = CtrlC::new();
-        let page = pages::plot::plot(&file, path.display().to_string(), call, &mut watch);
+        let page = pages::plot::plot(&file, label, call, &mut watch);
         page.map(|page| (page.html, in_words(&page.notes))).map_err(|error| watch.or(&error))
     })
 }

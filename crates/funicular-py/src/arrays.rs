@@ -438,6 +438,11 @@ impl Number {
         self.0.map_err(|error| error.named(what))
     }
 
+    /// Refuses what is not positive, by the rule for requests.
+    pub(crate) fn positive(self, what: &str) -> PyResult<f64> {
+        values::positive(self.value(what)?).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
+    }
+
     /// Checks as [`not_negative`].
     pub(crate) fn not_negative(self, what: &str) -> PyResult<f64> {
         not_negative(what, self.value(what)?)

@@ -83,10 +83,6 @@ pub(crate) fn unwritable(text: String) -> PyErr {
     python::FileError::new_err(text)
 }
 
-pub(crate) fn statics(error: &StaticsError) -> PyErr {
-    python::StaticsError::new_err((worded(&error.to_string(), Words::Python), error.code()))
-}
-
 pub(crate) fn dynamics(error: &DynamicsError) -> PyErr {
     python::DynamicsError::new_err(error.to_string())
 }

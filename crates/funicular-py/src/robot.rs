@@ -154,7 +154,7 @@ impl PyRobot {
             all.update(changes.as_mapping())?;
         }
         if let Some(mass) = mass_kg {
-            all.set_item("platform.mass_kg", mass.value("mass_kg")?)?;
+            all.set_item("platform.mass_kg", mass.positive("mass_kg")?)?;
         }
         let mut source = self.source.clone();
         source.set.extend(edit::changes(&all)?);

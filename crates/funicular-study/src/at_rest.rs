@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
-use funicular::ports::{Input, OnCable, Output, PlaceError, Places, PortError};
+use funicular::ports::{Input, OnCable, Output, PlaceError, Places};
 use funicular::response::Direction;
 use funicular::robot::{self, Freedoms, Pose, Robot, State, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
@@ -219,13 +219,9 @@ pub fn linearisation(model: &Model, static_model: StaticModel) -> Linearisation 
 /// Input and output of a response, checked against what the robot can do.
 ///
 /// # Errors
-/// A signal that means nothing on the robot.
-pub fn directions(
-    robot: &Robot,
-    input: &Input,
-    output: &Output,
-    points: &Points,
-) -> Result<(Direction, Direction), PortError> {
+/// A signal that means nothing on the robot, or a point that is none.
+pub fn directions(robot: &Robot, input: &Input, output: &Output, points: &Points) -> Result<(Direction, Direction)> {
+    points.check()?;
     let [from, to] = [points.input_point_m, points.output_point_m].map(|point| point.map(Vec3::from));
     Ok((input.direction(robot, from)?, output.direction(robot, to)?))
 }

@@ -17,7 +17,7 @@ pub fn finite(value: f64) -> Result<f64, String> {
         return Ok(value);
     }
     // The reader of texts says what is wrong; a number prints as a text that it reads as that number.
-    ports::number(&value.to_string()).map_err(|error| error.to_string())
+    ports::number(&format!("{value:?}")).map_err(|error| error.to_string())
 }
 
 /// Checks that a number is at least [`MIN_POSITIVE`].

@@ -76,6 +76,7 @@ fn check(robot: &Robot, request: &request::Reduce) -> Result<Signals> {
     if let Some(hz) = request.damping_at_hz {
         request::check_positive("damping_at_hz", hz)?;
     }
+    request.points.check()?;
     Ok((inputs(robot, request)?, outputs(robot, request)?))
 }
 

@@ -363,6 +363,14 @@ impl State {
     }
 }
 
+impl Points {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        check_vector("input_point_m", self.input_point_m)?;
+        check_vector("output_point_m", self.output_point_m)
+    }
+}
+
 impl Tensions {
     /// Checks the numbers.
     pub(crate) fn check(&self) -> Result<()> {
