@@ -364,6 +364,8 @@ impl PyRobot {
     ///     ends the program. Of a Parquet file nothing is in memory before it is asked for.
     /// resume, discard
     ///     Go on with what FILE.partial holds of the same sweep, or forget it.
+    /// part
+    ///     The k-th of n parts, as "3/8", each with a Parquet `file` of its own; `funicular.merge` joins them.
     /// threads
     ///     How many threads compute here; all processors if not given.
     /// executor
@@ -388,8 +390,8 @@ impl PyRobot {
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular::sweep::HIGHEST_HZ), tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, threads=None,
-        executor=None, chunks_per_task=None, progress=None
+        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
+        threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn map(
@@ -418,6 +420,7 @@ impl PyRobot {
         file: Option<PathBuf>,
         resume: bool,
         discard: bool,
+        part: Option<String>,
         threads: Option<Threads>,
         executor: Option<Makes>,
         chunks_per_task: Option<Count>,
@@ -439,7 +442,7 @@ impl PyRobot {
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapPoses { robot: self.source.clone(), grid, poses, point });
-        let plan = PyPlan::of(py, request)?;
+        let plan = PyPlan::of(py, request, part)?;
         Run { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
 
@@ -456,8 +459,8 @@ impl PyRobot {
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular::sweep::HIGHEST_HZ), tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, threads=None,
-        executor=None, chunks_per_task=None, progress=None
+        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
+        threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn sweep(
@@ -485,6 +488,7 @@ impl PyRobot {
         file: Option<PathBuf>,
         resume: bool,
         discard: bool,
+        part: Option<String>,
         threads: Option<Threads>,
         executor: Option<Makes>,
         chunks_per_task: Option<Count>,
@@ -504,7 +508,7 @@ impl PyRobot {
         let tensions = TensionKeywords { tension_rule, wanted_tension_n, min_tension_n, max_tension_n };
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let request = Request::Sweep(SweepValues { robot: self.source.clone(), vary: vary.0, point });
-        let plan = PyPlan::of(py, request)?;
+        let plan = PyPlan::of(py, request, part)?;
         Run { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
 
@@ -561,7 +565,7 @@ impl PyRobot {
     ///     Name of the command, as `statics`.
     /// keywords
     ///     The command's options by their names with _ for -, as `tension_rule="middle"`.
-    #[pyo3(signature = (command, **keywords))]
+    #[pyo3(signature = (command: "str", **keywords: "object"))]
     fn request<'py>(&self, py: Python<'py>, command: &str, keywords: Option<Keyed<'py>>) -> PyResult<Keyed<'py>> {
         let robot = serde_json::to_string(&self.source).map_err(|error| errors::input(error.to_string()))?;
         let keywords = keywords.map_or_else(|| PyDict::new(py), |Keyed(keywords)| keywords);

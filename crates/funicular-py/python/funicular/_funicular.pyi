@@ -562,7 +562,7 @@ class Robot:
         """
         Unstrained lengths that the file gives [m], one a cable; None where it gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Quantities over poses, one row a pose.
 
@@ -588,6 +588,8 @@ class Robot:
             ends the program. Of a Parquet file nothing is in memory before it is asked for.
         resume, discard
             Go on with what FILE.partial holds of the same sweep, or forget it.
+        part
+            The k-th of n parts, as "3/8", each with a Parquet `file` of its own; `funicular.merge` joins them.
         threads
             How many threads compute here; all processors if not given.
         executor
@@ -653,7 +655,7 @@ class Robot:
         """
         `Equilibrium.report` in the state of the robot file.
         """
-    def request(self, /, command: str, **keywords) -> dict[str, Any]:
+    def request(self, /, command: "str", **keywords: "object") -> dict[str, Any]:
         """
         The request of a command of the program for this robot: what `funicular COMMAND --print-request` prints, as
         `funicular.run` takes it.
@@ -674,7 +676,7 @@ class Robot:
         """
         `Equilibrium.stiffness` in the state of the robot file.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Quantities over values of the robot file, one row a combination, as of the program's `sweep`.
 
@@ -717,11 +719,11 @@ class SweepPlan:
     """
     A map or sweep; a pickle of it is its request as JSON.
     """
-    def __new__(cls, /, request: str) -> SweepPlan:
+    def __new__(cls, /, request: str, part: str | None = None) -> SweepPlan:
         """
-        Of a request as JSON.
+        Of a request as JSON, or one of its parts, as "3/8".
         """
-    def __reduce__(self, /) -> tuple[Any, tuple[str]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[str, str | None]]: ...
     def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False) -> SweepWork | None:
         """
         Begins to collect rows, in memory or in a file; None if the file has them all.
@@ -734,11 +736,16 @@ class SweepPlan:
     @property
     def chunks(self, /) -> int:
         """
-        Number of chunks of rows; each is computed by itself.
+        The chunk behind the last.
         """
     def compute(self, /, first: SupportsIndex, end: SupportsIndex, threads: SupportsIndex = ...) -> bytes:
         """
         Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
+        """
+    @property
+    def first_chunk(self, /) -> int:
+        """
+        The first chunk of rows; each is computed by itself.
         """
     @property
     def rows(self, /) -> int:

@@ -8,7 +8,7 @@ use crate::waiting::hand_over;
 use funicular::sweep::Chunk;
 use funicular_files::{Begin, Job, Opened, table};
 use funicular_study::request::Request;
-use funicular_study::sweep::{PreparedSweep, Record};
+use funicular_study::sweep::{Part, PreparedSweep, Record};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::num::NonZeroUsize;
@@ -29,10 +29,20 @@ pub(crate) struct Whole {
 }
 
 impl Whole {
-    fn of(request: &Request) -> anyhow::Result<Self> {
+    fn of(request: &Request, part: Option<Part>) -> anyhow::Result<Self> {
         let sweep = PreparedSweep::new(request)?;
-        let record = sweep.record(&sweep.plan()?, None);
+        let record = sweep.record(&sweep.plan()?, part);
         Ok(Self { sweep, record })
+    }
+
+    /// Number of rows to compute.
+    pub(crate) fn rows(&self) -> usize {
+        self.record.rows_of(self.record.range())
+    }
+
+    /// Number of rows before a chunk.
+    pub(crate) fn done(&self, next: usize) -> usize {
+        self.record.rows_of(self.record.range().start..next)
     }
 
     /// Computes chunks on threads of this call alone, and hands them over in order to this one, which looks for Ctrl-C.
@@ -69,30 +79,39 @@ pub(crate) struct PyPlan {
 }
 
 impl PyPlan {
-    pub(crate) fn of(py: Python<'_>, request: Request) -> PyResult<Self> {
-        let whole = py.detach(|| Whole::of(&request)).map_err(|error| errors::study(&error))?;
+    pub(crate) fn of(py: Python<'_>, request: Request, part: Option<String>) -> PyResult<Self> {
+        let part =
+            part.map(|part| part.parse().map_err(|reason| errors::input(format!("`part`: {reason}")))).transpose()?;
+        let whole = py.detach(|| Whole::of(&request, part)).map_err(|error| errors::study(&error))?;
         Ok(Self { request, whole: Arc::new(whole) })
     }
 }
 
 #[pymethods]
 impl PyPlan {
-    /// Of a request as JSON.
+    /// Of a request as JSON, or one of its parts, as "3/8".
     #[new]
-    fn new(py: Python<'_>, request: &str) -> PyResult<Self> {
-        Self::of(py, Request::from_json(request).map_err(|error| errors::study(&error.into()))?)
+    #[pyo3(signature = (request, part=None))]
+    fn new(py: Python<'_>, request: &str, part: Option<String>) -> PyResult<Self> {
+        Self::of(py, Request::from_json(request).map_err(|error| errors::study(&error.into()))?, part)
     }
 
     /// Number of rows.
     #[getter]
     fn rows(&self) -> usize {
-        self.whole.record.rows
+        self.whole.rows()
     }
 
-    /// Number of chunks of rows; each is computed by itself.
+    /// The first chunk of rows; each is computed by itself.
+    #[getter]
+    fn first_chunk(&self) -> usize {
+        self.whole.record.range().start
+    }
+
+    /// The chunk behind the last.
     #[getter]
     fn chunks(&self) -> usize {
-        self.whole.record.chunks()
+        self.whole.record.range().end
     }
 
     /// Rows of every chunk but the last.
@@ -139,6 +158,9 @@ impl PyPlan {
             if resume || discard {
                 return Err(errors::input("`resume` and `discard` go with `file`".to_owned()));
             }
+            if whole.record.part.is_some() {
+                return Err(errors::input("`part` goes with `file`: parts become one file".to_owned()));
+            }
             return Ok(Some(PyWork::in_memory(whole)));
         };
         let opened =
@@ -149,7 +171,9 @@ impl PyPlan {
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Reduced<'py, (String,)> {
-        (slf.get_type().into_any(), (slf.get().request.to_value().to_string(),))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Reduced<'py, (String, Option<String>)> {
+        let Self { request, whole } = slf.get();
+        let part = whole.record.part.map(|part| part.to_string());
+        (slf.get_type().into_any(), (request.to_value().to_string(), part))
     }
 }
