@@ -174,7 +174,7 @@ pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: Stri
     py.detach(|| {
         let mut watch = CtrlC::new();
         let page = pages::plot::plot(&file, label, call, &mut watch);
-        page.map(|page| (page.html, in_words(&page.notes))).map_err(|error| watch.or(&error))
+        page.map(|page| (worded(&page.html, Words::Python), in_words(&page.notes))).map_err(|error| watch.or(&error))
     })
 }
 
