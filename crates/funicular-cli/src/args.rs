@@ -14,9 +14,9 @@ use funicular::math::Vec3;
 use funicular::ports::{Input, Output};
 use funicular::statics::StaticModel;
 use funicular_study::request::Change;
-pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
+pub(crate) use import::ImportArgs;
 use std::path::PathBuf;
-pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs, WhatArgs};
+pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
 use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.

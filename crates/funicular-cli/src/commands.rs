@@ -15,12 +15,16 @@ mod stiffness;
 mod validate;
 
 use crate::args::{Cli, Command, ExportArgs, ImportArgs, MapArgs, MergeArgs, OutputArgs, ReduceArgs, RobotArgs};
-use crate::output::{Printed, Sink, Target};
+use crate::output::{Content, Sink, Target};
 use crate::progress::{Shown, Waiting};
 use crate::table::counted;
 use crate::{errors, pose_csv, robot_file, sweep_run};
 use anyhow::{Context, Result, bail};
+use funicular::robot::Robot;
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
 use funicular_study::analyses;
+use funicular_study::export::ExportFormat;
 use funicular_study::import::SourceFile;
 use funicular_study::request::{self as requests, Request, RobotText};
 use funicular_study::wording::Words;
@@ -38,11 +42,16 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
     match &cli.command {
         Command::Request(args) => request::run(args),
         Command::Map(args) => {
-            let inputs: Vec<&Path> =
-                [Some(args.robot.robot.as_path()), args.poses.as_deref()].into_iter().flatten().collect();
-            sweep_run::run(&request_of(&cli.command)?, &inputs, &args.run)
+            let mut guard = robot_file::guard(Some(&args.robot.robot));
+            if let Some(poses) = &args.poses {
+                guard.reads("the poses", poses);
+            }
+            sweep_run::run(&request_of(&cli.command)?, &mut guard, &args.run)
         }
-        Command::Sweep(args) => sweep_run::run(&request_of(&cli.command)?, &[&args.robot.robot], &args.run),
+        Command::Sweep(args) => {
+            let mut guard = robot_file::guard(Some(&args.robot.robot));
+            sweep_run::run(&request_of(&cli.command)?, &mut guard, &args.run)
+        }
         Command::Merge(args) => merge(args),
         Command::Plot(args) => page::plot(args),
         Command::Report(args) => page::report(&request_of(&cli.command)?, args.robot.as_deref(), &args.output_file),
@@ -50,15 +59,31 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Import(args) => import(args),
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
-        Command::Check(args) => analyse(&request_of(&cli.command)?, &args.output, Some(&args.robot.robot)),
-        Command::Statics(args) => analyse(&request_of(&cli.command)?, &args.output, Some(&args.robot.robot)),
-        Command::Stiffness(args) => analyse(&request_of(&cli.command)?, &args.output, Some(&args.robot.robot)),
-        Command::Modes(args) => analyse(&request_of(&cli.command)?, &args.sink, Some(&args.robot.robot)),
-        Command::Frf(args) => analyse(&request_of(&cli.command)?, &args.sink, Some(&args.robot.robot)),
-        Command::Compare(args) => analyse(&request_of(&cli.command)?, &args.output, Some(&args.robot.robot)),
-        Command::PoseError(args) => analyse(&request_of(&cli.command)?, &args.output, Some(&args.robot.robot)),
-        Command::Cable(args) => analyse(&request_of(&cli.command)?, &args.output, Some(&args.robot.robot)),
-        Command::Validate(args) => analyse(&request_of(&cli.command)?, &args.output, None),
+        Command::Check(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Statics(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Stiffness(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Modes(args) => {
+            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Frf(args) => {
+            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Compare(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::PoseError(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Cable(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Validate(args) => analyse(&request_of(&cli.command)?, &args.output, Guard::default()),
     }
 }
 
@@ -66,7 +91,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
 fn request_of(command: &Command) -> Result<Request> {
     let robot = |args: &RobotArgs| robot_file::read(Some(&args.robot), &args.changes);
     Ok(match command {
-        Command::Check(args) => Request::Check(requests::Check { robot: robot(&args.robot)? }),
+        Command::Check(args) => Request::Check(requests::CheckRequest { robot: robot(&args.robot)? }),
         Command::Statics(args) => Request::Statics(args.request(robot(&args.robot)?)),
         Command::Stiffness(args) => Request::Stiffness(args.request(robot(&args.robot)?)),
         Command::Modes(args) => Request::Modes(args.request(robot(&args.robot)?)),
@@ -80,16 +105,16 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Merge(args) => Request::Merge(args.request()),
         Command::Plot(args) => Request::Plot(args.request()),
         Command::Report(args) => Request::Report(args.request(robot_file::read(args.robot.as_deref(), &args.changes)?)),
-        Command::Paper(_) => Request::Paper(requests::Paper {}),
+        Command::Paper(_) => Request::Paper(requests::PaperRequest {}),
         Command::Import(args) => Request::Import(args.request(sources(&args.files)?)),
         Command::Export(args) => Request::Export(args.request(robot(&args.robot)?)),
-        Command::Validate(_) => Request::Validate(requests::Validate {}),
+        Command::Validate(_) => Request::Validate(requests::ValidateRequest {}),
         Command::Request(args) => request::read(&args.file)?,
     })
 }
 
 /// A map's request; errors of its poses name the line of their file.
-fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapPoses> {
+fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest> {
     let poses = match &args.poses {
         Some(path) => Some(pose_csv::read(path, &robot.read()?.robot)?),
         None => None,
@@ -98,16 +123,21 @@ fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapPoses> {
 }
 
 /// Runs a request whose results are printed.
-fn analyse(request: &Request, output: &OutputArgs, robot_path: Option<&Path>) -> Result<()> {
+fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
     if let Some(robot) = request.robot() {
         // The robot file's own errors come before those of the place for the result.
         robot.read()?;
     }
-    let sink = Sink::open(output, robot_path)?;
+    let sink = Sink::open(output, &mut guard)?;
     let mut watch = Shown::default();
     match request {
         Request::Check(of) => sink.write(&analyses::check::run(of.robot.read()?.robot)),
-        Request::Statics(of) => sink.write(&analyses::statics::run(of.robot.read()?.robot, of)?),
+        Request::Statics(of) => {
+            let waiting = Waiting::for_("the equilibrium");
+            let found = analyses::statics::run(of.robot.read()?.robot, of)?;
+            drop(waiting);
+            sink.write(&found)
+        }
         Request::Stiffness(of) => sink.write(&analyses::stiffness::run(of.robot.read()?.robot, of)?),
         Request::Modes(of) => sink.write(&analyses::modes::run(of.robot.read()?.robot, of)?),
         Request::Frf(of) => {
@@ -135,8 +165,9 @@ fn analyse(request: &Request, output: &OutputArgs, robot_path: Option<&Path>) ->
 fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let Request::Reduce(of) = request else { bail!("this is no request of `reduce`") };
     let robot = of.robot.read()?.robot;
-    let sink = Sink::open(&args.sink, Some(&args.robot.robot))?;
-    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, &args.robot.robot)).transpose()?;
+    let mut guard = robot_file::guard(Some(&args.robot.robot));
+    let sink = Sink::open(&args.sink, &mut guard)?;
+    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
     let waiting = Waiting::for_("the model, and what it leaves out");
     let mut found = analyses::reduce::run(robot, of)?;
@@ -158,15 +189,16 @@ fn merge(args: &MergeArgs) -> Result<()> {
 /// Files of other programs become a robot file.
 fn import(args: &ImportArgs) -> Result<()> {
     let request = args.request(sources(&args.files)?);
-    // Over none of the files that are read.
-    let mut target = Target::open(Some(&args.output_file), None)?;
+    let mut guard = Guard::default();
     for source in &args.files {
-        target = Target::open(Some(&args.output_file), Some(source))?;
+        guard.reads("the source file", source);
     }
-    write_import(&request, &target, &args.output_file)
+    write_import(&request, &mut guard, &args.output_file)
 }
 
-fn write_import(request: &requests::Import, target: &Target, path: &Path) -> Result<()> {
+fn write_import(request: &requests::ImportRequest, guard: &mut Guard, path: &Path) -> Result<()> {
+    let content = Content { name: "the robot file", option: "-o", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let target = Target::open(Some(path), content, guard)?;
     let imported = import::run(request, Words::Program)?;
     target.write(imported.text.as_bytes())?;
     if target.is_file() {
@@ -203,11 +235,17 @@ fn sources(paths: &[PathBuf]) -> Result<Vec<SourceFile>> {
 fn export(request: &Request, args: &ExportArgs) -> Result<()> {
     let Request::Export(of) = request else { bail!("this is no request of `export`") };
     let robot = of.robot.read()?.robot;
-    let target = Target::open(Some(&args.output_file), Some(&args.robot.robot))?;
-    write_export(of, robot, &target, &args.output_file)
+    write_export(of, robot, &mut robot_file::guard(Some(&args.robot.robot)), &args.output_file)
 }
 
-fn write_export(of: &requests::Export, robot: funicular::robot::Robot, target: &Target, path: &Path) -> Result<()> {
+fn write_export(of: &requests::ExportRequest, robot: Robot, guard: &mut Guard, path: &Path) -> Result<()> {
+    let (in_words, fitting): (_, &[Kind]) = match of.to {
+        ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
+        ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
+        ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
+    };
+    let content = Content { name: "the exported robot", option: "-o", in_words, fitting };
+    let target = Target::open(Some(path), content, guard)?;
     export::refuse(of)?;
     let at_rest = at_rest::equilibrium(robot, &of.state, &of.tensions)?;
     let exported = export::run(&at_rest, of)?;

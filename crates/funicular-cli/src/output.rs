@@ -2,6 +2,8 @@
 
 use crate::args::{Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
+use funicular_files::Guard;
+use funicular_files::endings::{self, Kind};
 use funicular_files::whole::{Temporary, is_regular_or_new};
 use funicular_study::analyses::Found;
 use funicular_study::{NoSolution, json};
@@ -23,6 +25,24 @@ pub(crate) trait Printed: Found {
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
 }
 
+/// What goes to a file, and which endings the file may have.
+#[derive(Clone, Copy)]
+pub(crate) struct Content {
+    /// As messages call it: "the result".
+    pub(crate) name: &'static str,
+    /// The option that names the file.
+    pub(crate) option: &'static str,
+    /// What it is, in words: "a page".
+    pub(crate) in_words: &'static str,
+    /// Endings that say so.
+    pub(crate) fitting: &'static [Kind],
+}
+
+impl Content {
+    /// A page for a browser.
+    pub(crate) const PAGE: Self = Self { name: "the page", option: "-o", in_words: "a page", fitting: &[Kind::Html] };
+}
+
 /// Standard output, or a file that is written as a whole or not at all.
 pub(crate) struct Target {
     file: Option<PathBuf>,
@@ -30,7 +50,11 @@ pub(crate) struct Target {
 
 impl Target {
     /// Checks that bytes can be written there, before work begins that may take long. No path or `-` is standard output.
-    pub(crate) fn open(path: Option<&Path>, robot: Option<&Path>) -> Result<Self> {
+    ///
+    /// # Errors
+    /// A place that cannot be written; a file that the command reads or writes otherwise, or whose ending means something
+    /// else.
+    pub(crate) fn open(path: Option<&Path>, content: Content, guard: &mut Guard) -> Result<Self> {
         let Some(path) = path.filter(|path| path.as_os_str() != "-") else { return Ok(Self { file: None }) };
         let shown = path.display();
         // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
@@ -38,9 +62,8 @@ impl Target {
         if target.is_dir() {
             bail!("cannot write to {shown}: it is a directory; add a file name");
         }
-        if robot.and_then(|robot| robot.canonicalize().ok()).is_some_and(|source| source == target) {
-            bail!("refusing to write the result over the robot file {shown}; choose another name for -o");
-        }
+        guard.writes(content.name, content.option, path)?;
+        endings::check(path, content.in_words, content.fitting)?;
         if is_regular_or_new(&target) {
             if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
                 bail!("cannot write to {shown}: it is read-only");
@@ -71,16 +94,22 @@ pub(crate) struct Sink {
 }
 
 impl Sink {
-    /// Of a command and the robot file that it reads, if any; that is never written over.
-    pub(crate) fn open(args: &OutputArgs, robot: Option<&Path>) -> Result<Self> {
+    /// The format is the one asked for, or that of the file's ending. Files that the guard knows are not written over.
+    pub(crate) fn open(args: &OutputArgs, guard: &mut Guard) -> Result<Self> {
         let path = args.output_file.as_deref();
-        let ending = path.and_then(Path::extension).and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
-        let format = args.format.unwrap_or(match ending.as_deref() {
-            Some("json") => Format::Json,
-            Some("csv") => Format::Csv,
+        let format = args.format.unwrap_or(match path.and_then(Kind::of) {
+            Some(Kind::Json) => Format::Json,
+            Some(Kind::Csv) => Format::Csv,
             _ => Format::Text,
         });
-        Ok(Self { format, target: Target::open(path, robot)? })
+        let (in_words, fitting): (_, &[Kind]) = match (args.format, format) {
+            (None, Format::Text) => ("text", &[Kind::Json, Kind::Csv, Kind::Markdown, Kind::Text]),
+            (_, Format::Text) => ("text", &[Kind::Markdown, Kind::Text]),
+            (_, Format::Json) => ("JSON", &[Kind::Json, Kind::Text]),
+            (_, Format::Csv) => ("CSV", &[Kind::Csv, Kind::Text]),
+        };
+        let content = Content { name: "the result", option: "-o", in_words, fitting };
+        Ok(Self { format, target: Target::open(path, content, guard)? })
     }
 
     /// Writes the result; its warnings go to stderr, too.

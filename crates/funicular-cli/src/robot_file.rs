@@ -2,6 +2,7 @@
 
 use crate::args::ChangeArgs;
 use anyhow::{Context, Result, bail};
+use funicular_files::Guard;
 use funicular_study::request::RobotText;
 use funicular_study::robot_file::{self, MAX_BYTES};
 use std::fs::File;
@@ -27,6 +28,16 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotTex
         }
     };
     Ok(changes.robot(name, text))
+}
+
+/// Guard of a command's files that knows the robot file, also where that is standard input.
+pub(crate) fn guard(path: Option<&Path>) -> Guard {
+    let mut guard = Guard::default();
+    if let Some(path) = path {
+        let path = if path.as_os_str() == "-" { Path::new("/dev/stdin") } else { path };
+        guard.reads("the robot file", path);
+    }
+    guard
 }
 
 fn open(path: &Path, name: &str) -> Result<File> {

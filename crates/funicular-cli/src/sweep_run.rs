@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use crate::table::counted;
 use anyhow::{Context, Result, bail};
 use funicular::sweep::{Outcome, Plan};
-use funicular_files::{Begin, CsvRows, Opened, SweepFile};
+use funicular_files::{Begin, CsvRows, Guard, Opened, SweepFile};
 use funicular_study::Request;
 use funicular_study::sweep::{PreparedSweep, Record};
 use std::io::{self, BufWriter};
@@ -21,8 +21,6 @@ use summary::Summary;
 /// A sweep to run.
 struct Job<'a> {
     sweep: &'a PreparedSweep,
-    /// Files that are read, and not to be written over.
-    inputs: &'a [&'a Path],
     run: &'a RunArgs,
 }
 
@@ -39,10 +37,10 @@ fn listen() -> Result<()> {
     .context("cannot listen for Ctrl-C")
 }
 
-/// Computes all of it. `inputs` are files that are read, and not to be written over.
-pub(crate) fn run(request: &Request, inputs: &[&Path], run: &RunArgs) -> Result<()> {
+/// Computes all of it. The guard knows the files that are read, which the rows are not to be written over.
+pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result<()> {
     let sweep = PreparedSweep::new(request)?;
-    let job = &Job { sweep: &sweep, inputs, run };
+    let job = &Job { sweep: &sweep, run };
     let plan = sweep.plan()?;
     let record = sweep.record(&plan, run.part);
     let threads = match run.threads {
@@ -50,7 +48,10 @@ pub(crate) fn run(request: &Request, inputs: &[&Path], run: &RunArgs) -> Result<
         None => std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
     };
     match &run.output_file {
-        Some(path) => to_file(job, &plan, record, path, threads),
+        Some(path) => {
+            refuse_output(job, guard, path)?;
+            to_file(job, &plan, record, path, threads)
+        }
         None if run.format == Some(Format::Csv) => to_stdout(&plan, threads),
         None => to_summary(job, &plan, threads),
     }
@@ -98,7 +99,6 @@ fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
 }
 
 fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZeroUsize) -> Result<()> {
-    refuse_output(job, path)?;
     let run = job.run;
     let begin = match (run.resume, run.discard) {
         (true, _) => Begin::Resume,
@@ -143,25 +143,17 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
 }
 
 /// Refuses what is no place for rows, whatever its ending.
-fn refuse_output(job: &Job, path: &Path) -> Result<()> {
+fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
     if path.as_os_str() == "-" {
         bail!("rows go to standard output with --format csv and without -o");
     }
     if job.run.format == Some(Format::Csv) {
         bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
     }
-    let same =
-        |input: &Path| path.canonicalize().ok().is_some_and(|to| input.canonicalize().is_ok_and(|from| from == to));
-    if job.inputs.iter().any(|input| same(input)) {
-        bail!(
-            "refusing to write the rows over {}, which they are computed from; choose another name for -o",
-            path.display()
-        );
-    }
-    Ok(())
+    Ok(guard.writes_rows("-o", path, true)?)
 }
 
 /// The sink of a summary.
 fn sink(format: Option<Format>) -> Result<Sink> {
-    Sink::open(&OutputArgs { format, output_file: None }, None)
+    Sink::open(&OutputArgs { format, output_file: None }, &mut Guard::default())
 }

@@ -47,7 +47,7 @@ impl Job {
         let path = &behind_link(path);
         let format = Format::of(path)?;
         check_place(path, format, &record)?;
-        let partial = with_ending(path, ".partial");
+        let partial = with_ending(path, crate::JOURNAL);
         if begin == Begin::Resume
             && !partial.exists()
             && path.exists()

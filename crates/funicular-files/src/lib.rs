@@ -6,20 +6,25 @@
 
 pub mod arrow;
 mod csv;
+pub mod endings;
+mod guard;
 mod job;
 mod journal;
 mod merge;
 mod parquet;
 mod read;
+mod sealed;
 pub mod table;
 mod vti;
 pub mod whole;
 
+pub use guard::Guard;
 pub use job::{Begin, Job, Opened};
 pub use merge::merge;
 pub use read::SweepFile;
 pub use table::Table;
 
+use endings::Kind;
 use funicular::sweep::Chunk;
 use funicular_study::sweep::{Difference, Record};
 use std::fs::{self, OpenOptions, TryLockError};
@@ -37,6 +42,23 @@ pub enum FilesError {
         /// The file.
         path: PathBuf,
     },
+    /// A file of text whose ending says that it is something else.
+    #[error("{} would hold {written}, and .{ending} means {means}; choose a name that ends in {fitting}", .path.display())]
+    OtherEnding {
+        /// The file.
+        path: PathBuf,
+        /// What would be written into it, in words.
+        written: String,
+        /// Its ending, without the dot.
+        ending: String,
+        /// The meaning of the ending, in words.
+        means: &'static str,
+        /// The endings that fit.
+        fitting: String,
+    },
+    /// A file that would be written over one that is read, or over another that is written.
+    #[error("{0}")]
+    Clash(String),
     /// A place that results cannot be written to.
     #[error("cannot write to {}: {reason}", .path.display())]
     Place {
@@ -97,6 +119,16 @@ pub enum FilesError {
         difference: Difference,
         /// What to do.
         advice: &'static str,
+    },
+    /// A file whose bytes are not those that were written.
+    #[error(
+        "{} is damaged, or another program has written it anew: its checksum is not that of its bytes; copy it again \
+         from where it is whole, or remove it and compute it again",
+        .path.display()
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
     },
     /// A file without what a sweep writes into it.
     #[error("{} was not written by a sweep of funicular: {reason}", .path.display())]
@@ -159,11 +191,10 @@ impl Format {
     /// # Errors
     /// [`FilesError::Ending`] for any other.
     pub fn of(path: &Path) -> Result<Self, FilesError> {
-        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
-        match ending.as_deref() {
-            Some("parquet") => Ok(Self::Parquet),
-            Some("csv") => Ok(Self::Csv),
-            Some("vti") => Ok(Self::Vti),
+        match Kind::of(path) {
+            Some(Kind::Parquet) => Ok(Self::Parquet),
+            Some(Kind::Csv) => Ok(Self::Csv),
+            Some(Kind::Vti) => Ok(Self::Vti),
             _ => Err(FilesError::Ending { path: path.to_owned() }),
         }
     }
@@ -175,10 +206,16 @@ trait Rows {
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()>;
 }
 
+/// Behind the name of a file of rows: the journal of a run that has not ended.
+const JOURNAL: &str = ".partial";
+
+/// Behind the name of a file of rows: the file that will take its place.
+const NEW: &str = ".writing";
+
 /// Writes rows to a file, as a whole or not at all. Until then they are in `FILE.writing`: a name that the next try takes
 /// over, so that nothing is left of a run that was killed here.
 fn write_whole(path: &Path, format: Format, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {
-    let beside = with_ending(path, ".writing");
+    let beside = with_ending(path, NEW);
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(&beside)?;
     if let Err(TryLockError::WouldBlock) = file.try_lock() {
         return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another run is writing it"));

@@ -1,7 +1,7 @@
 //! Parts become the file that one run would have written.
 
 use crate::parquet::ParquetFile;
-use crate::{FilesError, Format, Rows, behind_link, job, write_whole};
+use crate::{FilesError, Format, Guard, Rows, behind_link, job, write_whole};
 use funicular::sweep::{Chunk, Column, Kind};
 use funicular_study::sweep::SCHEMA;
 use funicular_study::sweep::{Part, Record};
@@ -16,11 +16,11 @@ use std::path::{Path, PathBuf};
 /// [`FilesError`]: files that are no parts, parts that are missing, double, incomplete or of another sweep.
 pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     let format = Format::of(to)?;
-    let same = |path: &Path| path.canonicalize().ok().zip(to.canonicalize().ok()).is_some_and(|(a, b)| a == b);
-    if parts.iter().any(|part| same(part)) {
-        let reason = "it is one of the parts; choose another name".to_owned();
-        return Err(FilesError::Place { path: to.to_owned(), reason });
+    let mut guard = Guard::default();
+    for part in parts {
+        guard.reads("the part", part);
     }
+    guard.writes_rows("-o", to, false)?;
     let mut files = Vec::with_capacity(parts.len());
     for path in parts {
         files.push((path, ParquetFile::open(path)?));

@@ -1,6 +1,7 @@
 //! Rows as Parquet, with units, robot and plan.
 
 use crate::arrow::{self, Builders};
+use crate::sealed::{self, Seal, Sealing};
 use crate::{FilesError, Format, Rows};
 use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -26,11 +27,16 @@ const ROBOT: &str = "funicular.robot";
 const PART: &str = "funicular.part";
 const COMPLETE: &str = "funicular.complete";
 
-/// Writes rows; the bytes depend on record and rows alone.
+/// Why a file without a checksum is not read.
+const NO_CHECKSUM: &str = "its metadata lack the checksum: another program or an older version wrote it, or it is damaged; \
+                           compute it again";
+
+/// Writes rows, and the checksum of the whole file; the bytes depend on record and rows alone.
 pub(crate) fn write(out: impl Write + Send, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {
     let schema = Arc::new(arrow::schema(record));
-    let mut writer =
-        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties(record, complete))).map_err(other)?;
+    let properties = properties(record, complete);
+    let mut writer = ArrowWriter::try_new(Sealing::new(out), Arc::clone(&schema), Some(properties)).map_err(other)?;
+
     // Batches of one size, however rows come: they decide where pages begin.
     let mut group = Builders::new(&record.columns);
     let mut filled = 0;
@@ -51,9 +57,14 @@ pub(crate) fn write(out: impl Write + Send, record: &Record, rows: &dyn Rows, co
     })?;
     if filled > 0 {
         writer.write(&group.finish(&schema).map_err(io::Error::other)?).map_err(other)?;
+        writer.flush().map_err(other)?;
     }
-    let mut out = writer.into_inner().map_err(other)?;
-    out.flush()
+
+    // What follows is the footer, which holds the checksum: the pages have to be out before.
+    writer.append_key_value_metadata(KeyValue::new(sealed::KEY.to_owned(), sealed::BLANK.to_owned()));
+    writer.sync()?;
+    writer.inner_mut().hold();
+    writer.into_inner().map_err(other)?.seal()
 }
 
 fn properties(record: &Record, complete: bool) -> WriterProperties {
@@ -100,18 +111,28 @@ pub(crate) struct ParquetFile {
 }
 
 impl ParquetFile {
-    /// Reads what the file says of itself.
+    /// Reads what the file says of itself, once its checksum has shown that it is as it was written.
     pub(crate) fn open(path: &Path) -> Result<Self, FilesError> {
         let not_ours = |reason: &str| FilesError::NotOurs { path: path.to_owned(), reason: reason.to_owned() };
         let unreadable = |cause| FilesError::Read { path: path.to_owned(), cause };
         if path.is_dir() {
             return Err(unreadable(io::Error::new(io::ErrorKind::IsADirectory, "it is a directory; give the file")));
         }
+        // Nothing of a damaged file is decoded: not even its lengths are to be believed.
+        match sealed::check(path).map_err(unreadable)? {
+            Seal::Whole => {}
+            Seal::Broken => return Err(FilesError::Damaged { path: path.to_owned() }),
+            Seal::None => return Err(not_ours(NO_CHECKSUM)),
+            Seal::NoParquet => {
+                return Err(match Format::of(path) {
+                    Ok(Format::Csv | Format::Vti) => FilesError::NotParquet { path: path.to_owned() },
+                    _ => not_ours("it is no Parquet file, or only the beginning of one"),
+                });
+            }
+        }
         let file = File::open(path).map_err(unreadable)?;
-        let reader = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| match Format::of(path) {
-            Ok(Format::Csv | Format::Vti) => FilesError::NotParquet { path: path.to_owned() },
-            _ => not_ours(&format!("it is no Parquet file, or only the beginning of one ({error})")),
-        })?;
+        let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+            .map_err(|error| not_ours(&format!("it is no Parquet file that this program reads ({error})")))?;
         let metadata = reader.metadata().file_metadata();
         let pairs = metadata.key_value_metadata();
         let get = |key: &str| {

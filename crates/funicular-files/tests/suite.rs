@@ -4,7 +4,7 @@
 use arrow_array::{Array, Float64Array};
 use funicular::robot::Robot;
 use funicular::sweep::{Chunk, Options, Plan, Poses, Quantity, Steps, Values};
-use funicular_files::{Begin, FilesError, Job, Opened, merge};
+use funicular_files::{Begin, FilesError, Job, Opened, SweepFile, Table, merge};
 use funicular_study::request::Axis;
 use funicular_study::sweep::{Part, Record};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -223,6 +223,117 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
 fn complete_part(job: Box<Job>, chunks: &[Chunk], record: &Record) {
     assert_eq!(job.next(), record.range().start);
     complete(job, chunks, record.range().end);
+}
+
+/// A sweep of a few rows, short enough that each of its bytes can be damaged.
+fn small() -> (Record, Vec<Chunk>) {
+    let (record, chunks) = sweep();
+    let columns = record.columns[..4].to_vec();
+    let chunk = Chunk { index: 0, columns: chunks[0].columns[..4].to_vec() };
+    let rows = chunk.rows();
+    (Record { robot_file: "name = \"a\"\n".to_owned(), columns, rows, chunk_rows: rows, ..record }, vec![chunk])
+}
+
+/// Why a file is not taken: by everything that reads files of sweeps.
+fn refusals(path: &Path, record: &Record) -> Vec<String> {
+    let merged = path.with_extension("merged.parquet");
+    let refusals = [
+        SweepFile::open(path).err().map(|error| error.to_string()),
+        Table::read(path).err().map(|error| error.to_string()),
+        Job::open(path, record.clone(), Begin::Resume).err().map(|error| error.to_string()),
+        merge(&[path.to_owned()], &merged).err().map(|error| error.to_string()),
+    ];
+    assert!(!merged.exists() && !partial(path).exists(), "nothing is left");
+    refusals.into_iter().map(|refusal| refusal.expect("a damaged file is refused")).collect()
+}
+
+#[test]
+fn a_file_with_one_wrong_bit_anywhere_is_refused_by_every_reader() {
+    let (record, chunks) = small();
+    let record = Record { part: Some(Part { number: 1, of: 1 }), ..record };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let good = whole(&path, &record, &chunks);
+    assert!(matches!(Job::open(&path, record.clone(), Begin::Resume), Ok(Opened::Done)));
+    assert_eq!(Table::read(&path).unwrap().rows(), record.rows);
+    for at in 0..good.len() {
+        let mut bytes = good.clone();
+        bytes[at] ^= 1 << (at % 8);
+        fs::write(&path, &bytes).unwrap();
+        for said in refusals(&path, &record) {
+            let clear = ["is damaged, or another program", "it is no Parquet file, or only", "lack the checksum"];
+            assert!(clear.iter().any(|words| said.contains(words)), "byte {at}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_file_with_bytes_lost_added_or_blank_is_refused_by_every_reader() {
+    let (record, chunks) = sweep();
+    let record = Record { part: Some(Part { number: 1, of: 1 }), ..record };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let good = whole(&path, &record, &chunks);
+    for at in (0..good.len() - 64).step_by(good.len() / 60).chain([good.len() - 65, good.len() - 64]) {
+        let (before, behind) = good.split_at(at);
+        let mut swapped = good.clone();
+        swapped[at..at + 64].rotate_left(1);
+        let damaged = [
+            [before, &behind[64..]].concat(),
+            [before, &behind[..64], behind].concat(),
+            [before, &[0; 64], &behind[64..]].concat(),
+            before.to_vec(),
+            swapped,
+        ];
+        for (how, bytes) in damaged.iter().enumerate().filter(|(_, bytes)| **bytes != good) {
+            fs::write(&path, bytes).unwrap();
+            assert_eq!(refusals(&path, &record).len(), 4, "way {how} at {at}");
+        }
+    }
+
+    // Nor is a damaged file that was complete replaced by what an interrupted run has.
+    let mut bytes = good.clone();
+    bytes[100] ^= 1;
+    fs::write(&path, &bytes).unwrap();
+    let mut job = open(&path, &record, Begin::Anew).unwrap();
+    job.add(&chunks[0]).unwrap();
+    assert!(job.interrupt().unwrap().ends_with("a.parquet.partial"));
+    assert!(fs::read(&path).unwrap() == bytes);
+}
+
+#[test]
+fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_takes_ours() {
+    use arrow_array::RecordBatch;
+    use parquet::arrow::ArrowWriter;
+    use parquet::file::metadata::KeyValue;
+    use parquet::file::properties::WriterProperties;
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let good = whole(&path, &record, &chunks);
+    let again = folder.path().join("again.parquet");
+    assert!(whole(&again, &record, &chunks) == good, "the same bytes each time");
+
+    // Read by the library alone, which knows nothing of checksums, and written anew with the same metadata or without.
+    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
+    let schema = reader.schema().clone();
+    let batches: Vec<RecordBatch> = reader.build().unwrap().map(Result::unwrap).collect();
+    let rewritten = |keep: &dyn Fn(&KeyValue) -> bool| {
+        let kept = pairs.iter().filter(|pair| keep(pair)).cloned().collect();
+        let properties = WriterProperties::builder().set_key_value_metadata(Some(kept)).build();
+        let mut writer = ArrowWriter::try_new(File::create(&path).unwrap(), schema.clone(), Some(properties)).unwrap();
+        for batch in &batches {
+            writer.write(batch).unwrap();
+        }
+        writer.close().unwrap();
+        SweepFile::open(&path).err().expect("refused").to_string()
+    };
+    let said = rewritten(&|_| true);
+    assert!(said.contains("is damaged, or another program has written it anew: its checksum is not that"), "{said}");
+    let said = rewritten(&|pair| pair.key != "funicular.checksum");
+    assert!(said.contains("lack the checksum: another program or an older version wrote it"), "{said}");
+    assert!(rewritten(&|_| false).contains("was not written by a sweep of funicular"));
 }
 
 #[test]

@@ -132,7 +132,7 @@ impl PyEquilibrium {
         }
     }
 
-    /// Least eigenvalue of the scaled static stiffness [N/m]; None for ideal cables.
+    /// Least eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; None for ideal cables.
     #[getter]
     fn least_stiffness_n_per_m(&self) -> Option<f64> {
         least_stiffness(&self.at_rest.equilibrium.stability)
@@ -198,7 +198,9 @@ impl PyEquilibrium {
     ///     Frequency [Hz], or a row of n of them; 0 if not given.
     /// cable_model
     ///     How cables answer motion: `exact`, `closed-form`, `static-sag`, `catenary-tangent`, `spring`. If not given,
-    ///     `exact` for cables that hang, else `closed-form`; at 0 Hz the exact tangent of the static model.
+    ///     `exact` for cables that hang, else `closed-form`; at 0 Hz the exact tangent of the static model, in wind
+    ///     with a drag that turns with the cables, which makes it unsymmetric (theory (49d)). A named model has the
+    ///     symmetric stiffness with the drag held, as have other frequencies.
     /// assembly
     ///     `consistent`, or `paper`: the cables' end stiffness only, as Yuan et al. 2014.
     /// in_plane_only

@@ -14,7 +14,7 @@ use crate::vibration::{self, ModesKeywords, ModesObject, Pair};
 use crate::written::{self, PageKeywords, ReduceKeywords};
 use funicular::robot::{Robot, State};
 use funicular_study::analyses;
-use funicular_study::request::{self as requests, EachPoint, MapPoses, Request, RobotText, SweepValues, Tensions};
+use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest, Tensions};
 use funicular_study::robot_file::{self, MAX_BYTES, RobotFile};
 use numpy::Complex64;
 use pyo3::prelude::*;
@@ -441,7 +441,7 @@ impl PyRobot {
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
-        let request = Request::Map(MapPoses { robot: self.source.clone(), grid, poses, point });
+        let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
         let plan = PyPlan::of(py, request, part)?;
         Run { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
@@ -507,7 +507,7 @@ impl PyRobot {
         };
         let tensions = TensionKeywords { tension_rule, wanted_tension_n, min_tension_n, max_tension_n };
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
-        let request = Request::Sweep(SweepValues { robot: self.source.clone(), vary: vary.0, point });
+        let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
         let plan = PyPlan::of(py, request, part)?;
         Run { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
@@ -543,7 +543,7 @@ impl PyRobot {
         let (from, to, count) = mass_kg;
         let most = analyses::pose_error::MAX_MASSES;
         let rule = format!("the third is how many masses there are, from 2 to {most}");
-        let request = requests::PoseError {
+        let request = requests::PoseErrorRequest {
             robot: self.source.clone(),
             mass_kg: (from.value("mass_kg[0]")?, to.value("mass_kg[1]")?, count.within("mass_kg[2]", 2..=most, &rule)?),
             lengths_m: lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,

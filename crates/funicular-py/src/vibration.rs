@@ -114,7 +114,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         let most = request::MAX_STATIONS;
         count.within("stations", 2..=most, &format!("give a whole number from 2 to {most}"))
     };
-    let request = request::Modes {
+    let request = request::ModesRequest {
         robot: of.of.get().source.clone(),
         below_hz: keywords.below_hz.value("below_hz")?,
         input: keywords.input,
@@ -139,7 +139,7 @@ pub(crate) fn compare<'py>(
     assembly: &str,
     in_plane_only: bool,
 ) -> PyResult<Keyed<'py>> {
-    let request = request::Compare {
+    let request = request::CompareRequest {
         robot: of.of.get().source.clone(),
         below_hz: below_hz.value("below_hz")?,
         state: of.state.clone(),

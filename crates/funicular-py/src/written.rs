@@ -58,7 +58,7 @@ pub(crate) struct ReduceKeywords<'a> {
 }
 
 pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeywords<'_>) -> PyResult<ReducedObject> {
-    let request = request::Reduce {
+    let request = request::ReduceRequest {
         robot: of.of.get().source.clone(),
         below_hz: keywords.below_hz.value("below_hz")?,
         input: keywords.input.unwrap_or_default(),
@@ -106,7 +106,7 @@ pub(crate) fn export(
     modes_below_hz: Option<Number>,
 ) -> PyResult<Vec<String>> {
     let rule = format!("give a whole number from 1 to {MAX_SEGMENTS}");
-    let request = request::Export {
+    let request = request::ExportRequest {
         robot: of.of.get().source.clone(),
         to: named("to", to)?,
         segments: segments.within("segments", 1..=MAX_SEGMENTS, &rule)?,
@@ -139,7 +139,7 @@ pub(crate) fn report(
     path: Option<PathBuf>,
     keywords: PageKeywords<'_>,
 ) -> PyResult<PageObject> {
-    let request = request::Report {
+    let request = request::ReportRequest {
         robot: of.of.get().source.clone(),
         below_hz: keywords.below_hz.value("below_hz")?,
         input: keywords.input,

@@ -166,6 +166,22 @@ def test_a_sweep_in_memory_goes_to_any_format(rows: funicular.Sweep, tmp_path: P
         rows.to_parquet(tmp_path / "nowhere" / "rows.parquet")
 
 
+def test_a_damaged_file_is_refused(robot: funicular.Robot, tmp_path: Path) -> None:
+    path = tmp_path / "map.parquet"
+    asked: dict[str, Any] = {"grid": {"x": [0, 1], "y": 0, "z": 0.5}, "file": path}
+    robot.map(**asked)
+    good = path.read_bytes()
+    for at in range(0, len(good), 41):
+        path.write_bytes(good[:at] + bytes([good[at] ^ 4]) + good[at + 1 :])
+        message = "is damaged, or another program|it is no Parquet file|lack the checksum"
+        with pytest.raises(funicular.FileError, match=message):
+            funicular.Sweep.read(path)
+        with pytest.raises(funicular.FileError, match=message):
+            robot.map(**asked, resume=True)
+    path.write_bytes(good)
+    assert len(funicular.Sweep.read(path)) == 2
+
+
 def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: Path) -> None:
     path = tmp_path / "map.parquet"
     robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path)

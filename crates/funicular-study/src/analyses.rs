@@ -10,6 +10,7 @@ pub mod frf;
 pub mod modes;
 pub mod pose_error;
 pub mod reduce;
+pub mod shared;
 pub mod statics;
 pub mod stiffness;
 pub mod validate;

@@ -3,7 +3,7 @@
 use crate::names::TensionRuleName;
 use crate::request::{self, Load, Model, Points, Tensions, Terms};
 use anyhow::{Result, bail};
-use funicular::cable::{CableModel, Sag};
+use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::ports::{Input, OnCable, Output, PlaceError, Places};
@@ -11,7 +11,6 @@ use funicular::response::Direction;
 use funicular::robot::{self, Freedoms, Pose, Robot, State, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
 use funicular::validity;
-use serde::Serialize;
 
 /// A robot at rest.
 #[derive(Debug, Clone)]
@@ -152,55 +151,6 @@ fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
     Ok(robot)
 }
 
-/// The models behind a result, as JSON has them.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Models {
-    pub static_model: &'static str,
-    pub cable_model: &'static str,
-    pub assembly: &'static str,
-    pub in_plane_only: bool,
-}
-
-impl Models {
-    pub fn of(equilibrium: &Equilibrium, linearisation: Linearisation) -> Self {
-        Self {
-            static_model: equilibrium.model.name(),
-            cable_model: linearisation.cable_model.name(),
-            assembly: linearisation.assembly.name(),
-            in_plane_only: linearisation.in_plane_only,
-        }
-    }
-
-    /// One line for people.
-    pub fn line(&self) -> String {
-        let plane = if self.in_plane_only { ", in plane only" } else { "" };
-        format!("{} statics, {} cables, {} assembly{plane}", self.static_model, self.cable_model, self.assembly)
-    }
-}
-
-/// Numbers of a cable's sag, as JSON has them. They are absent for a cable without tension, the string frequency for one
-/// without mass, too.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct SagNumbers {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sag_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lambda2: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub string_frequency_hz: Option<f64>,
-}
-
-impl SagNumbers {
-    pub fn of(sag: &Sag) -> Self {
-        let taut = sag.tension > 0.0;
-        Self {
-            sag_ratio: taut.then(|| sag.ratio()),
-            lambda2: taut.then_some(sag.lambda2),
-            string_frequency_hz: taut.then(|| sag.string_frequency_hz()).filter(|f| f.is_finite()),
-        }
-    }
-}
-
 /// The cable model of a request; by default the dynamic one of the same shape as the static model.
 pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> CableModel {
     match (requested, static_model) {
@@ -228,6 +178,9 @@ pub fn directions(robot: &Robot, input: &Input, output: &Output, points: &Points
 
 impl AtRest {
     /// The points on cables where a response begins or ends.
+    ///
+    /// # Errors
+    /// [`PlaceError`]: a cable that the robot does not have, or a model without motion along its cables.
     pub fn places(
         &self,
         dynamics: &Dynamics,
@@ -237,13 +190,16 @@ impl AtRest {
         Places::new(&self.robot, &self.equilibrium, dynamics, input, output)
     }
 
-    /// Linearises, with what there is to warn of for frequencies up to a limit [Hz].
+    /// The robot linearised about its equilibrium, with warnings for frequencies up to a limit [Hz].
+    ///
+    /// # Errors
+    /// A cable model that has no stiffness at this equilibrium.
     pub fn dynamics(&self, linearisation: Linearisation, up_to_hz: f64) -> Result<(Dynamics, Vec<String>)> {
         let dynamics = Dynamics::about(&self.robot, &self.equilibrium, linearisation, up_to_hz)?;
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
-    /// What there is to warn of the statics and, if asked, of a cable model up to a frequency [Hz].
+    /// Warnings about the statics and, if given, about a cable model up to a frequency [Hz].
     pub fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
         let mut warnings = validity::of_statics(&self.robot, &self.equilibrium);
         if let Some((model, up_to_hz)) = dynamics {

@@ -57,8 +57,8 @@ pub const MAX_SEGMENTS: usize = 1000;
 ///
 /// # Errors
 /// A request that the program's files cannot answer, a slack cable, or no equilibrium of the catenary.
-pub fn run(at_rest: &AtRest, request: &request::Export) -> Result<Exported> {
-    let request::Export { to, segments, modes_below_hz, .. } = *request;
+pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exported> {
+    let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
     let mut warnings = Vec::new();
     let text = match to {
@@ -74,7 +74,7 @@ pub fn run(at_rest: &AtRest, request: &request::Export) -> Result<Exported> {
 ///
 /// # Errors
 /// What to leave out or to change.
-pub fn refuse(request: &request::Export) -> Result<()> {
+pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     if request.state.static_model != StaticModel::Catenary {
         bail!("export writes cables that hang: leave out ⟪static_model⟫");
     }

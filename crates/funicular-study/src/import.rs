@@ -33,7 +33,7 @@ pub struct Imported {
 ///
 /// # Errors
 /// The file, the line, the value and what to do; or why the robot is none that a robot file can hold.
-pub fn run(request: &request::Import, words: Words) -> Result<Imported> {
+pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
     let mut draft = read(&request.files, &Wanted { cable_set: request.cable_set.as_deref() })?;
     draft.complete(&request.ropes, &request.platform)?;
     let text = worded(&draft.to_toml()?, words);

@@ -26,6 +26,7 @@
 //! # Ok::<(), funicular_study::Error>(())
 //! ```
 
+#[expect(missing_docs, reason = "fields are the keys of the JSON: quantity and unit are their names")]
 pub mod analyses;
 pub mod at_rest;
 mod error;

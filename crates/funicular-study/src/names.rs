@@ -139,6 +139,7 @@ pub(crate) fn deserialize<'de, T: Named, D: Deserializer<'de>>(from: D) -> Resul
 pub(crate) mod optional {
     use super::{Deserialize, Deserializer, Named, Serializer};
 
+    #[expect(clippy::ref_option, reason = "serde calls it so")]
     pub(crate) fn serialize<T: Named, S: Serializer>(choice: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
         match choice {
             Some(choice) => to.serialize_some(choice.name()),

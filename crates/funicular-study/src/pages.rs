@@ -193,7 +193,7 @@ mod tests {
             closed_form.contains("Mode shapes are not shown") && closed_form.contains("--cable-model exact</code>")
         );
         assert!(!closed_form.contains("id=\"shapes-data\""));
-        // Ideal cables may push; then only the model that asks for no tension is left.
+        // Ideal cables have no stiffness of their own; the model that needs none of statics takes them.
         let linearisation = Linearisation { cable_model: CableModel::Spring, ..Linearisation::default() };
         let page = page_with(YUAN, StaticModel::Ideal, linearisation);
         assert!(own_part(&page).contains("Ideal cables are rigid"));

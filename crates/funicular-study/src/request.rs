@@ -31,53 +31,53 @@ pub const SCHEMA: &str = "funicular-request/1";
 #[serde(tag = "command", rename_all = "kebab-case")]
 pub enum Request {
     /// The robot file, checked.
-    Check(Check),
+    Check(CheckRequest),
     /// Equilibrium: pose, tensions, sag.
-    Statics(Statics),
+    Statics(StaticsRequest),
     /// The 6×6 stiffness at one frequency.
-    Stiffness(Stiffness),
+    Stiffness(StiffnessRequest),
     /// Every natural frequency below a limit.
-    Modes(Modes),
+    Modes(ModesRequest),
     /// One frequency response and its peaks.
-    Frf(Frf),
+    Frf(FrfRequest),
     /// Every cable model side by side.
-    Compare(Compare),
+    Compare(CompareRequest),
     /// Spring and catenary cables against ideal ones over platform mass.
-    PoseError(PoseError),
+    PoseError(PoseErrorRequest),
     /// Dynamic stiffness of one cable over frequency.
-    Cable(Cable),
+    Cable(CableRequest),
     /// A second-order model for control design.
-    Reduce(Reduce),
+    Reduce(ReduceRequest),
     /// Quantities over poses.
-    Map(MapPoses),
+    Map(MapRequest),
     /// Quantities over values of the robot file.
-    Sweep(SweepValues),
+    Sweep(SweepRequest),
     /// One page about one robot.
-    Report(Report),
+    Report(ReportRequest),
     /// The page about the starting paper.
-    Paper(Paper),
+    Paper(PaperRequest),
     /// A robot file from files of other programs.
-    Import(Import),
+    Import(ImportRequest),
     /// The robot at rest as a file of another program.
-    Export(Export),
+    Export(ExportRequest),
     /// The program against published and independent numbers.
-    Validate(Validate),
+    Validate(ValidateRequest),
     /// Parts of a map or sweep made one file.
-    Merge(Merge),
+    Merge(MergeRequest),
     /// The page about a map or sweep.
-    Plot(Plot),
+    Plot(PlotRequest),
 }
 
 /// Request of `check`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Check {
+pub struct CheckRequest {
     /// The robot file.
     pub robot: RobotText,
 }
 
 /// Request of `statics`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Statics {
+pub struct StaticsRequest {
     /// The robot file.
     pub robot: RobotText,
     /// State and loads.
@@ -93,7 +93,7 @@ pub struct Statics {
 
 /// Request of `stiffness`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Stiffness {
+pub struct StiffnessRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Frequency [Hz]; at 0 the tangent of the static model unless a cable model is named.
@@ -109,7 +109,7 @@ pub struct Stiffness {
 
 /// Request of `modes`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Modes {
+pub struct ModesRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Limit of the frequencies [Hz].
@@ -139,7 +139,7 @@ pub struct Modes {
 
 /// Request of `frf`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Frf {
+pub struct FrfRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Frequencies.
@@ -165,7 +165,7 @@ pub struct Frf {
 
 /// Request of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Compare {
+pub struct CompareRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Limit of the frequencies [Hz].
@@ -180,7 +180,7 @@ pub struct Compare {
 
 /// Request of `pose-error`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PoseError {
+pub struct PoseErrorRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Platform masses: first [kg], last [kg], number of them in equal steps.
@@ -195,7 +195,7 @@ pub struct PoseError {
 
 /// Request of `cable`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Cable {
+pub struct CableRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Name of the cable.
@@ -216,7 +216,7 @@ pub struct Cable {
 
 /// Request of `reduce`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Reduce {
+pub struct ReduceRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Highest frequency that the model is for [Hz].
@@ -246,7 +246,7 @@ pub struct Reduce {
 
 /// Request of `map`: quantities over poses, from a grid or a list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct MapPoses {
+pub struct MapRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Axes of the grid, each once; axes that it lacks are those of the state.
@@ -262,7 +262,7 @@ pub struct MapPoses {
 
 /// Request of `sweep`: quantities over all combinations of values of the robot file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepValues {
+pub struct SweepRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Values that vary, the first fastest; an axis is a path into the robot file.
@@ -274,7 +274,7 @@ pub struct SweepValues {
 
 /// Request of `report`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Report {
+pub struct ReportRequest {
     /// The robot file.
     pub robot: RobotText,
     /// Limit of the frequencies [Hz].
@@ -299,15 +299,15 @@ pub struct Report {
 
 /// Request of `paper`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Paper {}
+pub struct PaperRequest {}
 
 /// Request of `validate`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Validate {}
+pub struct ValidateRequest {}
 
 /// Request of `import`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Import {
+pub struct ImportRequest {
     /// The files of one robot.
     pub files: Vec<SourceFile>,
     /// Set of cables of a CASPR file.
@@ -323,7 +323,7 @@ pub struct Import {
 
 /// Request of `export`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Export {
+pub struct ExportRequest {
     /// The robot file.
     pub robot: RobotText,
     /// The program that the file is for.
@@ -345,14 +345,14 @@ pub struct Export {
 
 /// Request of `merge`; only a front end with a disk can run it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Merge {
+pub struct MergeRequest {
     /// Paths of the parts.
     pub parts: Vec<String>,
 }
 
 /// Request of `plot`; only a front end with a disk can run it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Plot {
+pub struct PlotRequest {
     /// Path of the file of a map or sweep.
     pub file: String,
 }

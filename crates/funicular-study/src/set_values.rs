@@ -129,7 +129,9 @@ fn to_json(value: &Value) -> Result<serde_json::Value, String> {
         Value::String(text) => text.value().as_str().into(),
         Value::Integer(number) => (*number.value()).into(),
         Value::Float(number) if number.value().is_finite() => (*number.value()).into(),
-        Value::Float(number) => return Err(format!("{} is not a finite number", number.value())),
+        Value::Float(number) => {
+            return Err(format!("{} is no value of a robot file: it must be finite", number.value()));
+        }
         Value::Boolean(truth) => (*truth.value()).into(),
         Value::Array(items) => items.iter().map(to_json).collect::<Result<Vec<_>, _>>()?.into(),
         Value::Datetime(_) | Value::InlineTable(_) => {

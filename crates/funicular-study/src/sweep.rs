@@ -12,7 +12,7 @@ pub use robot_values::{RobotValues, ValueAxis};
 
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
-use crate::request::{Axis, EachPoint, MapPoses, Request, RobotText, SweepValues};
+use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest};
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
@@ -49,7 +49,7 @@ impl PreparedSweep {
         }
     }
 
-    fn of_map(request: &MapPoses) -> Result<Self> {
+    fn of_map(request: &MapRequest) -> Result<Self> {
         let file = request.robot.read()?;
         let robot = adjusted(file.robot, &request.point)?;
         let mut request = request.clone();
@@ -81,7 +81,7 @@ impl PreparedSweep {
         Ok(Self { request, robot, robot_file: file.text, points, base, quantities, options })
     }
 
-    fn of_sweep(request: &SweepValues) -> Result<Self> {
+    fn of_sweep(request: &SweepRequest) -> Result<Self> {
         let text = request.robot.changed_text()?;
         let mut request = request.clone();
         if request.vary.is_empty() {
@@ -167,7 +167,7 @@ impl PreparedSweep {
         let Value::Object(mut keys) = self.request.to_value() else { return Map::new() };
         keys.remove("schema");
         keys.insert("robot".to_owned(), json!(self.robot.name));
-        if let Request::Map(MapPoses { poses, .. }) = &self.request {
+        if let Request::Map(MapRequest { poses, .. }) = &self.request {
             if let Some(poses) = poses {
                 keys.remove("grid");
                 let description = json!({ "count": poses.len(), "sha256": digest::of_poses(poses) });
@@ -251,7 +251,7 @@ fn steps_of(axes: &[Axis], key: &str) -> Result<Vec<(String, Steps)>> {
 }
 
 /// The pose at which the axes stay that the grid does not have: that of the request, or of the robot's state.
-fn base(robot: &Robot, request: &MapPoses) -> Result<Option<Pose>> {
+fn base(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
     Ok(match &robot.state {
         State::Pose(pose) => Some(*pose),
         State::Unknown => None,

@@ -13,6 +13,7 @@
 //! from 0 (taut) to ∞ (a loop that hangs straight down), and no term cancels on the way: a cable of any tautness,
 //! sag and inclination, vertical included, is one case. Derivation: docs/theory.md, equations (6) to (10).
 
+mod load;
 mod parallel;
 pub mod space;
 
@@ -265,7 +266,7 @@ impl Catenary {
             Slope::Loop => [[0.0, 0.0], [0.0, w / (2.0 * (1.0 + self.half_strain_of_weight()))]],
             Slope::Curved { v, tanh_v, sech2_v, .. } => {
                 let k = self.half_strain_of_weight();
-                let (by_x, by_z, _) = self.parameter_derivatives();
+                let (by_x, by_z, ..) = self.parameter_derivatives();
                 let (across, along) = (v + k, tanh_v + k);
                 let mixed = -w * x / (2.0 * across * across) * by_z;
                 [
@@ -321,7 +322,7 @@ impl Catenary {
             Slope::Straight => -ea * chord / (length * length),
             Slope::Curved { v, .. } => {
                 let across = v + self.half_strain_of_weight();
-                let (_, _, by_length) = self.parameter_derivatives();
+                let (_, _, by_length, _) = self.parameter_derivatives();
                 -chord * w / (2.0 * across * across) * (by_length + w / (2.0 * ea))
             }
         }
@@ -344,7 +345,7 @@ impl Catenary {
             Slope::Curved { v, tanh_v, sech2_v, .. } => {
                 let k = self.half_strain_of_weight();
                 let k_by_length = w / (2.0 * ea);
-                let (_, _, by_length) = self.parameter_derivatives();
+                let (_, _, by_length, _) = self.parameter_derivatives();
                 [
                     -self.horizontal / (v + k) * (by_length + k_by_length),
                     -self.vertical_mean / (tanh_v + k) * (sech2_v * by_length + k_by_length) - 0.5 * w,
@@ -379,10 +380,10 @@ impl Catenary {
         self.weight() / (2.0 * self.rope.axial_stiffness)
     }
 
-    /// (∂v/∂x, ∂v/∂z, ∂v/∂L0) [1/m], from F(v; x, z, L0) = 0.
-    fn parameter_derivatives(&self) -> (f64, f64, f64) {
+    /// (∂v/∂x, ∂v/∂z, ∂v/∂L0) [1/m] from F(v; x, z, L0) = 0, and ∂v/∂k at held x, z and L0.
+    fn parameter_derivatives(&self) -> (f64, f64, f64, f64) {
         let Slope::Curved { v, tanh_v, sech2_v, sinh_v, v_cosh_minus_sinh } = self.slope else {
-            return (0.0, 0.0, 0.0);
+            return (0.0, 0.0, 0.0, 0.0);
         };
         let (x, z, length) = (self.span, self.rise, self.rope.unstrained_length);
         let k = self.half_strain_of_weight();
@@ -394,8 +395,9 @@ impl Catenary {
         let half_slope = x * x * a * a_by_v + z * z * b * b_by_v;
         let k_by_length = self.rope.weight_per_length / (2.0 * self.rope.axial_stiffness);
         let (xa, zb) = (x * a, z * b);
-        let by_length = (length + (xa * xa / across + zb * zb / along) * k_by_length) / half_slope;
-        (-x * a * a / half_slope, -z * b * b / half_slope, by_length)
+        let slope_by_k = xa * xa / across + zb * zb / along;
+        let by_length = (length + slope_by_k * k_by_length) / half_slope;
+        (-x * a * a / half_slope, -z * b * b / half_slope, by_length, slope_by_k / half_slope)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Small linear algebra under names of the field, and the numerical helpers every room uses.
 //!
-//! This is the only file that names nalgebra's types, so that a change of library is a change here.
+//! The types that functions exchange are nalgebra's under these names. Code for several scalars or sizes (`dynamics.rs`,
+//! `cable/exact/abreast/chain.rs`) uses nalgebra's generic types itself.
 
 pub mod inertia;
 pub mod legendre;

@@ -9,8 +9,8 @@ use crate::statics::{self, Equilibrium, StaticModel, StaticsError};
 pub struct PoseErrorPoint {
     /// Platform mass [kg].
     pub mass: f64,
-    /// Equilibrium with ideal cables; it does not depend on the mass. An error with more cables than freedoms, where
-    /// rigid cables of given lengths do not close.
+    /// Equilibrium with ideal cables, whose pose does not depend on the mass. An error with more cables than freedoms,
+    /// where rigid cables of given lengths do not close, and where one of them would have to push.
     pub ideal: Result<Equilibrium, StaticsError>,
     /// Equilibrium with springs.
     pub spring: Result<Equilibrium, StaticsError>,

@@ -1,6 +1,7 @@
 //! Static equilibrium: lengths to pose ([`forward`]), pose to lengths ([`inverse`]).
 
 mod all;
+mod drag;
 mod energy;
 mod forward;
 mod inverse;
@@ -11,6 +12,7 @@ mod start;
 mod tension;
 
 pub use all::{Candidate, Candidates, all, other_stable};
+pub use drag::{antisymmetric_part, drag_effect, drag_stiffness, tangent_with_drag};
 pub use energy::energy;
 pub use forward::forward;
 pub use inverse::inverse;
@@ -28,7 +30,7 @@ use thiserror::Error;
 /// How a cable carries its static load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StaticModel {
-    /// Straight, massless, rigid in length; pulls or pushes as equilibrium asks.
+    /// Straight, massless, rigid in length; pulls as equilibrium asks, and has none where it would have to push.
     Ideal,
     /// Straight, massless, elastic; no force when slack.
     Spring,
@@ -64,7 +66,7 @@ pub struct CableState {
     pub unstrained_length: f64,
     /// Force of the cable on the platform, world axes [N].
     pub force_on_platform_w: Vec3,
-    /// Tension at the platform end [N]; negative if an ideal cable has to push.
+    /// Tension at the platform end [N].
     pub tension_platform: f64,
     /// Tension at the anchor [N].
     pub tension_anchor: f64,
@@ -104,7 +106,8 @@ pub struct Equilibrium {
     pub model: StaticModel,
     /// The cables, in file order.
     pub cables: Vec<CableState>,
-    /// What is left of the wrench: the larger of force and moment/ℓ over the sum of all tensions and the weight.
+    /// What is left of the wrench: the larger of force and moment/ℓ over the sum of all tensions and the weight. Zero
+    /// where no load acts and all tensions together are rounding, see [`carries_nothing`].
     pub residual: f64,
     /// Iterations taken.
     pub iterations: usize,
@@ -112,7 +115,8 @@ pub struct Equilibrium {
     pub stability: Stability,
 }
 
-/// What the static stiffness says of an equilibrium.
+/// What the static stiffness says of an equilibrium: the signs of the eigenvalues of its symmetric part, which is the work
+/// that a small displacement takes. In wind it is the symmetric part of [`tangent_with_drag`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stability {
     /// Every small displacement is opposed; the least eigenvalue of the scaled stiffness S K S [N/m].
@@ -209,7 +213,7 @@ pub enum StaticsError {
     /// The pose is singular: the cables do not span the freedoms.
     #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
     Singular,
-    /// A cable would have to push.
+    /// A straight cable would have to push.
     #[error(
         "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose; choose \
          another pose, mass or centre of mass"
@@ -220,12 +224,62 @@ pub enum StaticsError {
         /// Its tension [N], not positive.
         tension: f64,
     },
-    /// No tensions within the limits hold the pose.
+    /// No tensions found for sagging cables where a straight one would have to push. That is no proof that there are
+    /// none: the balance of sagging cables is not linear.
+    #[error(
+        "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N; sagging, {}; \
+         choose another pose, mass or centre of mass",
+        searched(*starts, *residual, *greatest)
+    )]
+    NotFound {
+        /// Name of the cable that lacks most if straight.
+        cable: String,
+        /// Its tension if straight [N], not positive.
+        tension: f64,
+        /// Number of starts of the search; none where only a cable longer than twice its chord could hold the pose.
+        starts: usize,
+        /// Least scaled residual reached.
+        residual: f64,
+        /// Greatest tension [N] of cables that do hold the pose, but with tensions out of all proportion.
+        greatest: Option<f64>,
+    },
+    /// Ideal cables of given lengths close at a pose where one of them would push.
+    #[error(
+        "no equilibrium with cables in tension: ideal cables of these lengths close at position ({x:.4}, {y:.4}, \
+         {z:.4}) m, where cable \"{cable}\" would need {tension:.4} N; choose other lengths, another mass or centre of \
+         mass, or the static model `spring` or `catenary`, whose platform moves until all cables pull or are slack"
+    )]
+    LengthsPush {
+        /// Name of the cable that lacks most.
+        cable: String,
+        /// Its tension [N], negative.
+        tension: f64,
+        /// Position of the platform [m].
+        x: f64,
+        /// Position of the platform [m].
+        y: f64,
+        /// Position of the platform [m].
+        z: f64,
+    },
+    /// No tensions within the limits hold the pose; proved.
     #[error(
         "no tensions within their limits hold this pose: the nearest miss the limits {0}; choose another pose, mass or \
          centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     BeyondLimits(Miss),
+    /// No tensions within the limits were found, and no proof that there are none: the balance of sagging cables is not
+    /// linear.
+    #[error(
+        "no tensions within their limits found that hold this pose, in a search from {starts} starts: the nearest miss \
+         the limits {miss}; choose another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, \
+         `maximum_tension_n`)"
+    )]
+    NotFoundWithinLimits {
+        /// By how much the nearest tensions found miss the limits, and which.
+        miss: Miss,
+        /// Number of starts of the search.
+        starts: usize,
+    },
     /// Limits between which there is nothing.
     #[error(
         "cable \"{cable}\" may have tensions from {minimum} N to {maximum} N, which is nothing: give it a \
@@ -269,6 +323,17 @@ pub enum StaticsError {
         "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
     )]
     NothingToStiffen,
+    /// More cables than the rule `stiffest` is made for.
+    #[error(
+        "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the cube \
+         of their number; choose the rule `middle`, `lowest` or `closest`"
+    )]
+    TooManyToStiffen {
+        /// Cables of the robot.
+        cables: usize,
+        /// Most that the rule takes.
+        limit: usize,
+    },
     /// Ideal cables are rigid: their poses are those of a mechanism, not of an energy.
     #[error("a search for all equilibria needs cables that stretch: choose the static model `spring` or `catenary`")]
     OneIdeal,
@@ -313,10 +378,33 @@ pub enum StaticsError {
         /// Position of the pose [m].
         z: f64,
     },
+    /// The loads are so small that rounding of the cables' elastic forces hides them.
+    #[error(
+        "no equilibrium found in {iterations} iterations: the loads are too small for cables as stiff as these, whose \
+         elastic forces are rounded by up to {rounding:.1e} N in all; at position ({x:.4}, {y:.4}, {z:.4}) m that leaves \
+         a scaled residual of {residual:.1e} (limit {limit:.0e}); give the platform more mass or load, the cables less \
+         stiffness, or no load at all"
+    )]
+    LostInRounding {
+        /// Iterations taken.
+        iterations: usize,
+        /// Scaled residual reached.
+        residual: f64,
+        /// Scaled residual asked.
+        limit: f64,
+        /// Force that rounding may leave [N].
+        rounding: f64,
+        /// Position reached [m].
+        x: f64,
+        /// Position reached [m].
+        y: f64,
+        /// Position reached [m].
+        z: f64,
+    },
     /// The search did not reach the tolerance.
     #[error(
-        "no equilibrium found in {iterations} iterations: scaled residual {residual:.3e} (limit {limit:.0e}) at position \
-         ({x:.4}, {y:.4}, {z:.4}) m"
+        "no equilibrium found in {iterations} iterations: {} (limit {limit:.0e}) at position ({x:.4}, {y:.4}, {z:.4}) m",
+        remainder(*residual)
     )]
     NotConverged {
         /// Iterations taken.
@@ -334,12 +422,27 @@ pub enum StaticsError {
     },
 }
 
+fn searched(starts: usize, residual: f64, greatest: Option<f64>) -> String {
+    if starts == 0 {
+        return format!("one of them would have to be more than {} times as long as its chord", inverse::LONGEST);
+    }
+    let starts = crate::counted(starts, "start");
+    greatest.map_or_else(
+        || format!("a search from {starts} left a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e})"),
+        |greatest| format!("a search from {starts} found only tensions up to {greatest:.3e} N, out of all proportion"),
+    )
+}
+
 fn unrest(change: f64, limit: f64) -> String {
     if change.is_finite() {
         format!("a step still changes them by {change:.3e} of their size (limit {limit:.0e})")
     } else {
         "from those that were reached there is no step within the limits".to_owned()
     }
+}
+
+fn remainder(residual: f64) -> String {
+    if residual.is_finite() { format!("scaled residual {residual:.3e}") } else { "no finite forces".to_owned() }
 }
 
 impl StaticsError {
@@ -354,16 +457,18 @@ impl StaticsError {
             Self::OutOfPlane(_) => "out-of-plane",
             Self::CoincidingEnds { .. } => "coinciding-ends",
             Self::Singular => "singular",
-            Self::WouldPush { .. } => "would-push",
+            Self::WouldPush { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "would-push",
             Self::BeyondLimits(_) => "beyond-limits",
+            Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NeedsMaximum { .. } => "needs-maximum",
             Self::WantedCount { .. } => "wanted-count",
             Self::Wanted { .. } => "wanted",
             Self::NothingToStiffen => "nothing-to-stiffen",
+            Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::OneIdeal => "one-ideal",
             Self::NotNearest { .. } => "not-nearest",
-            Self::NotConverged { .. } | Self::Unsettled { .. } => "not-converged",
+            Self::NotConverged { .. } | Self::LostInRounding { .. } | Self::Unsettled { .. } => "not-converged",
         }
     }
 
@@ -373,9 +478,13 @@ impl StaticsError {
             self,
             Self::Singular
                 | Self::WouldPush { .. }
+                | Self::NotFound { .. }
+                | Self::LengthsPush { .. }
                 | Self::BeyondLimits(_)
+                | Self::NotFoundWithinLimits { .. }
                 | Self::NotNearest { .. }
                 | Self::NotConverged { .. }
+                | Self::LostInRounding { .. }
                 | Self::Unsettled { .. }
         )
     }
@@ -383,6 +492,39 @@ impl StaticsError {
 
 /// Scaled residual below which an equilibrium counts as found; rounding leaves 1e-15 to 1e-12.
 pub const RESIDUAL_LIMIT: f64 = 1e-10;
+
+/// Largest scaled residual that rounding excuses. Very stiff cables under a very small load have a residual that no pose
+/// in floating point brings below [`RESIDUAL_LIMIT`]; up to this one the tensions are right to six digits, which is more
+/// than any input has. Beyond it rounding would soon be all there is, and the place no more than a guess.
+pub const MAX_RESIDUAL_OF_ROUNDING: f64 = 1e-6;
+
+/// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of some chords' length, a few operations.
+const CHORD_ROUNDING: f64 = 8.0;
+
+/// Force that rounding of all chords leaves in the balance [N]: strains of [`CHORD_ROUNDING`] in all cables.
+fn elastic_rounding(robot: &Robot) -> f64 {
+    let stiffness: f64 = robot.cables.iter().map(|cable| cable.material.axial_stiffness).sum();
+    CHORD_ROUNDING * f64::EPSILON * stiffness
+}
+
+/// Whether nothing is there to be balanced: nothing acts on the platform or its cables, and all tensions together are no
+/// more than rounding of the cables' elastic forces. A residual relative to them would be nothing over nothing.
+///
+/// # Example
+/// ```
+/// # use funicular::{math::Vec3, robot::Robot, statics::{self, StaticModel}};
+/// # let mut robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
+/// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// robot.gravity_w = Vec3::zeros();
+/// let afloat = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// assert!(statics::carries_nothing(&robot, &afloat) && afloat.residual == 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn carries_nothing(robot: &Robot, equilibrium: &Equilibrium) -> bool {
+    let tensions: f64 = equilibrium.cables.iter().map(|cable| cable.force_on_platform_w.norm()).sum();
+    let loads = LoadedCable::all(robot, &equilibrium.pose, equilibrium.model);
+    load_size(robot) == 0.0 && loads.iter().all(|cable| cable.load.size == 0.0) && tensions <= elastic_rounding(robot)
+}
 
 /// A cable without its length: where its anchor is, what it is made of and what acts on it.
 #[derive(Debug, Clone, Copy)]
@@ -494,6 +636,9 @@ pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
 
 /// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
 /// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
+///
+/// Every load keeps its direction: in wind this is the stiffness under the drag of the equilibrium, held. The stiffness with
+/// a drag that turns with the cables is [`tangent_with_drag`].
 ///
 /// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. Of a moment
 /// the antisymmetric half is left out: such a moment has no energy.
@@ -617,7 +762,7 @@ fn collect(
         .collect();
     let residual = residual_of(robot, &pose, &cables);
     let mut equilibrium = Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid };
-    if let Some(stiffness) = tangent_stiffness(robot, &equilibrium) {
+    if let Some(stiffness) = tangent_with_drag(robot, &equilibrium) {
         equilibrium.stability = stability(robot, &stiffness);
     }
     equilibrium

@@ -16,13 +16,6 @@ pub enum Warning {
         /// Name of the cable.
         cable: String,
     },
-    /// An ideal cable that would have to push.
-    Pushing {
-        /// Name of the cable.
-        cable: String,
-        /// Its tension [N], negative.
-        tension: f64,
-    },
     /// A rope beyond its breaking load.
     Breaks {
         /// Name of the cable.
@@ -50,7 +43,7 @@ pub enum Warning {
     },
     /// A pose near one at which the cables do not hold the platform.
     NearlySingular {
-        /// Tension per worst unit wrench, [`crate::statics::tension_gain`].
+        /// Tension per worst unit wrench, [`crate::statics::tension_gain`]; infinite at a singular pose.
         gain: f64,
     },
     /// An equilibrium that the platform leaves by itself.
@@ -79,6 +72,11 @@ pub enum Warning {
         cables: Vec<DeepSag>,
         /// The model.
         model: CableModel,
+    },
+    /// Wind whose drag turns with the cables, which the symmetric stiffness of vibration leaves out.
+    DragTurns {
+        /// Largest relative change of the static displacement under a small load, [`crate::statics::drag_effect`].
+        effect: f64,
     },
     /// Frequencies near a cable's first axial resonance, which no model here contains.
     AxialWaves {
@@ -137,6 +135,10 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
 /// library's robots, which have 0.9 to 3.1.
 pub const SINGULAR_GAIN: f64 = 30.0;
 
+/// Relative change of static displacements from which the turn of the drag is warned of; a drag coefficient is hardly known
+/// to one per cent.
+pub const DRAG_TURN_LIMIT: f64 = 0.01;
+
 /// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
 /// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
 pub const AXIAL_PART: f64 = 1.0 / 3.0;
@@ -148,12 +150,6 @@ impl fmt::Display for Warning {
                 f,
                 "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
                  choose the static model `catenary`, which knows its weight"
-            ),
-            Self::Pushing { cable, tension } => write!(
-                f,
-                "cable \"{cable}\" would have to push with {:.3} N: ideal cables cannot hold this pose; choose the \
-                 static model `spring` or `catenary`, or another pose",
-                -tension
             ),
             Self::Breaks { cable, tension, breaking_load } => write!(
                 f,
@@ -180,6 +176,11 @@ impl fmt::Display for Warning {
                     ropes.join(", ")
                 )
             }
+            Self::NearlySingular { gain } if gain.is_infinite() => write!(
+                f,
+                "the pose is singular: in some direction no tensions of the cables resist a force; choose a pose from \
+                 which the cables pull in more directions"
+            ),
             Self::NearlySingular { gain } => write!(
                 f,
                 "the pose is nearly singular: in its weakest direction a force of 1 N takes {gain:.0} N of tension (warned \
@@ -218,6 +219,13 @@ impl fmt::Display for Warning {
                     cables.iter().map(one).collect::<Vec<_>>().join(", ")
                 )
             }
+            Self::DragTurns { effect } => write!(
+                f,
+                "the drag of the wind turns with the cables and changes the static displacement under a small load by up \
+                 to {:.1} % (rotations times the platform's size); this stiffness, symmetric and with the drag held, leaves \
+                 it out: take static displacements from `stiffness` at 0 Hz without a cable model, which has it",
+                100.0 * effect
+            ),
             Self::AxialWaves { cable, axial_hz, below_hz } => write!(
                 f,
                 "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \"{cable}\": \
@@ -262,12 +270,7 @@ pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, asked: &Pose, distance:
 pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
-        if equilibrium.model == StaticModel::Ideal {
-            if state.tension_platform < 0.0 {
-                let (cable, tension) = (cable.name.clone(), state.tension_platform);
-                warnings.push(Warning::Pushing { cable, tension });
-            }
-        } else if state.is_slack() {
+        if equilibrium.model != StaticModel::Ideal && state.is_slack() {
             warnings.push(Warning::Slack { cable: cable.name.clone() });
         }
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
@@ -302,6 +305,9 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
     let cables: Vec<DeepSag> = states.filter_map(|(i, state)| DeepSag::of(robot, i, state, model)).collect();
     if !cables.is_empty() {
         warnings.push(Warning::DeepSag { cables, model });
+    }
+    if let Some(effect) = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT) {
+        warnings.push(Warning::DragTurns { effect });
     }
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {

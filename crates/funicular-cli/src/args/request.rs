@@ -95,20 +95,20 @@ impl RangeArgs {
 }
 
 impl StaticsArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Statics {
-        request::Statics { robot, state: self.state.request(), tensions: self.tensions.request(), all: self.all }
+    pub(crate) fn request(&self, robot: RobotText) -> request::StaticsRequest {
+        request::StaticsRequest { robot, state: self.state.request(), tensions: self.tensions.request(), all: self.all }
     }
 }
 
 impl StiffnessArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Stiffness {
-        request::Stiffness { robot, at_hz: self.at_hz, state: self.state.request(), model: self.model.request() }
+    pub(crate) fn request(&self, robot: RobotText) -> request::StiffnessRequest {
+        request::StiffnessRequest { robot, at_hz: self.at_hz, state: self.state.request(), model: self.model.request() }
     }
 }
 
 impl ModesArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Modes {
-        request::Modes {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ModesRequest {
+        request::ModesRequest {
             robot,
             below_hz: self.below_hz,
             input: self.input.as_ref().map(|input| input.name.clone()),
@@ -123,8 +123,8 @@ impl ModesArgs {
 }
 
 impl FrfArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Frf {
-        request::Frf {
+    pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
+        request::FrfRequest {
             robot,
             range: self.range.request(),
             input: self.input.name.clone(),
@@ -138,15 +138,20 @@ impl FrfArgs {
 }
 
 impl CompareArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Compare {
-        request::Compare { robot, below_hz: self.below_hz, state: self.state.request(), terms: self.terms.request() }
+    pub(crate) fn request(&self, robot: RobotText) -> request::CompareRequest {
+        request::CompareRequest {
+            robot,
+            below_hz: self.below_hz,
+            state: self.state.request(),
+            terms: self.terms.request(),
+        }
     }
 }
 
 impl PoseErrorArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::PoseError {
+    pub(crate) fn request(&self, robot: RobotText) -> request::PoseErrorRequest {
         let range = self.mass_kg;
-        request::PoseError {
+        request::PoseErrorRequest {
             robot,
             mass_kg: (range.from, range.to, range.count),
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
@@ -156,8 +161,8 @@ impl PoseErrorArgs {
 }
 
 impl CableArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Cable {
-        request::Cable {
+    pub(crate) fn request(&self, robot: RobotText) -> request::CableRequest {
+        request::CableRequest {
             robot,
             name: self.name.clone(),
             range: self.range.request(),
@@ -169,8 +174,8 @@ impl CableArgs {
 }
 
 impl ReduceArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Reduce {
-        request::Reduce {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ReduceRequest {
+        request::ReduceRequest {
             robot,
             below_hz: self.below_hz,
             input: self.input.iter().map(|input| input.name.clone()).collect(),
@@ -198,22 +203,22 @@ impl EachArgs {
 
 impl MapArgs {
     /// `poses` are those of the file of `--poses`.
-    pub(crate) fn request(&self, robot: RobotText, poses: Option<Vec<[f64; 6]>>) -> request::MapPoses {
+    pub(crate) fn request(&self, robot: RobotText, poses: Option<Vec<[f64; 6]>>) -> request::MapRequest {
         let grid = self.grid.iter().map(|(axis, steps)| Axis::new(axis.clone(), steps)).collect();
-        request::MapPoses { robot, grid, poses, point: self.point.request() }
+        request::MapRequest { robot, grid, poses, point: self.point.request() }
     }
 }
 
 impl SweepArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::SweepValues {
+    pub(crate) fn request(&self, robot: RobotText) -> request::SweepRequest {
         let vary = self.vary.iter().map(|axis| Axis::new(axis.path.text.clone(), &axis.steps)).collect();
-        request::SweepValues { robot, vary, point: self.point.request() }
+        request::SweepRequest { robot, vary, point: self.point.request() }
     }
 }
 
 impl ReportArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Report {
-        request::Report {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ReportRequest {
+        request::ReportRequest {
             robot,
             below_hz: self.below_hz,
             input: self.input.as_ref().map(|input| input.name.clone()),
@@ -226,9 +231,9 @@ impl ReportArgs {
 }
 
 impl ImportArgs {
-    pub(crate) fn request(&self, files: Vec<SourceFile>) -> request::Import {
+    pub(crate) fn request(&self, files: Vec<SourceFile>) -> request::ImportRequest {
         let (ropes, platform) = (&self.ropes, &self.platform);
-        request::Import {
+        request::ImportRequest {
             files,
             cable_set: self.cable_set.clone(),
             ropes: ImportRopes {
@@ -248,8 +253,8 @@ impl ImportArgs {
 }
 
 impl ExportArgs {
-    pub(crate) fn request(&self, robot: RobotText) -> request::Export {
-        request::Export {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ExportRequest {
+        request::ExportRequest {
             robot,
             to: ExportFormat::into(self.to),
             segments: self.segments as usize,
@@ -271,14 +276,14 @@ impl From<ExportFormat> for funicular_study::export::ExportFormat {
 }
 
 impl MergeArgs {
-    pub(crate) fn request(&self) -> request::Merge {
-        request::Merge { parts: self.parts.iter().map(|part| shown(part)).collect() }
+    pub(crate) fn request(&self) -> request::MergeRequest {
+        request::MergeRequest { parts: self.parts.iter().map(|part| shown(part)).collect() }
     }
 }
 
 impl PlotArgs {
-    pub(crate) fn request(&self) -> request::Plot {
-        request::Plot { file: shown(&self.file) }
+    pub(crate) fn request(&self) -> request::PlotRequest {
+        request::PlotRequest { file: shown(&self.file) }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::robot::Freedoms;
-use funicular_study::analyses::check::{Checked, LimitRow, MaterialRow};
+use funicular_study::analyses::check::{Checked, CheckedLimits, CheckedRope};
 use std::cmp::Ordering;
 use std::fmt::Write;
 
@@ -90,7 +90,7 @@ impl Printed for Checked {
             "load_z_n_per_m",
         ])?;
         for c in &self.cables {
-            let LimitRow { minimum_tension_n, maximum_tension_n } = c.limits;
+            let CheckedLimits { minimum_tension_n, maximum_tension_n } = c.limits;
             let limits = (minimum_tension_n, maximum_tension_n);
             let load = c.load_n_per_m.unwrap_or_default();
             out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m, limits, load))?;
@@ -100,7 +100,7 @@ impl Printed for Checked {
 }
 
 fn rope_table(found: &Checked) -> String {
-    let limited = |rope: &MaterialRow| limit_cells(&rope.limits).iter().any(|cell| cell != table::NONE);
+    let limited = |rope: &CheckedRope| limit_cells(&rope.limits).iter().any(|cell| cell != table::NONE);
     let limited = found.materials.iter().any(|rope| limited(rope) || rope.breaking_load_n.is_some());
     let header = [
         "rope",
@@ -170,7 +170,7 @@ fn cable_table(found: &Checked) -> String {
 }
 
 /// Minimum and maximum tension as two cells of a table.
-fn limit_cells(limits: &LimitRow) -> [String; 2] {
+fn limit_cells(limits: &CheckedLimits) -> [String; 2] {
     [or_none(limits.minimum_tension_n), or_none(limits.maximum_tension_n)]
 }
 

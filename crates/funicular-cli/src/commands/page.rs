@@ -2,10 +2,11 @@
 
 use crate::args::PlotArgs;
 use crate::errors;
-use crate::output::Target;
+use crate::output::{Content, Target};
 use crate::progress::{Shown, Waiting};
+use crate::robot_file;
 use anyhow::{Context, Result, bail};
-use funicular_files::SweepFile;
+use funicular_files::{Guard, SweepFile};
 use funicular_study::Request;
 use funicular_study::pages;
 use funicular_study::wording::{Words, worded};
@@ -15,7 +16,7 @@ use std::path::Path;
 pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path) -> Result<()> {
     let Request::Report(of) = request else { bail!("this is no request of `report`") };
     let file = of.robot.read()?;
-    let target = Target::open(Some(output), robot_path)?;
+    let target = Target::open(Some(output), Content::PAGE, &mut robot_file::guard(robot_path))?;
     let waiting = Waiting::for_("the robot's figures and tables");
     let page = pages::report::of_request(of, file, command_line()?)?;
     drop(waiting);
@@ -26,7 +27,7 @@ pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path
 
 /// The page of the starting paper.
 pub(crate) fn paper(output: &Path) -> Result<()> {
-    let target = Target::open(Some(output), None)?;
+    let target = Target::open(Some(output), Content::PAGE, &mut Guard::default())?;
     let waiting = Waiting::for_("the paper's figures and tables");
     let page = pages::paper::paper(command_line()?)?;
     drop(waiting);
@@ -37,11 +38,9 @@ pub(crate) fn paper(output: &Path) -> Result<()> {
 pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     let file = SweepFile::open(&args.file)?;
     let to = args.output_file.clone().unwrap_or_else(|| args.file.with_extension("html"));
-    let same = |a: &Path| a.canonicalize().ok();
-    if same(&to).is_some_and(|to| same(&args.file) == Some(to)) {
-        bail!("refusing to write the page over the rows in {}; choose another name for -o", args.file.display());
-    }
-    let target = Target::open(Some(&to), None)?;
+    let mut guard = Guard::default();
+    guard.reads("the rows in", &args.file);
+    let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
     let waiting = Waiting::for_("the pictures");
     let page = pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut Shown::default())?;
     drop(waiting);

@@ -1,14 +1,15 @@
 //! `reduce`: text, CSV and the files of the matrices.
 
-use crate::output::{self, Printed, Target};
-use crate::table::{Table, counted, decimals, significant};
+use crate::output::{self, Content, Printed, Target};
+use crate::table::{Table, counted, decimals};
 use anyhow::{Context, Result, bail};
 use funicular::math::DMat;
 use funicular::reduction::{SecondOrder, StateSpace};
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
 use funicular_study::analyses::Found;
 use funicular_study::analyses::reduce::{ChannelRow, Reduced};
 use funicular_study::json;
-use npyz::WriterBuilder;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
@@ -61,6 +62,10 @@ impl Printed for Reduced {
     }
 }
 
+/// The matrices in one file.
+const MATRICES: Content =
+    Content { name: "the matrices", option: "--model", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
+
 /// Where the matrices go.
 pub(crate) enum ModelFile {
     /// One NumPy archive.
@@ -71,11 +76,12 @@ pub(crate) enum ModelFile {
 
 impl ModelFile {
     /// Checks before the work that it can be written.
-    pub(crate) fn open(path: &Path, robot: &Path) -> Result<Self> {
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
-            return Ok(Self::Npz(Target::open(Some(path), Some(robot))?));
+    pub(crate) fn open(path: &Path, guard: &mut Guard) -> Result<Self> {
+        if Kind::of(path) == Some(Kind::Npz) {
+            return Ok(Self::Npz(Target::open(Some(path), MATRICES, guard)?));
         }
         let shown = path.display();
+        guard.writes_folder(MATRICES.name, MATRICES.option, path)?;
         if path.extension().is_some() && !path.is_dir() {
             bail!(
                 "--model {shown} is neither an .npz file nor a folder: write model.npz, or a folder without an ending"
@@ -132,22 +138,31 @@ fn npz(matrices: &[(&str, &DMat)], description: &[u8]) -> Result<Vec<u8>> {
     // The time of the format's beginning: the same model is the same file.
     let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
     for (name, matrix) in matrices {
-        archive.start_file(npyz::npz::file_name_from_array_name(name), options)?;
-        let mut array = Vec::new();
-        let shape = [matrix.nrows() as u64, matrix.ncols() as u64];
-        let mut writer = npyz::WriteOptions::new()
-            .default_dtype()
-            .shape(&shape)
-            .order(npyz::Order::Fortran)
-            .writer(&mut array)
-            .begin_nd()?;
-        writer.extend(matrix.iter())?;
-        writer.finish()?;
-        archive.write_all(&array)?;
+        archive.start_file(format!("{name}.npy"), options)?;
+        archive.write_all(&npy(matrix))?;
     }
     archive.start_file("description.json", options)?;
     archive.write_all(description)?;
     Ok(archive.finish()?.into_inner())
+}
+
+/// A matrix as NumPy keeps it: format 1.0, little-endian numbers, column by column (numpy.lib.format).
+fn npy(matrix: &DMat) -> Vec<u8> {
+    // The array begins at a multiple of this many bytes; the header ends with a new line before it.
+    const ALIGNMENT: usize = 64;
+    const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
+
+    let mut header =
+        format!("{{'descr': '<f8', 'fortran_order': True, 'shape': ({}, {}), }}", matrix.nrows(), matrix.ncols());
+    let before = MAGIC.len() + 2 + header.len() + 1;
+    header.push_str(&" ".repeat(before.next_multiple_of(ALIGNMENT) - before));
+    header.push('\n');
+
+    let length = u16::try_from(header.len()).expect("two numbers are far shorter than 64 KiB");
+    let mut bytes = [MAGIC, &length.to_le_bytes(), header.as_bytes()].concat();
+    // nalgebra keeps its matrices column by column, too.
+    bytes.extend(matrix.iter().flat_map(|value| value.to_le_bytes()));
+    bytes
 }
 
 /// A folder that takes its name when it is complete.

@@ -2,10 +2,10 @@
 
 use super::{analyse, page, write_export, write_import};
 use crate::args::{OutputArgs, RequestArgs};
-use crate::output::{self, Target};
-use crate::robot_file;
+use crate::output;
 use crate::sweep_run;
 use anyhow::{Context, Result, bail};
+use funicular_files::Guard;
 use funicular_study::request::Request;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -23,7 +23,7 @@ pub(crate) fn read(path: &Path) -> Result<Request> {
     } else {
         text = fs::read_to_string(path).with_context(|| format!("cannot read the request {shown}"))?;
     }
-    Ok(Request::from_json(&text).with_context(|| format!("{shown}"))?)
+    Request::from_json(&text).with_context(|| format!("{shown}"))
 }
 
 /// Prints a request as JSON.
@@ -36,24 +36,24 @@ pub(crate) fn print(request: &Request) -> Result<()> {
 /// Runs the request of a file.
 pub(crate) fn run(args: &RequestArgs) -> Result<()> {
     let request = read(&args.file)?;
+    let mut guard = Guard::default();
+    if args.file.as_os_str() != "-" {
+        guard.reads("the request", &args.file);
+    }
     let output = || OutputArgs { format: args.run.format, output_file: args.run.output_file.clone() };
     let place = || args.run.output_file.clone().unwrap_or_else(|| "-".into());
     match &request {
-        Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &[&args.file], &args.run),
+        Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),
-        Request::Import(of) => {
-            let place = place();
-            write_import(of, &Target::open(Some(&place), Some(&args.file))?, &place)
-        }
+        Request::Import(of) => write_import(of, &mut guard, &place()),
         Request::Export(of) => {
-            let place = place();
             let robot = of.robot.read()?.robot;
-            write_export(of, robot, &Target::open(Some(&place), Some(&args.file))?, &place)
+            write_export(of, robot, &mut guard, &place())
         }
         Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
             bail!("`funicular {}` writes files of its own: give its options", request.command())
         }
-        _ => analyse(&request, &output(), Some(&args.file)),
+        _ => analyse(&request, &output(), guard),
     }
 }

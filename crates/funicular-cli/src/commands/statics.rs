@@ -52,15 +52,19 @@ impl Printed for Statics {
             (Some(other), None) => other_text(other),
             (None, None) => String::new(),
         };
+        let balance = if self.carries_nothing {
+            "No load and no tension: nothing to balance,".to_owned()
+        } else {
+            format!("Residual {:.1e}", self.residual)
+        };
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
-             {cables}\n{stability}. Residual {:.1e} after {}.\n{others}",
+             {cables}\n{stability}. {balance} after {}.\n{others}",
             self.robot,
             self.static_model,
             short(self.mass_kg, 6),
             vector(&self.pose.position_m, 6),
             vector(&self.pose.roll_pitch_yaw_deg, 4),
-            self.residual,
             table::counted(self.iterations, "iteration"),
         )
     }

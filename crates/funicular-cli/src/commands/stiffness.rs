@@ -35,6 +35,14 @@ impl Printed for Stiffness {
             self.robot,
             self.models.line()
         );
+        if let Some(part) = self.antisymmetric_part {
+            let line = format!(
+                "The drag of the wind turns with the cables: the matrix is not symmetric, its antisymmetric part is {} % of it \
+                 (Frobenius norm, moments divided by the platform's size).\n\n",
+                significant(100.0 * part, 3)
+            );
+            out += &line;
+        }
         let is_real = self.imag.iter().flatten().all(|k| *k == 0.0);
         if is_real {
             out += &table(&self.real);

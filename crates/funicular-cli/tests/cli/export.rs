@@ -29,6 +29,45 @@ fn what_is_exported_to_moordyn_and_imported_again_rests_at_the_same_place() {
 }
 
 #[test]
+fn ropes_whose_long_names_begin_alike_stay_apart_in_moordyn_and_on_the_way_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("robot.txt");
+    let rope = "rope ".repeat(1000);
+    // Each cable has a rope of its own, with its own mass; the names differ in their last letter, hyphens begin sections.
+    let mut text = yuan();
+    let begin = text.find("[materials.rope-4mm]").unwrap();
+    let end = begin + text[begin..].find("\n[[").unwrap_or(text[begin..].len());
+    let material = text[begin..end].to_owned();
+    let mut materials = String::new();
+    for i in 1..=6 {
+        let named = material.replace("[materials.rope-4mm]", &format!("[materials.\"{rope}---{i}\"]"));
+        materials += &named.replace("mass_kg_per_m = 0.067", &format!("mass_kg_per_m = 0.06{i}"));
+        text = text.replacen("material = \"rope-4mm\"", &format!("material = \"{rope}---{i}\""), 1);
+    }
+    text.replace_range(begin..end, &materials);
+    let output = run_with(&["export", "-", "--to", "moordyn", "--segments", "5", "-o", path.to_str().unwrap()], &text);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let imported = succeed(&["import", path.to_str().unwrap()]);
+    assert_eq!(imported.matches("[materials.").count(), 6, "{imported}");
+    let again = run_with(&["statics", "-"], &imported);
+    assert_eq!(again.status.code(), Some(0), "{}", stderr(&again));
+
+    // A file of another program, whose own names are long and differ at their ends.
+    let long = "x".repeat(3000);
+    let mut file = std::fs::read_to_string(&path).unwrap();
+    for i in 1..=6 {
+        let name = file.lines().find_map(|line| {
+            let word = line.split_whitespace().next()?;
+            (word.starts_with("rope") && word.ends_with(&format!("_{i}"))).then(|| word.to_owned())
+        });
+        file = file.replace(&name.unwrap(), &format!("{long}{i}"));
+    }
+    std::fs::write(&path, file).unwrap();
+    let imported = succeed(&["import", path.to_str().unwrap()]);
+    assert_eq!(imported.matches("[materials.").count(), 6, "{imported}");
+}
+
+#[test]
 fn a_script_for_opensees_has_the_robot_its_numbers_and_the_frequencies_asked_for() {
     let script = succeed(&["export", "ROBOT", "--to", "opensees", "--segments", "3"]);
     assert!(script.starts_with("#!/usr/bin/env python3\n") && script.ends_with(")\n"));

@@ -5,6 +5,7 @@ mod export;
 mod files;
 mod freedoms;
 mod import;
+mod links;
 mod pages;
 mod plots;
 mod readme;
@@ -19,6 +20,12 @@ use std::process::Output;
 /// Path of a robot of the library.
 fn robot(name: &str) -> String {
     let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", "robots", name].iter().collect();
+    path.to_str().expect("the path is text").to_owned()
+}
+
+/// Path of a file of the project.
+fn project(name: &str) -> String {
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", name].iter().collect();
     path.to_str().expect("the path is text").to_owned()
 }
 

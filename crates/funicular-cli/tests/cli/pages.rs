@@ -76,7 +76,7 @@ fn pages_that_cannot_be_are_refused() {
         ("report --cable-model closed-form --below-hz 1e6", 2, "at most 2000 are listed"),
         ("report --below-hz 0", 2, "0 is not positive"),
         ("report no-such.toml", 2, "cannot read the robot file no-such.toml"),
-        ("report ROBOT -o ROBOT", 2, "refusing to write the result over the robot file"),
+        ("report ROBOT -o ROBOT", 2, "refusing to write the page over the robot file"),
         ("report -o /", 2, "it is a directory"),
         ("report --input mz --input-point-m 0,0,1", 2, "has no effect"),
         ("report --pose 30,0,1 -o -", 1, "no equilibrium"),

@@ -322,7 +322,7 @@ class Equilibria(_Columns):
     stable: NDArray[np.bool_]
     """Whether every small motion is opposed; false for ideal cables, which are rigid."""
     least_stiffness_n_per_m: NDArray[np.float64]
-    """Least eigenvalue of the scaled static stiffness [N/m]; NaN for ideal cables."""
+    """Least eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; NaN for ideal cables."""
     nearest_pose_distance_m: NDArray[np.float64]
     """Distance from the pose asked [m] where fewer cables than freedoms hold only the nearest; else NaN."""
     model: str

@@ -68,7 +68,7 @@ class Sweep:
         Raises
         ------
         FileError
-            The file cannot be read, or no sweep wrote it.
+            The file cannot be read, it is damaged (its checksum is not that of its bytes), or no sweep wrote it.
         """
         return cls(SweepTable.read(Path(path)), Path(path))
 

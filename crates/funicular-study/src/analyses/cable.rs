@@ -1,7 +1,8 @@
 //! `cable`: the dynamic stiffness of one cable's platform end, anchor held.
 
 use super::found;
-use crate::at_rest::{self, AtRest, SagNumbers};
+use super::shared::SagNumbers;
+use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::names::suggestion;
 use crate::request;
@@ -17,6 +18,7 @@ use std::f64::consts::TAU;
 /// Most clamped frequencies of one list.
 const MOST_CLAMPED: usize = 10_000;
 
+/// Results of `cable`: the stiffness of one cable's platform end over frequency.
 #[derive(Serialize)]
 pub struct CableResult {
     #[serde(skip)]
@@ -41,6 +43,7 @@ pub struct CableResult {
     pub warnings: Vec<String>,
 }
 
+/// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
 #[derive(Serialize)]
 pub struct Axes {
     pub e: [f64; 3],
@@ -56,7 +59,6 @@ impl Axes {
 
 /// Along the chord, coupling, normal in plane, out of plane [N/m].
 #[derive(Serialize)]
-#[expect(clippy::struct_field_names, reason = "the symbols of the cited equations, and the keys of the JSON")]
 pub struct Local {
     pub k_a: Curve,
     pub k_b: Curve,
@@ -64,6 +66,7 @@ pub struct Local {
     pub k_o: Curve,
 }
 
+/// One complex number over frequency.
 #[derive(Serialize)]
 pub struct Curve {
     pub real: Vec<f64>,
@@ -81,7 +84,7 @@ pub struct World {
 ///
 /// # Errors
 /// A name that no cable has, a robot without that equilibrium, or an undamped resonance at one of the frequencies.
-pub fn run(robot: Robot, request: &request::Cable) -> Result<CableResult> {
+pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
     let frequency_hz = request.range.frequencies()?;
     place(&robot, &request.name)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;

@@ -14,24 +14,25 @@ pub struct Checked {
     pub source: String,
     pub gravity_m_s2: [f64; 3],
     pub freedoms: usize,
-    pub platform: PlatformRow,
+    pub platform: CheckedPlatform,
     /// Absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<LoadRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<WindRow>,
-    pub materials: Vec<MaterialRow>,
-    pub cables: Vec<CableRow>,
+    pub materials: Vec<CheckedRope>,
+    pub cables: Vec<CheckedCable>,
     /// `lengths`, `pose` or `none`.
     pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub pose: Option<PoseRow>,
+    pub pose: Option<CheckedPose>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
+/// The platform of a robot file.
 #[derive(Serialize)]
-pub struct PlatformRow {
+pub struct CheckedPlatform {
     pub freedoms: &'static str,
     /// Only of a planar platform.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -90,8 +91,9 @@ impl WindRow {
     }
 }
 
+/// One rope of a robot file.
 #[derive(Serialize, PartialEq)]
-pub struct MaterialRow {
+pub struct CheckedRope {
     pub name: String,
     pub axial_stiffness_n: f64,
     pub mass_kg_per_m: f64,
@@ -100,7 +102,7 @@ pub struct MaterialRow {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub viscous_damping_n_s_m2: Option<f64>,
     #[serde(flatten)]
-    pub limits: LimitRow,
+    pub limits: CheckedLimits,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub breaking_load_n: Option<f64>,
     /// Drag coefficient times diameter.
@@ -110,21 +112,22 @@ pub struct MaterialRow {
 
 /// Limits of tension, as far as there are any.
 #[derive(Serialize, PartialEq)]
-pub struct LimitRow {
+pub struct CheckedLimits {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub minimum_tension_n: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub maximum_tension_n: Option<f64>,
 }
 
-impl LimitRow {
+impl CheckedLimits {
     fn of(limits: TensionLimits) -> Self {
         Self { minimum_tension_n: limits.minimum, maximum_tension_n: limits.maximum }
     }
 }
 
+/// One cable of a robot file.
 #[derive(Serialize)]
-pub struct CableRow {
+pub struct CheckedCable {
     pub name: String,
     pub material: String,
     pub anchor_m: [f64; 3],
@@ -133,34 +136,35 @@ pub struct CableRow {
     pub unstrained_length_m: Option<f64>,
     /// Its own or those of its rope.
     #[serde(flatten)]
-    pub limits: LimitRow,
+    pub limits: CheckedLimits,
     /// Besides weight and wind; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_n_per_m: Option<[f64; 3]>,
 }
 
+/// The pose of a robot file.
 #[derive(Serialize)]
-pub struct PoseRow {
+pub struct CheckedPose {
     pub position_m: [f64; 3],
     pub roll_pitch_yaw_deg: [f64; 3],
 }
 
 /// The robot as it was read, with warnings of what is unusual.
 pub fn run(robot: Robot) -> Checked {
-    let mut materials: Vec<MaterialRow> = Vec::new();
+    let mut materials: Vec<CheckedRope> = Vec::new();
     for cable in &robot.cables {
         let rope = &cable.material;
         let (damping_ratio, viscous_damping_n_s_m2) = match rope.damping {
             Damping::Ratio(ratio) => (Some(ratio), None),
             Damping::Viscous(coefficient) => (None, Some(coefficient)),
         };
-        let row = MaterialRow {
+        let row = CheckedRope {
             name: rope.name.clone(),
             axial_stiffness_n: rope.axial_stiffness,
             mass_kg_per_m: rope.mass_per_length,
             damping_ratio,
             viscous_damping_n_s_m2,
-            limits: LimitRow::of(rope.tension_limits),
+            limits: CheckedLimits::of(rope.tension_limits),
             breaking_load_n: rope.breaking_load,
             drag_width_m: rope.drag_width,
         };
@@ -176,20 +180,20 @@ pub fn run(robot: Robot) -> Checked {
         .cables
         .iter()
         .enumerate()
-        .map(|(i, cable)| CableRow {
+        .map(|(i, cable)| CheckedCable {
             name: cable.name.clone(),
             material: cable.material.name.clone(),
             anchor_m: cable.anchor_w.into(),
             attachment_m: cable.attachment_p.into(),
             unstrained_length_m: lengths.map(|lengths| lengths[i]),
-            limits: LimitRow::of(cable.limits()),
+            limits: CheckedLimits::of(cable.limits()),
             load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
         })
         .collect();
     let (state, pose) = match &robot.state {
         State::Lengths(_) => ("lengths", None),
         State::Pose(pose) => {
-            let row = PoseRow {
+            let row = CheckedPose {
                 position_m: pose.position_w.into(),
                 roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
             };
@@ -209,7 +213,7 @@ pub fn run(robot: Robot) -> Checked {
         source: robot.source,
         gravity_m_s2: robot.gravity_w.into(),
         freedoms,
-        platform: PlatformRow {
+        platform: CheckedPlatform {
             freedoms: robot.platform.freedoms.name(),
             plane_normal: plane.map(|plane| plane.normal_w().into()),
             plane_offset_m: plane.map(|plane| plane.offset()),

@@ -12,6 +12,7 @@ use funicular::modes;
 use funicular::robot::Robot;
 use serde::Serialize;
 
+/// Results of `compare`: every cable model against the reference.
 #[derive(Serialize)]
 pub struct Compared {
     #[serde(skip)]
@@ -28,6 +29,7 @@ pub struct Compared {
     pub warnings: Vec<String>,
 }
 
+/// One cable model: its modes, and how they match the reference.
 #[derive(Serialize)]
 pub struct ModelRow {
     pub cable_model: &'static str,
@@ -43,6 +45,7 @@ pub struct ModelRow {
     pub first_wrong_hz: Option<f64>,
 }
 
+/// One mode beside the mode of the reference that it matches.
 #[derive(Serialize)]
 pub struct MatchRow {
     pub frequency_hz: f64,
@@ -52,6 +55,7 @@ pub struct MatchRow {
     pub correlation: f64,
 }
 
+/// The simplest model that is good enough.
 #[derive(Serialize)]
 pub struct AdviceRow {
     pub cable_model: &'static str,
@@ -62,7 +66,7 @@ pub struct AdviceRow {
 ///
 /// # Errors
 /// A robot without that equilibrium, or too many modes.
-pub fn run(robot: Robot, request: &request::Compare) -> Result<Compared> {
+pub fn run(robot: Robot, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
     about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
 }
@@ -71,7 +75,7 @@ pub fn run(robot: Robot, request: &request::Compare) -> Result<Compared> {
 ///
 /// # Errors
 /// As of [`run`].
-pub fn about(at_rest: &AtRest, request: &request::Compare) -> Result<Compared> {
+pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
     let linearisation = Linearisation {
         // For the number of modes, before any work; the models follow.

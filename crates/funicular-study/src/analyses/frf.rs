@@ -1,8 +1,9 @@
 //! `frf`: one frequency response and its peaks.
 
 use super::found;
+use super::shared::Models;
 use crate::Watch;
-use crate::at_rest::{self, AtRest, Models, directions};
+use crate::at_rest::{self, AtRest, directions};
 use crate::error::Cancelled;
 use crate::request;
 use anyhow::Result;
@@ -18,6 +19,7 @@ use serde::{Serialize, Serializer};
 /// not depend on it.
 const CHUNK: usize = 16_384;
 
+/// Results of `frf`: one frequency response and its peaks.
 #[derive(Serialize)]
 pub struct Frf {
     #[serde(skip)]
@@ -40,6 +42,7 @@ pub struct Frf {
     pub warnings: Vec<String>,
 }
 
+/// One peak of a response.
 #[derive(Serialize)]
 pub struct PeakRow {
     pub frequency_hz: f64,
@@ -59,7 +62,7 @@ impl From<Peak> for PeakRow {
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without that equilibrium, an undamped resonance at one of the
 /// frequencies, or work that was stopped.
-pub fn run(robot: Robot, request: &request::Frf, watch: &mut dyn Watch) -> Result<Frf> {
+pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Frf> {
     let frequencies = request.range.frequencies()?;
     request::check_not_negative("prominence_db", request.prominence_db)?;
     // Signals that mean nothing are refused before the work.

@@ -1,8 +1,9 @@
 //! `modes`: every natural frequency below a limit.
 
 use super::cable::Axes;
+use super::shared::Models;
 use super::{found, frf};
-use crate::at_rest::{self, AtRest, Models};
+use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::{Result, bail};
 use funicular::cable_motion::CableStations;
@@ -14,8 +15,8 @@ use funicular::robot::Robot;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
+/// Results of `modes`: every natural frequency below a limit.
 #[derive(Serialize)]
-#[expect(clippy::struct_field_names, reason = "`modes` is a key of the JSON")]
 pub struct Modes {
     #[serde(skip)]
     pub robot: String,
@@ -56,6 +57,7 @@ pub struct StationsRow {
     pub axes: Axes,
 }
 
+/// One mode.
 #[derive(Serialize)]
 pub struct ModeRow {
     pub frequency_hz: f64,
@@ -105,7 +107,7 @@ impl From<modes::Mode> for ModeRow {
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without that equilibrium, or too many modes.
-pub fn run(robot: Robot, request: &request::Modes) -> Result<Modes> {
+pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     // Signals that mean nothing are refused before the work.
     directions(&robot, pair(request)?.as_ref(), request)?;
@@ -116,7 +118,7 @@ pub fn run(robot: Robot, request: &request::Modes) -> Result<Modes> {
 ///
 /// # Errors
 /// As of [`run`].
-pub fn about(at_rest: &AtRest, request: &request::Modes) -> Result<Modes> {
+pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     let pair = pair(request)?;
     let directions = directions(&at_rest.robot, pair.as_ref(), request)?;
@@ -179,7 +181,7 @@ pub fn about(at_rest: &AtRest, request: &request::Modes) -> Result<Modes> {
 }
 
 /// Input and output of the response that the modes take part in.
-fn pair(request: &request::Modes) -> Result<Option<(Input, Output)>> {
+fn pair(request: &request::ModesRequest) -> Result<Option<(Input, Output)>> {
     match (&request.input, &request.output) {
         (Some(input), Some(output)) => Ok(Some((request::input(input)?, request::output(output)?))),
         (None, None) => Ok(None),
@@ -192,7 +194,7 @@ fn pair(request: &request::Modes) -> Result<Option<(Input, Output)>> {
 fn directions(
     robot: &Robot,
     pair: Option<&(Input, Output)>,
-    request: &request::Modes,
+    request: &request::ModesRequest,
 ) -> Result<Option<(Direction, Direction)>> {
     pair.map(|(input, output)| at_rest::directions(robot, input, output, &request.points)).transpose()
 }

@@ -11,6 +11,7 @@ use funicular::pose_error::{self, PoseDifference, PoseErrorPoint, Threshold};
 use funicular::robot::{Robot, State};
 use serde::Serialize;
 
+/// Results of `pose-error`: distances between the poses of static models over platform mass.
 #[derive(Serialize)]
 pub struct PoseErrors {
     #[serde(skip)]
@@ -34,6 +35,7 @@ pub struct PointRow {
     pub spring_from_catenary: Option<Difference>,
 }
 
+/// Difference of two poses.
 #[derive(Serialize, Clone, Copy)]
 pub struct Difference {
     pub translation_m: [f64; 3],
@@ -51,6 +53,7 @@ impl From<PoseDifference> for Difference {
     }
 }
 
+/// Mass from which on springs are good enough.
 #[derive(Serialize)]
 pub struct ThresholdRow {
     pub tolerance_mm: f64,
@@ -65,10 +68,9 @@ pub struct ThresholdRow {
 /// # Errors
 /// A range that does not ascend, a robot without lengths, no mass at which two models have an equilibrium, or work that was
 /// stopped.
-pub fn run(robot: &Robot, request: &request::PoseError, watch: &mut dyn Watch) -> Result<PoseErrors> {
+pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn Watch) -> Result<PoseErrors> {
     let lengths = match (&request.lengths_m, &robot.state) {
-        (Some(lengths), _) => lengths,
-        (None, State::Lengths(lengths)) => lengths,
+        (Some(lengths), _) | (None, State::Lengths(lengths)) => lengths,
         (None, State::Pose(_) | State::Unknown) => bail!(
             "the robot file gives no unstrained lengths, which fix the comparison: give ⟪lengths_m⟫ (`funicular statics` \
              prints the lengths of a pose)"
@@ -128,7 +130,7 @@ pub fn run(robot: &Robot, request: &request::PoseError, watch: &mut dyn Watch) -
 pub const MAX_MASSES: usize = 100_000;
 
 /// The masses of the request [kg], ascending; the first and the last are exact.
-fn masses(request: &request::PoseError) -> Result<Vec<f64>> {
+fn masses(request: &request::PoseErrorRequest) -> Result<Vec<f64>> {
     let (from, to, count) = request.mass_kg;
     for mass in [from, to] {
         positive(mass).map_err(|reason| anyhow!("⟪mass_kg⟫: {reason}"))?;

@@ -1,7 +1,8 @@
 //! `reduce`: a small second-order model of the robot for control design.
 
 use super::found;
-use crate::at_rest::{self, AtRest, Models};
+use super::shared::Models;
+use crate::at_rest::{self, AtRest};
 use crate::request;
 use crate::text::significant;
 use anyhow::Result;
@@ -16,6 +17,7 @@ use serde::Serialize;
 /// Most natural frequencies that one model is to have: it has about twice as many coordinates.
 const MOST_MODES: usize = 400;
 
+/// Results of `reduce`: a second-order model and its errors.
 #[derive(Serialize)]
 pub struct Reduced {
     #[serde(skip)]
@@ -43,12 +45,14 @@ pub struct Reduced {
     pub warnings: Vec<String>,
 }
 
+/// One input or output of the model.
 #[derive(Serialize)]
 pub struct ChannelRow {
     pub name: String,
     pub unit: &'static str,
 }
 
+/// One coordinate of the model.
 #[derive(Serialize)]
 pub struct CoordinateRow {
     pub name: String,
@@ -61,7 +65,7 @@ pub struct CoordinateRow {
 ///
 /// # Errors
 /// A signal that means nothing on the robot, a robot without that equilibrium, or too many modes.
-pub fn run(robot: Robot, request: &request::Reduce) -> Result<Reduced> {
+pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
     check(&robot, request)?;
     about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
 }
@@ -70,7 +74,7 @@ pub fn run(robot: Robot, request: &request::Reduce) -> Result<Reduced> {
 type Signals = (Vec<(Input, Place)>, Vec<(Output, Place)>);
 
 /// Refuses numbers out of range and signals that mean nothing on the robot.
-fn check(robot: &Robot, request: &request::Reduce) -> Result<Signals> {
+fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     request::check_positive("below_hz", request.below_hz)?;
     request::check_not_negative("tolerance", request.tolerance)?;
     if let Some(hz) = request.damping_at_hz {
@@ -84,7 +88,7 @@ fn check(robot: &Robot, request: &request::Reduce) -> Result<Signals> {
 ///
 /// # Errors
 /// As of [`run`].
-pub fn about(at_rest: &AtRest, request: &request::Reduce) -> Result<Reduced> {
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduced> {
     let (inputs, outputs) = check(&at_rest.robot, request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
@@ -134,7 +138,7 @@ pub fn about(at_rest: &AtRest, request: &request::Reduce) -> Result<Reduced> {
 }
 
 /// The inputs asked, or every force and moment on the platform.
-fn inputs(robot: &Robot, request: &request::Reduce) -> Result<Vec<(Input, Place)>> {
+fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Place)>> {
     let all = ["fx", "fy", "fz", "mx", "my", "mz"];
     let asked = if request.input.is_empty() {
         let possible = robot.platform.freedoms.components();
@@ -151,7 +155,7 @@ fn inputs(robot: &Robot, request: &request::Reduce) -> Result<Vec<(Input, Place)
 }
 
 /// The outputs asked, or every displacement and rotation of the platform.
-fn outputs(robot: &Robot, request: &request::Reduce) -> Result<Vec<(Output, Place)>> {
+fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Place)>> {
     let all = ["x", "y", "z", "rx", "ry", "rz"];
     let asked = if request.output.is_empty() {
         let possible = robot.platform.freedoms.components();

@@ -2,7 +2,8 @@
 
 use super::check::{LoadRow, WindRow};
 use super::found;
-use crate::at_rest::{self, AtRest, SagNumbers};
+use super::shared::SagNumbers;
+use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::Sag;
@@ -11,6 +12,7 @@ use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
 use serde::Serialize;
 
+/// Results of `statics`: the equilibrium.
 #[derive(Serialize)]
 pub struct Statics {
     #[serde(skip)]
@@ -32,6 +34,9 @@ pub struct Statics {
     pub tension_rule: Option<&'static str>,
     pub cables: Vec<CableRow>,
     pub residual: f64,
+    /// Neither loads nor tensions: the residual says nothing.
+    #[serde(skip)]
+    pub carries_nothing: bool,
     pub iterations: usize,
     /// Absent for ideal cables, which are rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -107,6 +112,7 @@ impl OtherStable {
     }
 }
 
+/// Pose of the platform.
 #[derive(Serialize)]
 pub struct PoseRow {
     pub position_m: [f64; 3],
@@ -124,6 +130,7 @@ impl PoseRow {
     }
 }
 
+/// One cable at the equilibrium.
 #[derive(Serialize)]
 pub struct CableRow {
     pub name: String,
@@ -174,7 +181,7 @@ impl LimitNumbers {
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, or a robot without that equilibrium.
-pub fn run(robot: Robot, request: &request::Statics) -> Result<Statics> {
+pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
     about(&at_rest::equilibrium(robot, &request.state, &request.tensions)?, request.all)
 }
 
@@ -241,6 +248,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
         residual: equilibrium.residual,
+        carries_nothing: statics::carries_nothing(robot, equilibrium),
         iterations: equilibrium.iterations,
         stable,
         least_stiffness_n_per_m,

@@ -162,11 +162,16 @@ fn refuse(robot: &Robot) -> Result<()> {
     Ok(())
 }
 
-/// Name of the line type of cable `i`: that of its rope without what ends a word, and a number, since every cable has its
-/// own mass per length.
+/// Letters of a rope's name that the name of a line type takes: enough to recognise it, and few enough for readers that
+/// have room for a short word only.
+const MAX_ROPE_LETTERS: usize = 64;
+
+/// Name of the line type of cable `i`: the beginning of its rope's name without what ends a word or begins a section, and a
+/// number, since every cable has its own mass per length. The number makes it unique, however alike the ropes' names are.
 fn type_name(material: &str, i: usize) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() || "-.".contains(c) { c } else { '_' };
-    format!("{}_{}", material.chars().map(letter).collect::<String>(), i + 1)
+    let rope: String = material.chars().take(MAX_ROPE_LETTERS).map(letter).collect();
+    format!("{}_{}", without_section(&rope), i + 1)
 }
 
 /// The body's frame.
@@ -242,6 +247,19 @@ fn without_section(text: &str) -> String {
 mod tests {
     use super::*;
     use funicular::math::{Rotation, rotation};
+
+    #[test]
+    fn names_of_line_types_differ_whatever_the_ropes_are_called() {
+        let long = "rope".repeat(1000);
+        let ropes =
+            [long.clone(), format!("{long}a"), format!("{long}b"), "a b".to_owned(), "a_b".to_owned(), "索".into()];
+        let names: Vec<String> = ropes.iter().enumerate().map(|(i, rope)| type_name(rope, i)).collect();
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[..i].contains(name) && name.len() < 80, "{name}");
+        }
+        assert_eq!(type_name("rope-4mm", 0), "rope-4mm_1");
+        assert_eq!(type_name("a ----- b", 2), "a_--_b_3", "three hyphens would begin a section");
+    }
 
     #[test]
     fn of_all_principal_axes_those_are_taken_that_turn_the_frame_least() {

@@ -9,7 +9,7 @@ mod objects;
 mod sections;
 
 use super::draft::{Draft, DraftCable, DraftFreedoms, DraftPlatform, DraftRope, DraftState};
-use super::text::SourceFile;
+use super::text::{SourceFile, clean};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 use objects::{Holder, Line, Model, Point};
@@ -151,8 +151,10 @@ fn cable(file: &SourceFile, model: &Model, line: &Line, anchor: &Point, attachme
             )
         ));
     }
-    let Some(kind) = model.types.iter().find(|kind| kind.name == line.kind) else {
-        bail!(line.row.error(file, format!("line {} is of type `{}`, which is not defined", line.id, line.kind)));
+    let Some(kind) = model.types.iter().find(|kind| kind.word == line.kind) else {
+        bail!(
+            line.row.error(file, format!("line {} is of type `{}`, which is not defined", line.id, clean(line.kind)))
+        );
     };
     Ok(DraftCable {
         name: line.id.to_string(),

@@ -121,6 +121,61 @@ mod tests {
             prop_assert!(more.greatest_tension() > less.greatest_tension());
             prop_assert!(more.least_tension() > less.least_tension());
         }
+
+        /// What proofs that no tensions exist rest on, (39b): what sag adds to the mean vertical force falls with the
+        /// parallel tension, ever more slowly, and so does the length unless the cable is steep.
+        #[test]
+        fn bend_and_length_are_convex_functions_of_the_parallel_tension(
+            slope in -1.0f64..=1.0, stiffness in 0.0f64..6.0,
+        ) {
+            const STEPS: u32 = 300;
+            const ROUNDING: f64 = 1e-11;
+            let (span, rise) = ((1.0 - slope * slope).sqrt(), slope);
+            let axial_stiffness = 10f64.powf(stiffness);
+            let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness };
+            let high = axial_stiffness.min(1000.0);
+            let mut last: Option<[f64; 2]> = None;
+            for k in 0..=STEPS {
+                let part = f64::from(k) / f64::from(STEPS);
+                let tension = Catenary::SLACKEST * (high / Catenary::SLACKEST).powf(part);
+                let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
+                let by_tension = 1.0 / cable.parallel_tension_by_length();
+                let bend = (cable.vertical_mean - tension * slope) * slope.signum();
+                let by_length = cable.start_force_by_length()[1];
+                let bend_rate = (by_length * by_tension - slope + 0.5 * by_tension) * slope.signum();
+                prop_assert!(bend >= -ROUNDING * (1.0 + tension) && bend_rate <= ROUNDING && by_tension < 0.0);
+                if let Some([bend_before, length_before]) = last {
+                    prop_assert!(bend_rate >= bend_before - ROUNDING, "{bend_before} {bend_rate} at {tension}");
+                    let steep = slope.abs() > 0.95;
+                    prop_assert!(steep || by_tension >= length_before - ROUNDING, "{length_before} {by_tension} at {tension}");
+                }
+                last = Some([bend_rate, by_tension]);
+            }
+        }
+    }
+
+    /// (36a): what is left of the vertical force beside its terms falls by the order of the first one left out when the
+    /// tension doubles, and what is left beside the straight line by the order of (36a)'s own.
+    #[test]
+    fn the_vertical_force_bends_with_the_first_power_of_weight_over_tension_in_inclined_cables() {
+        // So stiff that the strain, 3e-12 at most, is far below the last term looked at, 2e-8.
+        let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 1e13 };
+        for (sin, line_order, remainder_order) in [(0.6, 1, 3), (-0.8, 1, 3), (0.0, 2, 4)] {
+            let cos2: f64 = 1.0 - sin * sin;
+            let left = |tau: f64| {
+                let cable = Catenary::with_parallel_tension(cos2.sqrt(), sin, rope, tau);
+                let beside_line = cable.vertical_force_at_start() - (tau * sin - 0.5);
+                (beside_line, beside_line - (sin / (12.0 * tau) - cos2 / (48.0 * tau * tau)))
+            };
+            for tau in [6.0, 12.0] {
+                let ((line, rest), (line_2, rest_2)) = (left(tau), left(2.0 * tau));
+                // The next order adds some per cents to each at these tensions.
+                let order = |one: f64, two: f64| (one / two).log2();
+                assert!((order(line, line_2) - f64::from(line_order)).abs() < 0.1, "{sin} {tau}: {line} {line_2}");
+                let found = order(rest, rest_2);
+                assert!((found - f64::from(remainder_order)).abs() < 0.1, "{sin} {tau}: {rest:e} {rest_2:e} {found}");
+            }
+        }
     }
 
     #[test]

@@ -117,12 +117,23 @@ pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
     };
     v.cross(&least).normalize()
 }
+
+/// Span over rise below which the horizontal direction of a chord is found twice; rounding of the first is 1e-16 of the
+/// rise, so that its error is below 1e-8 of the direction elsewhere.
+const NEARLY_VERTICAL: f64 = 1e-8;
+
 /// Span, rise and horizontal direction from one point to another.
 #[inline]
 fn plane(start_w: &Vec3, end_w: &Vec3, up_w: &Vec3) -> (f64, f64, Vec3) {
     let chord = end_w - start_w;
     let rise = chord.dot(up_w);
-    let across = chord - up_w * rise;
-    let span = across.norm();
+    let mut across = chord - up_w * rise;
+    let mut span = across.norm();
+    // Of a cable that is vertical to rounding, what is left across is rounding and may even point up: made horizontal again.
+    if span < NEARLY_VERTICAL * rise.abs() {
+        across -= up_w * across.dot(up_w);
+        // Where most of it pointed up, all of it was rounding: the cable is vertical.
+        span = if across.norm() < 0.5 * span { 0.0 } else { across.norm() };
+    }
     (span, rise, if span > 0.0 { across / span } else { any_normal(up_w) })
 }

@@ -1,7 +1,7 @@
 //! Steady wind, and what acts on every metre of a cable: its weight, the wind, and what else the file puts on it.
 
 use super::Robot;
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 
 /// Steady, uniform wind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +29,23 @@ impl Wind {
     pub fn cross_pressure_w(&self, axis_w: &Vec3) -> Vec3 {
         let across = self.velocity_w - axis_w * axis_w.dot(&self.velocity_w);
         across * (0.5 * self.air_density * across.norm())
+    }
+
+    /// Derivative of [`Self::cross_pressure_w`] by a chord of the direction `axis_w` (a unit vector) and the length `chord`
+    /// [m]; 3×3, world axes, not symmetric [N/m³]. Zero where the wind blows along the chord.
+    ///
+    /// # References
+    /// docs/theory.md, equation (49a).
+    fn cross_pressure_by_chord_w(&self, axis_w: &Vec3, chord: f64) -> Mat3 {
+        let along = axis_w.dot(&self.velocity_w);
+        let across = self.velocity_w - axis_w * along;
+        let speed = across.norm();
+        if speed == 0.0 {
+            return Mat3::zeros();
+        }
+        let direction = across / speed;
+        let turned = Mat3::identity() - axis_w * axis_w.transpose() + direction * direction.transpose();
+        (turned * along + axis_w * across.transpose()) * (-0.5 * self.air_density * speed / chord)
     }
 }
 
@@ -84,6 +101,20 @@ impl Robot {
         }
         let size = total.norm();
         if size > 0.0 { LineLoad { up_w: -total / size, size } } else { LineLoad { up_w: self.up_w(), size } }
+    }
+
+    /// Derivative of [`Self::line_load`] of cable `i`, as a vector, by its chord: how the drag of the wind turns with the
+    /// cable; 3×3, world axes, not symmetric [N/m²]. `None` where the load does not depend on the chord.
+    ///
+    /// # References
+    /// docs/theory.md, equation (49a).
+    pub fn line_load_by_chord(&self, i: usize, chord_w: &Vec3) -> Option<Mat3> {
+        let drag_width = self.cables[i].material.drag_width.filter(|width| *width > 0.0)?;
+        if self.wind.velocity_w == Vec3::zeros() {
+            return None;
+        }
+        let axis = chord_w.try_normalize(0.0)?;
+        Some(self.wind.cross_pressure_by_chord_w(&axis, chord_w.norm()) * drag_width)
     }
 
     /// The load on some cable depends on the direction of its chord.

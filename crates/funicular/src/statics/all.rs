@@ -7,8 +7,8 @@
 //! space, whatever the robot (theory, section 16). A list with another sum lacks an equilibrium; one with this sum may
 //! still lack a pair.
 
-use super::forward::{Search, Trial, elastic};
-use super::{Equilibrium, StaticModel, StaticsError, check_lengths, collect, distance, forward};
+use super::forward::{Search, elastic};
+use super::{Equilibrium, StaticModel, StaticsError, check_lengths, distance, forward};
 use crate::math::{Vec3, inertia};
 use crate::robot::{Freedoms, Pose, Robot};
 use std::f64::consts::TAU;
@@ -205,7 +205,7 @@ impl<'a> Hunt<'a> {
         let mut search = Search::new(self.robot, self.lengths, self.model, &turned);
         search.turns = false;
         let (trial, _) = search.rest(turned);
-        (trial.residual <= trial.limit).then_some(trial.pose)
+        search.holds(&trial).then_some(trial.pose)
     }
 
     fn downhill(&self, start: Pose) -> Option<Equilibrium> {
@@ -234,7 +234,7 @@ impl<'a> Hunt<'a> {
                     vector * (vector.dot(&here.wrench) / curvature)
                 })
                 .sum();
-            let next = search.at(search.moved(&here.pose, &search.limited(&step).0));
+            let next = search.at(search.moved(&here.pose, &search.limited(&here, &step).0));
             let near = here.residual < here.limit;
             if near && next.residual >= here.residual {
                 break;
@@ -245,8 +245,7 @@ impl<'a> Hunt<'a> {
                 return None;
             }
         }
-        let Trial { pose, cables, .. } = here;
-        Some(collect(self.robot, pose, self.model, cables, self.lengths, steps))
+        search.holds(&here).then(|| search.collected(here, self.model, steps))
     }
 
     /// Adds an equilibrium unless it is in the list; whether it did.

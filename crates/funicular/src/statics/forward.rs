@@ -1,8 +1,9 @@
 //! Unstrained lengths to pose.
 
 use super::{
-    CableState, Equilibrium, LoadedCable, RESIDUAL_LIMIT, Stability, StaticModel, StaticsError, assembled, balance,
-    check_lengths, collect, energy, load_wrench, residual_of, scaled, scaled_residual, scaled_wrench, start, wrench_of,
+    CableState, Equilibrium, LoadedCable, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability, StaticModel,
+    StaticsError, assembled, balance, check_lengths, collect, elastic_rounding, energy, load_size, load_wrench,
+    residual_of, scaled, scaled_residual, scaled_wrench, start, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec3, Vec6, inertia};
@@ -16,12 +17,13 @@ const MOST_ITERATIONS: usize = 5000;
 ///
 /// `spring` and `catenary`: minimises the potential energy of cables and platform by Newton's method with shifted
 /// stiffness, so that what it finds is a stable equilibrium wherever there is one near, or an indifferent one; any number
-/// of cables. `ideal`: closes the lengths, as many cables as freedoms. `start`: where to begin; without it
+/// of cables. `ideal`: closes the lengths, as many cables as freedoms, all of which have to pull. `start`: where to begin; without it
 /// the pose that straight cables of these lengths come closest to.
 ///
 /// # Errors
-/// [`StaticsError`]: lengths that do not fit the robot, ideal cables that are not as many as freedoms, a start out of a
-/// planar platform's plane, or no equilibrium within the tolerance.
+/// [`StaticsError`]: lengths that do not fit the robot, ideal cables that are not as many as freedoms or one of which
+/// would have to push, a start out of a planar platform's plane, no equilibrium within [`RESIDUAL_LIMIT`], or, where
+/// rounding of stiff cables leaves more, none within [`MAX_RESIDUAL_OF_ROUNDING`].
 ///
 /// # Example
 /// ```
@@ -60,14 +62,11 @@ pub(super) struct Trial {
     /// Wrench on the platform in its coordinates, scaled.
     pub(super) wrench: Vec6,
     pub(super) residual: f64,
-    /// What `residual` has to fall below: [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables
-    /// under very small loads.
+    /// [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables under very small loads: below it the
+    /// search cannot come nearer. Whether the place is an equilibrium, [`Search::holds`] says.
     pub(super) limit: f64,
     pub(super) energy: f64,
 }
-
-/// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of some chords' length, a few operations.
-const CHORD_ROUNDING: f64 = 8.0;
 
 /// The robot with its lengths: energy, wrench and stiffness at any pose.
 pub(super) struct Search<'a> {
@@ -76,6 +75,8 @@ pub(super) struct Search<'a> {
     /// The cables; the drag of the wind is that of one pose, so that all loads have a potential.
     loaded: Vec<LoadedCable>,
     ell: f64,
+    /// Force that rounding of chords leaves [N].
+    rounding: f64,
     pub(super) freedoms: Freedoms,
     /// The platform may turn; else its orientation is held.
     pub(super) turns: bool,
@@ -85,7 +86,8 @@ impl<'a> Search<'a> {
     /// With the drag that the cables have at `pose`.
     pub(super) fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, pose: &Pose) -> Self {
         let loaded = LoadedCable::all(robot, pose, model);
-        Self { robot, lengths, loaded, ell: robot.platform_length(), freedoms: robot.platform.freedoms, turns: true }
+        let (ell, freedoms) = (robot.platform_length(), robot.platform.freedoms);
+        Self { robot, lengths, loaded, ell, rounding: elastic_rounding(robot), freedoms, turns: true }
     }
 
     pub(super) fn at(&self, pose: Pose) -> Trial {
@@ -96,11 +98,42 @@ impl<'a> Search<'a> {
         let energy = energy::of_parts(self.robot, &pose, cables.iter());
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
         let residual = scaled_residual(self.robot, &wrench, force_scale);
-        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness).sum();
-        let rounding = if force_scale > 0.0 { CHORD_ROUNDING * f64::EPSILON * stiffest / force_scale } else { 0.0 };
-        let limit = RESIDUAL_LIMIT.max(rounding);
+        let limit = if force_scale > 0.0 { RESIDUAL_LIMIT.max(self.rounding / force_scale) } else { RESIDUAL_LIMIT };
         let wrench = self.freedoms.reduced(&scaled_wrench(&wrench, self.ell));
         Trial { pose, cables, wrench, residual, limit, energy }
+    }
+
+    /// Whether the platform is in equilibrium there: to [`RESIDUAL_LIMIT`]; or as well as rounding allows, if that is
+    /// [`MAX_RESIDUAL_OF_ROUNDING`] at least, or if nothing is there to be balanced.
+    pub(super) fn holds(&self, trial: &Trial) -> bool {
+        trial.residual <= trial.limit.min(MAX_RESIDUAL_OF_ROUNDING)
+            || (self.carries_nothing(trial) && trial.residual <= trial.limit)
+    }
+
+    /// Nothing acts on the platform and its cables, and all tensions together are rounding.
+    fn carries_nothing(&self, trial: &Trial) -> bool {
+        trial.limit >= 1.0 && load_size(self.robot) == 0.0 && self.loaded.iter().all(|cable| cable.load.size == 0.0)
+    }
+
+    /// The equilibrium at a place that [holds](Self::holds).
+    pub(super) fn collected(&self, trial: Trial, model: StaticModel, iterations: usize) -> Equilibrium {
+        let nothing = self.carries_nothing(&trial);
+        let mut equilibrium = collect(self.robot, trial.pose, model, trial.cables, self.lengths, iterations);
+        if nothing {
+            equilibrium.residual = 0.0;
+        }
+        equilibrium
+    }
+
+    /// Why a place is no equilibrium.
+    fn refused(&self, trial: &Trial, iterations: usize) -> StaticsError {
+        let (p, residual) = (trial.pose.position_w, trial.residual);
+        if trial.limit > MAX_RESIDUAL_OF_ROUNDING {
+            let (rounding, limit) = (self.rounding, MAX_RESIDUAL_OF_ROUNDING);
+            return StaticsError::LostInRounding { iterations, residual, limit, rounding, x: p.x, y: p.y, z: p.z };
+        }
+        let limit = trial.limit;
+        StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z }
     }
 
     /// Symmetric part of the tangent stiffness in the platform's coordinates, scaled; a unit diagonal beyond them.
@@ -157,18 +190,27 @@ pub(super) fn elastic(
             iterations += more;
         }
     }
-    if here.residual > here.limit || here.residual.is_nan() {
-        let p = here.pose.position_w;
-        let (residual, limit) = (here.residual, here.limit);
-        return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
+    if !search.holds(&here) {
+        return Err(search.refused(&here, iterations));
     }
-    Ok(collect(robot, here.pose, model, here.cables, lengths, iterations))
+    Ok(search.collected(here, model, iterations))
 }
 
+/// Part of the mean unstrained length that the platform may move by in one step, …
+const REACH: f64 = 0.2;
+
+/// … and of the mean distance to the anchors, where the platform is so far from them that it is more: with steps of the
+/// lengths alone, a platform of kilometres on cables of metres took hundreds of them to come to rest. Cables have to be
+/// twice as long as unstrained for it, so that it changes no search of a robot near its place.
+const FAR_REACH: f64 = 0.1;
+
 impl Search<'_> {
-    /// A step cut to what may be taken at once, and how many times that it was: half a radian, a fifth of the mean cable.
-    pub(super) fn limited(&self, step: &Vec6) -> (Vec6, f64) {
-        let reach = 0.2 * self.lengths.iter().sum::<f64>() / self.lengths.len() as f64;
+    /// A step from a place cut to what may be taken at once, and how many times that it was: half a radian, a fifth of
+    /// the mean cable or a tenth of the mean distance.
+    pub(super) fn limited(&self, from: &Trial, step: &Vec6) -> (Vec6, f64) {
+        let lengths: f64 = self.lengths.iter().sum();
+        let chords: f64 = from.cables.iter().map(|cable| cable.chord_w().norm()).sum();
+        let reach = (REACH * lengths).max(FAR_REACH * chords) / self.lengths.len() as f64;
         let motion = self.freedoms.expanded(step);
         let length =
             (motion.fixed_rows::<3>(0).norm() / reach).max(motion.fixed_rows::<3>(3).norm() / (0.5 * self.ell));
@@ -207,7 +249,7 @@ impl Search<'_> {
             // Where all cables are slack there is no stiffness to compare with.
             let diagonal = stiffness.diagonal().amax().max(least_diagonal);
             let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
-            let (step, length) = self.limited(&step);
+            let (step, length) = self.limited(&here, &step);
             let next = self.at(self.moved(&here.pose, &step));
             // Near rest the energy drowns in rounding; there the residual decides.
             let expected = step.dot(&here.wrench);
@@ -317,7 +359,22 @@ fn ideal(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, Sta
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
     let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
+    if let Some((i, tension)) = pushing(&tensions) {
+        let (cable, p) = (robot.cables[i].name.clone(), pose.position_w);
+        return Err(StaticsError::LengthsPush { cable, tension, x: p.x, y: p.y, z: p.z });
+    }
     Ok(collect_ideal(robot, pose, &tensions, iterations))
+}
+
+/// Part of the largest tension that is rounding of the balance: of a cable with a tension of zero it has the wrong sign
+/// as often as not. The condition of the balance, which is up to 1e10, may take more; then the pose is nearly singular.
+const ZERO_TENSION: f64 = 1e-12;
+
+/// The straight cable that would have to push hardest, and its tension [N], if there is one.
+pub(super) fn pushing(tensions: &[f64]) -> Option<(usize, f64)> {
+    let largest = tensions.iter().fold(0.0, |most: f64, tension| most.max(tension.abs()));
+    let least = tensions.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+    least.filter(|(_, tension)| *tension < -ZERO_TENSION * largest)
 }
 
 /// Unit tension wrenches (e, r × e/ℓ) of straight cables in the platform's coordinates as columns; the identity beyond

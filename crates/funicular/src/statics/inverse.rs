@@ -1,9 +1,11 @@
 //! Pose to unstrained lengths and tensions; here as many cables as freedoms, in `tension` more.
 
-use super::forward::{collect_ideal, straight_tensions};
+mod starts;
+
+use super::forward::{collect_ideal, pushing, straight_tensions};
 use super::{
     Equilibrium, LoadedCable, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute,
-    load_wrench, scaled_residual, scaled_wrench, wrench_of,
+    load_size, load_wrench, scaled_residual, scaled_wrench, wrench_of,
 };
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
@@ -16,11 +18,12 @@ use crate::robot::{Pose, Robot};
 ///
 /// Straight cables have a linear solution; sagging ones start from it, with half of each cable's weight on the
 /// platform, and a Newton iteration on the lengths follows whose steps are taken in the tension parallel to the chord, in
-/// which the forces of a taut cable are nearly linear, and in the length where a slack one gets slacker.
+/// which the forces of a taut cable are nearly linear, and in the length where a slack one gets slacker. Where that leads
+/// nowhere, a damped iteration searches from other starts, deeply sagging ones among them.
 ///
 /// # Errors
-/// [`StaticsError`]: fewer cables than freedoms ([`nearest`](super::nearest) knows what they can hold), tensions beyond their limits if there is a choice, a singular pose, a cable that would have to
-/// push, coinciding ends, or no convergence.
+/// [`StaticsError`]: fewer cables than freedoms ([`nearest`](super::nearest) knows what they can hold), tensions beyond their limits if there is a choice, a singular pose, a straight cable that would
+/// have to push, no tensions found for sagging ones, coinciding ends, or no convergence.
 ///
 /// # Example
 /// ```
@@ -46,9 +49,15 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
         let chord = (cable.anchor_w - pose.position_w - lever).norm();
         load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &lever);
     }
-    let tensions = straight_tensions(robot, pose, &load)?;
+    let tensions = match straight_tensions(robot, pose, &load) {
+        Err(StaticsError::Singular) if model == StaticModel::Catenary => return slack(robot, pose, &loaded),
+        tensions => tensions?,
+    };
     match model {
-        StaticModel::Ideal => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+        StaticModel::Ideal => match pushing(&tensions) {
+            Some((i, tension)) => Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension }),
+            None => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+        },
         StaticModel::Spring => {
             if let Some(i) = weakest(&tensions).filter(|&i| tensions[i] <= 0.0) {
                 return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: tensions[i] });
@@ -71,6 +80,11 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
 /// 15,000 such poses of the paper's robot the ratio runs from 1 through 2.5 (half of them) and 10 (all but 2 %) to 550
 /// beside singular poses.
 const OUT_OF_PROPORTION: f64 = 100.0;
+
+/// Unstrained length over chord up to which the search looks for slack cables where straight ones would push. 30,000
+/// random robots that rest with cables up to 1.25 times as long as their chords are all found with 2; poses that only
+/// longer ropes hold are held by their weight alone.
+pub(super) const LONGEST: f64 = 2.0;
 
 fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
@@ -96,29 +110,96 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
         found = balanced(robot, pose, start, tightened);
         found.iterations += before;
     }
-    let Balanced { hanging, residual, iterations } = found;
-    let pushing = weakest(straight).filter(|&i| straight[i] <= 0.0);
-    let strongest = |tensions: &mut dyn Iterator<Item = f64>| tensions.fold(0.0, |m: f64, t| m.max(t.abs()));
+
     // Where a straight cable would push, sagging ones may still hold the pose, by their weight; or only by tensions out
     // of all proportion, which no one means.
-    let far_fetched = pushing.is_some()
-        && strongest(&mut hanging.iter().map(|c| c.catenary.tension_at_start()))
-            > OUT_OF_PROPORTION * strongest(&mut straight.iter().copied());
-    if residual <= RESIDUAL_LIMIT && !far_fetched {
-        let lengths: Vec<f64> = hanging.iter().map(|cable| cable.catenary.rope().unstrained_length).collect();
-        return Ok(collect(robot, *pose, StaticModel::Catenary, hanging, &lengths, iterations));
+    let pushing = weakest(straight).filter(|&i| straight[i] <= 0.0);
+    let proportion = straight.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+    let far_fetched = |found: &Balanced| pushing.is_some() && found.strongest() > OUT_OF_PROPORTION * proportion;
+    let accept = |found: &Balanced| found.residual <= RESIDUAL_LIMIT && !far_fetched(found);
+    let mut starts = 1;
+    let searched = if accept(&found) {
+        None
+    } else if pushing.is_some() && is_out_of_reach(robot, pose, loaded, straight)? {
+        starts = 0;
+        None
+    } else {
+        starts::search(robot, pose, loaded, accept)
+    };
+    if let Some(searched) = searched {
+        starts += searched.starts;
+        let iterations = found.iterations + searched.best.iterations;
+        if accept(&searched.best) || searched.best.residual < found.residual {
+            found = searched.best;
+        }
+        found.iterations = iterations;
     }
+    if accept(&found) {
+        return Ok(found.collected(robot, pose));
+    }
+
     if let Some(i) = pushing {
-        return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: straight[i] });
+        let (cable, tension) = (robot.cables[i].name.clone(), straight[i]);
+        // Without sag the straight solution is the only one.
+        if loaded.iter().all(|cable| cable.load.size == 0.0) {
+            return Err(StaticsError::WouldPush { cable, tension });
+        }
+        let residual = found.residual;
+        let greatest = (residual <= RESIDUAL_LIMIT).then(|| found.strongest());
+        return Err(StaticsError::NotFound { cable, tension, starts, residual, greatest });
     }
-    let p = pose.position_w;
+    let (p, Balanced { residual, iterations, .. }) = (pose.position_w, found);
     Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z })
+}
+
+/// Whether the weight of sagging cables cannot make up for a straight cable that pushes, unless one of them is longer
+/// than [`LONGEST`] times its chord: (39c) of docs/theory.md.
+///
+/// A sagging cable pulls as a straight one does, less at most its whole weight. So the straight tensions without the
+/// cables' weights, changed by what the weights can do at most, have to be positive.
+fn is_out_of_reach(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64]) -> Result<bool, StaticsError> {
+    let mut reach = straight.to_vec();
+    let mut sizes: Vec<f64> = straight.iter().map(|tension| tension.abs()).collect();
+    for cable in loaded {
+        let lever = pose.rot_wp * cable.attachment_p;
+        let chord = (cable.anchor_w - pose.position_w - lever).norm();
+        let by_weight = straight_tensions(robot, pose, &wrench_of(&-cable.load.up_w, &lever))?;
+        for ((reach, size), rate) in reach.iter_mut().zip(&mut sizes).zip(by_weight) {
+            // The straight tensions have half of the weight of a cable as long as its chord.
+            let change = (LONGEST * rate.max(0.0) - 0.5 * rate) * cable.load.size * chord;
+            *reach += change;
+            *size += change.abs();
+        }
+    }
+    Ok(reach.iter().zip(sizes).any(|(reach, size)| *reach < -1e-9 * size))
+}
+
+/// Cables whose chords do not span the freedoms: sagging ones may, since they do not pull along their chords.
+fn slack(robot: &Robot, pose: &Pose, loaded: &[LoadedCable]) -> Result<Equilibrium, StaticsError> {
+    let limit = OUT_OF_PROPORTION * load_size(robot);
+    let accept = |found: &Balanced| found.residual <= RESIDUAL_LIMIT && found.strongest() <= limit;
+    match starts::search(robot, pose, loaded, accept) {
+        Some(searched) if accept(&searched.best) => Ok(searched.best.collected(robot, pose)),
+        _ => Err(StaticsError::Singular),
+    }
 }
 
 struct Balanced {
     hanging: Vec<HangingCable>,
     residual: f64,
     iterations: usize,
+}
+
+impl Balanced {
+    /// The greatest tension at the platform [N].
+    fn strongest(&self) -> f64 {
+        self.hanging.iter().fold(0.0, |most: f64, cable| most.max(cable.catenary.tension_at_start()))
+    }
+
+    fn collected(self, robot: &Robot, pose: &Pose) -> Equilibrium {
+        let lengths: Vec<f64> = self.hanging.iter().map(|cable| cable.catenary.rope().unstrained_length).collect();
+        collect(robot, *pose, StaticModel::Catenary, self.hanging, &lengths, self.iterations)
+    }
 }
 
 /// Newton's method on the lengths, from a start; `step` makes the cable of a change of length.

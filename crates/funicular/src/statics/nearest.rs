@@ -8,7 +8,7 @@
 use super::limits::TensionRange;
 use super::{
     CableState, Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
-    tangent_stiffness, wrench_of,
+    tangent_with_drag, wrench_of,
 };
 use crate::math::{DMat, Mat6, Vec3, Vec6};
 use crate::robot::{Cable, Pose, Robot};
@@ -194,7 +194,7 @@ impl Surface {
         let ell = robot.platform_length();
         let freedoms = &robot.platform.freedoms;
         let (n, m) = (freedoms.count(), equilibrium.cables.len());
-        let stiffness = tangent_stiffness(robot, equilibrium).expect("the cables are elastic");
+        let stiffness = tangent_with_drag(robot, equilibrium).expect("the cables are elastic");
         let stiffness = freedoms.reduced_matrix(&scaled(&stiffness, ell));
         // Zero rows make it square, so that its right singular vectors are all there are.
         let mut equations = DMat::zeros(n + m, n + m);

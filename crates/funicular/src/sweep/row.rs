@@ -212,7 +212,12 @@ impl Row<'_> {
         let freedoms = &self.robot.platform.freedoms;
         let n = freedoms.count();
         let inverse = statics::tangent_stiffness(self.robot, self.rest).and_then(|stiffness| {
-            let mut reduced = freedoms.reduced_matrix(&((stiffness + stiffness.transpose()) * 0.5));
+            // Symmetric to rounding; what the turn of the drag adds in wind is not symmetric.
+            let mut whole = (stiffness + stiffness.transpose()) * 0.5;
+            if let Some(turn) = statics::drag_stiffness(self.robot, self.rest) {
+                whole += turn;
+            }
+            let mut reduced = freedoms.reduced_matrix(&whole);
             (n..6).for_each(|k| reduced[(k, k)] = 1.0);
             reduced.try_inverse()
         });

@@ -13,13 +13,17 @@ pub(super) struct Status {
 }
 
 /// Every code that a row can have, with what it means.
-pub const CODES: [(&str, &str); 14] = [
+pub const CODES: [(&str, &str); 15] = [
     ("ok", "everything asked is there"),
     ("out-of-plane", "infeasible: a pose that a planar platform cannot have"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends"),
     ("singular", "infeasible: the cables' directions are dependent"),
-    ("would-push", "infeasible: a cable would have to push"),
+    (
+        "would-push",
+        "infeasible: a straight cable would have to push, and no sagging ones that hold the pose were found",
+    ),
     ("beyond-limits", "infeasible: no tensions within the limits, or beyond what a rope bears"),
+    ("not-found", "infeasible: no tensions within the limits found, and no proof that there are none"),
     ("not-converged", "infeasible: no equilibrium found"),
     ("bad-robot", "infeasible: the values of this row make no robot"),
     ("bad-input", "infeasible: the state does not fit the robot"),
@@ -46,11 +50,10 @@ impl Status {
         Self::new(code, error)
     }
 
-    /// What makes an equilibrium infeasible: limits of tension that the robot has, and cables that push.
+    /// What makes an equilibrium infeasible: limits of tension that the robot has.
     pub(super) fn refusing(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
             Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("beyond-limits", warning)),
-            Warning::Pushing { .. } => Some(Self::new("would-push", warning)),
             _ => None,
         })
     }

@@ -175,3 +175,167 @@ fn a_massless_rope_in_wind_bows_with_it() {
     // It has no vibrations of its own, but the platform has six on its bowed ropes.
     assert_eq!(frequencies(&robot, &rest, CableModel::Exact, 200.0).len(), 6);
 }
+
+/// Load vector and force are functions of the load alone when ends and length are held: the derivative by central
+/// differences of the fourth order, in slack, taut, steep and massless-like cables.
+#[test]
+fn the_end_force_follows_the_load_as_its_derivative_says() {
+    use funicular::catenary::{Rope, space::HangingCable};
+    let start = Vec3::new(0.3, -0.2, 0.1);
+    let load = Vec3::new(0.11, -0.07, -0.63);
+    for (end, unstrained_length) in [
+        (Vec3::new(6.0, 1.0, 4.0), 7.1),
+        (Vec3::new(6.0, 1.0, 4.0), 7.05),
+        (Vec3::new(6.0, 1.0, -4.0), 7.5),
+        (Vec3::new(-3.0, 5.0, 0.1), 9.0),
+        (Vec3::new(0.5, -0.3, 8.0), 14.0),
+        (start + load * 9.0, 5.7),
+    ] {
+        let hang = |q: Vec3| {
+            let rope = Rope { unstrained_length, weight_per_length: q.norm(), axial_stiffness: 8e4 };
+            HangingCable::new(start, end, -q, rope).unwrap()
+        };
+        let derivative = hang(load).force_by_load_w();
+        let step = 1e-3;
+        let differences = funicular::math::Mat3::from_columns(&std::array::from_fn::<_, 3, _>(|k| {
+            let at = |n: f64| hang(load + Vec3::ith(k, n * step)).force_on_start_w();
+            ((at(1.0) - at(-1.0)) * 8.0 - (at(2.0) - at(-2.0))) / (12.0 * step)
+        }));
+        // The fourth order leaves (step/load)⁴ = 6e-12; the chord rounds by some epsilons, which EA turns into a force.
+        let tolerance = 1e-8 * derivative.amax() + 20.0 * f64::EPSILON * 8e4 / step;
+        let error = (derivative - differences).amax();
+        assert!(error < tolerance, "{end} {error:e} {tolerance:e} {derivative} {differences}");
+    }
+}
+
+/// Minus the derivative of the whole wrench by the pose at held lengths, drag of every pose, by central differences of
+/// fourth order; in the platform's coordinates.
+fn by_differences(robot: &Robot, rest: &Equilibrium, step: f64) -> Mat6 {
+    let lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+    let freedoms = &robot.platform.freedoms;
+    let by = |k: usize| {
+        if k >= freedoms.count() {
+            return Vec6::zeros();
+        }
+        let wrench = |n: f64| {
+            let motion = freedoms.expanded(&Vec6::ith(k, n * step));
+            let pose = rest.pose.moved(&motion.fixed_rows::<3>(0).into(), &motion.fixed_rows::<3>(3).into());
+            freedoms.reduced(&statics::wrench(robot, &pose, &lengths, rest.model).unwrap())
+        };
+        ((wrench(-1.0) - wrench(1.0)) * 8.0 - (wrench(-2.0) - wrench(2.0))) / (12.0 * step)
+    };
+    freedoms.expanded_matrix(&Mat6::from_columns(&std::array::from_fn::<_, 6, _>(by)))
+}
+
+/// A robot's text with ropes that the wind pulls at: a drag coefficient after every line that gives a rope's mass.
+fn with_drag(text: &str) -> Robot {
+    let lines = text.lines().flat_map(|line| {
+        let drag = line.starts_with("mass_kg_per_m").then_some("drag_coefficient = 1.2\ndrag_diameter_m = 0.008");
+        [Some(line), drag].into_iter().flatten()
+    });
+    Robot::from_toml(&lines.collect::<Vec<_>>().join("\n")).unwrap()
+}
+
+/// The library's robots and one of them with ropes paid out far, as a rigid body, a point mass and in a plane, each in
+/// three winds: the tangent with the turning drag is the derivative of the wrench, the one with held drag is not.
+#[test]
+fn the_tangent_with_drag_is_the_derivative_of_the_wrench() {
+    let velocities = [Vec3::new(15.0, -5.0, 2.0), Vec3::new(0.0, 25.0, 0.0), Vec3::new(-8.0, 8.0, -3.0)];
+    let mut off: f64 = 0.0;
+    for (name, robot, lengthened) in windy_robots() {
+        for velocity_w in velocities {
+            let robot = robot.with_wind(Wind { velocity_w, ..Wind::default() });
+            let first = statics::rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+            let lengths: Vec<f64> = first.cables.iter().map(|c| c.unstrained_length * lengthened).collect();
+            let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&first.pose)).unwrap();
+            let whole = statics::tangent_with_drag(&robot, &rest).unwrap();
+            let held = statics::tangent_stiffness(&robot, &rest).unwrap();
+            let differences = by_differences(&robot, &rest, 1e-5);
+            let scale = whole.amax();
+            let error = (whole - differences).amax() / scale;
+            // Differences: the fourth order of the step over some centimetres of sag, and rounding over the step. What the
+            // residual of 1e-10 leaves in the lever terms is less.
+            assert!(error < 2e-7, "{name} {velocity_w}: {error:e} {}", whole - differences);
+            let missed = (held - differences).amax() / scale;
+            assert!(missed > 10.0 * error, "{name}: the drag's turn is seen, {missed:e} {error:e}");
+            off = off.max(missed);
+        }
+    }
+    assert!(off > 0.02, "some robot shows the turn of the drag by per cents: {off}");
+}
+
+fn windy_robots() -> Vec<(&'static str, Robot, f64)> {
+    let plane = include_str!("../../../../robots/kntu-planar.toml");
+    let camera = include_str!("../../../../robots/stadium-camera.toml");
+    vec![
+        ("yuan", with_drag(YUAN), 1.0),
+        ("yuan, paid out", with_drag(YUAN), 1.15),
+        ("cogiro", with_drag(COGIRO), 1.0),
+        ("planar", with_drag(plane), 1.0),
+        ("point mass", with_drag(camera), 1.0),
+        ("point mass, paid out", with_drag(camera), 1.05),
+    ]
+}
+
+/// Without wind, or with ropes that it does not pull at, or with cables that carry no load along them.
+#[test]
+fn without_a_drag_that_turns_the_tangent_is_the_symmetric_one_to_the_bit() {
+    let still = in_wind(Vec3::zeros());
+    let robots = [
+        (still.clone(), StaticModel::Catenary),
+        (
+            Robot::from_toml(YUAN).unwrap().with_wind(Wind { velocity_w: Vec3::x() * 9.0, ..Wind::default() }),
+            StaticModel::Catenary,
+        ),
+        (in_wind(Vec3::x() * 9.0), StaticModel::Spring),
+    ];
+    for (robot, model) in robots {
+        let rest = statics::forward(&robot, &lengths(&robot), model, None).unwrap();
+        assert_eq!(statics::tangent_with_drag(&robot, &rest), statics::tangent_stiffness(&robot, &rest));
+        assert_eq!((statics::drag_stiffness(&robot, &rest), statics::drag_effect(&robot, &rest)), (None, None));
+    }
+    let blowing = in_wind(Vec3::x() * 9.0);
+    let rest = statics::forward(&blowing, &lengths(&blowing), StaticModel::Catenary, None).unwrap();
+    assert_ne!(statics::tangent_with_drag(&blowing, &rest), statics::tangent_stiffness(&blowing, &rest));
+}
+
+/// The number of the warning bounds the change of every displacement, is met by some load, and grows with the wind; the
+/// warning comes where it is above one per cent and not below.
+#[test]
+fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one_per_cent() {
+    use funicular::validity::{self, Warning};
+    let (mut seen, mut unseen) = (0, 0);
+    for (name, robot, _) in windy_robots() {
+        let mut last = 0.0;
+        for speed in [0.5, 5.0, 25.0] {
+            let robot = robot.with_wind(Wind { velocity_w: Vec3::new(0.6, 0.8, 0.0) * speed, ..Wind::default() });
+            let rest = statics::rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+            let effect = statics::drag_effect(&robot, &rest).unwrap();
+            assert!(effect > last, "{name} {speed}: {effect} {last}");
+            last = effect;
+            let warned =
+                validity::of_dynamics(&robot, &rest, CableModel::Exact, 1.0).contains(&Warning::DragTurns { effect });
+            assert_eq!(warned, effect > validity::DRAG_TURN_LIMIT, "{name} {speed}: {effect}");
+            *(if warned { &mut seen } else { &mut unseen }) += 1;
+
+            // Displacements under unit loads, both ways; the unit diagonal stands for what the platform cannot do.
+            let (n, ell) = (robot.platform.freedoms.count(), robot.platform_length());
+            let [held, whole] = [statics::tangent_stiffness(&robot, &rest), statics::tangent_with_drag(&robot, &rest)]
+                .map(|k| robot.platform.freedoms.reduced_matrix(&k.unwrap()))
+                .map(|mut k| {
+                    (n..6).for_each(|i| k[(i, i)] = 1.0);
+                    k.try_inverse().unwrap()
+                });
+            let size = |x: Vec6| {
+                let turns = |k: usize| robot.platform.freedoms.is_rotation(k);
+                Vec6::from_fn(|k, _| if turns(k) { ell * x[k] } else { x[k] }).norm()
+            };
+            for k in 0..n {
+                let load = Vec6::ith(k, 1.0);
+                let change = size((whole - held) * load) / size(held * load);
+                assert!(change <= effect * (1.0 + 1e-6), "{name} {speed} {k}: {change} {effect}");
+            }
+        }
+    }
+    assert!(seen > 0 && unseen > 0, "{seen} {unseen}");
+}

@@ -182,7 +182,7 @@ fn files_that_are_none_of_one_robot_are_refused() {
         (&[&wirex, "--mass-kg-per-m", "-1"], "-1 is negative"),
         (&[&wirex, "--axial-stiffness-n", "1e6", "--diameter-m", "0.01"], "cannot be used with"),
         (&[&wirex, "--inertia-kg-m2", "1,2"], "2 numbers where xx,yy,zz"),
-        (&[&wirex, "-o", &wirex], "refusing to write the result over"),
+        (&[&wirex, "-o", &wirex], "refusing to write the robot file over the source file"),
     ] {
         let output = import(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));

@@ -20,9 +20,9 @@ pub(super) struct Set {
 pub(super) fn read(xml: &Xml, wanted: Option<&str>, center_of_mass_p: &Vec3) -> Result<Set> {
     let root = xml.root();
     let sets: Vec<Node> = children(root, "cable_set").collect();
-    let ids: Vec<String> = sets.iter().map(|set| clean(set.attribute("id").unwrap_or_default())).collect();
+    let ids: Vec<String> = sets.iter().map(|set| clean(id_of(set))).collect();
     let node = chosen(xml, &sets, &ids, wanted)?;
-    let id = clean(node.attribute("id").unwrap_or_default());
+    let id = clean(id_of(&node));
     let mut left = Left::default();
     let mut cables = Vec::new();
     for cable in node.children().filter(Node::is_element) {
@@ -32,11 +32,16 @@ pub(super) fn read(xml: &Xml, wanted: Option<&str>, center_of_mass_p: &Vec3) -> 
         bail!(xml.error(node, format!("cable set \"{id}\" has no cables")));
     }
     let mut lost = left.lost();
-    let others: Vec<String> = ids.into_iter().filter(|other| *other != id).collect();
+    let others: Vec<String> = sets.iter().zip(ids).filter(|(set, _)| **set != node).map(|(_, id)| id).collect();
     if !others.is_empty() {
         lost.push(format!("the other sets of cables, {}; ⟪cable_set⟫ chooses one", listed(&others)));
     }
     Ok(Set { is_only: sets.len() == 1, id, cables, lost })
+}
+
+/// The name of a set, as the file has it.
+fn id_of<'n>(set: &Node<'n, '_>) -> &'n str {
+    set.attribute("id").unwrap_or_default()
 }
 
 /// The set to read.
@@ -54,7 +59,9 @@ fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: 
             )),
         },
     };
-    let mut found = sets.iter().zip(ids).filter(|(_, id)| *id == name).map(|(set, _)| *set);
+    // In full: names that are shown are cut, and two long ones may begin alike.
+    let is_wanted = |id: &str| id.split_whitespace().eq(name.split_whitespace());
+    let mut found = sets.iter().filter(|set| is_wanted(id_of(set))).copied();
     match (found.next(), found.next()) {
         (Some(set), None) => Ok(set),
         (Some(_), Some(second)) => bail!(xml.error(second, format!("a second set is called \"{}\"", clean(name)))),

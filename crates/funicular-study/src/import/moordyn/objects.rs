@@ -11,7 +11,7 @@ const DEFAULT_WATER: f64 = 1025.0;
 
 /// What a file describes.
 pub(super) struct Model<'a> {
-    pub(super) types: Vec<LineType>,
+    pub(super) types: Vec<LineType<'a>>,
     pub(super) bodies: Vec<Body<'a>>,
     pub(super) points: Vec<Point<'a>>,
     pub(super) lines: Vec<Line<'a>>,
@@ -21,7 +21,10 @@ pub(super) struct Model<'a> {
     pub(super) lost: Vec<String>,
 }
 
-pub(super) struct LineType {
+pub(super) struct LineType<'a> {
+    /// As the file has it, by which lines name it.
+    pub(super) word: &'a str,
+    /// As a robot file and messages have it.
     pub(super) name: String,
     pub(super) mass_per_length: f64,
     pub(super) axial_stiffness: f64,
@@ -56,7 +59,8 @@ pub(super) struct Point<'a> {
 
 pub(super) struct Line<'a> {
     pub(super) id: usize,
-    pub(super) kind: String,
+    /// Its line type, as the file has it.
+    pub(super) kind: &'a str,
     pub(super) unstrained_length: f64,
     pub(super) row: Row<'a>,
 }
@@ -137,9 +141,10 @@ impl<'a> Model<'a> {
             .ok_or_else(|| line.row.error(file, format!("line {} ends at point {id}, which is not defined", line.id)))
     }
 
-    fn line_type(&self, file: &SourceFile, row: &Row<'a>, left: &mut Left) -> Result<LineType> {
-        let name = clean(row.word(file, 0, "TypeName")?);
-        if self.types.iter().any(|known| known.name == name) {
+    fn line_type(&self, file: &SourceFile, row: &Row<'a>, left: &mut Left) -> Result<LineType<'a>> {
+        let word = row.word(file, 0, "TypeName")?;
+        let name = clean(word);
+        if self.types.iter().any(|known| known.word == word) {
             bail!(row.error(file, format!("a second line type is called `{name}`")));
         }
         let stiffness = row.word(file, 3, "EA")?;
@@ -162,7 +167,7 @@ impl<'a> Model<'a> {
         if row.words.get(5).is_some_and(|word| text::number(word) != Ok(0.0)) {
             left.bending.push(format!("`{name}`"));
         }
-        Ok(LineType { name, mass_per_length: row.quantity(file, 2, "Mass/m")?, axial_stiffness })
+        Ok(LineType { word, name, mass_per_length: row.quantity(file, 2, "Mass/m")?, axial_stiffness })
     }
 
     fn check_ids(&self, file: &SourceFile) -> Result<()> {
@@ -273,7 +278,7 @@ fn point<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Point<'
 
 fn line<'a>(file: &SourceFile, row: Row<'a>) -> Result<Line<'a>> {
     let id = row.id(file, 0, "ID")?;
-    let kind = clean(row.word(file, 1, "LineType")?);
+    let kind = row.word(file, 1, "LineType")?;
     // Version 1 has the length in the third column and the points after the segments.
     let unstrained_length = row.number(file, 4, "UnstrLen")?;
     if unstrained_length <= 0.0 {

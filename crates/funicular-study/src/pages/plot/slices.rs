@@ -87,6 +87,7 @@ fn colour_of(code: u8) -> &'static str {
         "no-comparison" => "#e3d9ee",
         "would-push" => colour::VERMILION,
         "beyond-limits" => colour::PURPLE,
+        "not-found" => "#8b2f6b",
         "not-converged" => colour::BLACK,
         "singular" => colour::BLUE,
         "out-of-plane" => colour::GREEN,

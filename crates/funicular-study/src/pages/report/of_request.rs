@@ -16,7 +16,7 @@ use funicular::robot::Robot;
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without that equilibrium, or no finite response there.
-pub fn of_request(request: &request::Report, file: RobotFile, command_line: String) -> Result<Report> {
+pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_line: String) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     let RobotFile { robot, name, text } = file;
     // Signals that mean nothing are refused before the work.
@@ -32,7 +32,7 @@ pub fn of_request(request: &request::Report, file: RobotFile, command_line: Stri
 /// As of [`of_request`].
 pub fn about(
     at_rest: &AtRest,
-    request: &request::Report,
+    request: &request::ReportRequest,
     name: &str,
     text: &str,
     command_line: String,
@@ -62,7 +62,7 @@ pub fn about(
 }
 
 /// Input and output of the response: those of the request, else along z, or along x where a guide holds z.
-fn response(request: &request::Report, robot: &Robot) -> Result<(Input, Output)> {
+fn response(request: &request::ReportRequest, robot: &Robot) -> Result<(Input, Output)> {
     const Z: usize = 2;
     let (force, acceleration) =
         if robot.platform.freedoms.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };

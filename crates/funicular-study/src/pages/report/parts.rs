@@ -10,7 +10,7 @@ use funicular::compare::{self, Comparison};
 use funicular::dynamics::Linearisation;
 use funicular::modes::{Kind, Mode, Modes};
 use funicular::robot::Robot;
-use funicular::statics::{Equilibrium, StaticModel, tangent_stiffness};
+use funicular::statics::{Equilibrium, StaticModel, drag_stiffness, tangent_with_drag};
 use serde_json::{Value, json};
 
 /// Frequencies that a row of the table of models lists at most.
@@ -114,7 +114,7 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
 
 /// The static stiffness of catenaries, consistently assembled.
 pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
-    let stiffness = tangent_stiffness(robot, equilibrium)?;
+    let stiffness = tangent_with_drag(robot, equilibrium)?;
     let possible = robot.platform.freedoms.components();
     let motions = ["δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"];
     let wrenches = ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"];
@@ -124,11 +124,16 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
     } else {
         ""
     };
+    let drag = if drag_stiffness(robot, equilibrium).is_some() {
+        " The drag of the wind turns with the cables, so that it is not symmetric."
+    } else {
+        ""
+    };
     let mut table = Table::new(
         "table-stiffness",
         format!(
             "Static stiffness: the wrench that holds a small motion, about the platform origin, world axes.{units} Exact \
-             tangent of the cables, with the turning of static forces on their lever arms."
+             tangent of the cables, with the turning of static forces on their lever arms.{drag}"
         ),
         &columns,
     );

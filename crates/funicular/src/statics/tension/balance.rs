@@ -9,7 +9,7 @@ const SINGULAR: f64 = 1e10;
 pub(super) struct Solutions {
     cables: usize,
     freedoms: usize,
-    /// Orthogonal, by columns; the first ones span the rows of the balance, the others are N.
+    /// Orthogonal, by columns; the first ones span the rows of the balance, the others, if they are there, are N.
     basis: Vec<f64>,
     /// Upper triangle R of `C = basis R`, by columns.
     triangle: [[f64; 6]; 6],
@@ -19,8 +19,15 @@ pub(super) struct Solutions {
 
 impl Solutions {
     /// From the wrench per unit of every cable, its first `freedoms` components, each divided by its scale, and the
-    /// wrench `b`. `None` at a singular pose.
-    pub(super) fn of(columns: &[Vec6], scales: &[f64], right: &Vec6, freedoms: usize) -> Option<Self> {
+    /// wrench `b`. `None` at a singular pose. The `directions` N take memory in proportion to the square of the cables'
+    /// number.
+    pub(super) fn of(
+        columns: &[Vec6],
+        scales: &[f64],
+        right: &Vec6,
+        freedoms: usize,
+        directions: bool,
+    ) -> Option<Self> {
         let cables = columns.len();
         let mut reflectors = vec![0.0; cables * freedoms];
         for j in 0..freedoms {
@@ -45,7 +52,7 @@ impl Solutions {
             here[j..].iter_mut().for_each(|x| *x *= scale);
             rest.chunks_exact_mut(cables).for_each(|column| reflect(&here[j..], &mut column[j..]));
         }
-        let mut basis = vec![0.0; cables * cables];
+        let mut basis = vec![0.0; cables * if directions { cables } else { freedoms }];
         for (k, column) in basis.chunks_exact_mut(cables).enumerate() {
             column[k] = 1.0;
             for j in (0..freedoms).rev() {
@@ -65,6 +72,35 @@ impl Solutions {
             particular.iter_mut().zip(column).for_each(|(p, q)| *p += y * q);
         }
         Some(Self { cables, freedoms, basis, triangle, particular })
+    }
+
+    /// Number of equations.
+    pub(super) fn freedoms(&self) -> usize {
+        self.freedoms
+    }
+
+    /// Whether N is there, which [`Self::part`], [`Self::direction`], [`Self::along`] and [`Self::at`] need.
+    pub(super) fn has_directions(&self) -> bool {
+        self.basis.len() == self.cables * self.cables
+    }
+
+    /// What cable `i` takes part in the balance with: a row of an orthonormal basis of C's columns.
+    pub(super) fn balance(&self, i: usize) -> Vec6 {
+        Vec6::from_fn(|k, _| if k < self.freedoms { self.basis[k * self.cables + i] } else { 0.0 })
+    }
+
+    /// The solution nearest to a vector.
+    pub(super) fn projected(&self, sigma: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut nearest: Vec<f64> = (0..self.cables).map(sigma).collect();
+        // Twice: the second time takes away the rounding of the first.
+        for _ in 0..2 {
+            for column in self.basis.chunks_exact(self.cables).take(self.freedoms) {
+                let along: f64 = column.iter().zip(&nearest).map(|(q, s)| q * s).sum();
+                nearest.iter_mut().zip(column).for_each(|(s, q)| *s -= along * q);
+            }
+        }
+        nearest.iter_mut().zip(&self.particular).for_each(|(s, p)| *s += p);
+        nearest
     }
 
     /// Number of directions.
@@ -150,7 +186,7 @@ mod tests {
         let (columns, right) = (some_columns(), Vec6::new(1.0, -2.0, 0.3, 4.0, 0.0, -1.0));
         for n in [3, 6] {
             let scales: Vec<f64> = (0..8).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
-            let all = Solutions::of(&columns, &scales, &right, n).unwrap();
+            let all = Solutions::of(&columns, &scales, &right, n, true).unwrap();
             let z: Vec<f64> = (0..all.redundancy()).map(|k| 0.5 - k as f64).collect();
             assert_eq!(z.len(), 8 - n);
             let sigma = all.at(&z);
@@ -160,6 +196,8 @@ mod tests {
             }
             let back = all.along(|i| sigma[i]);
             assert!(back.iter().zip(&z).all(|(a, b)| (a - b).abs() < 1e-13), "{back:?}");
+            let same = all.projected(|i| sigma[i]);
+            assert!(same.iter().zip(&sigma).all(|(a, b)| (a - b).abs() < 1e-13), "{same:?}");
             let y = all.prices(|i| (0..n).map(|j| columns[i][j] / scales[i] * (1.0 + j as f64)).sum());
             assert!((0..n).all(|j| (y[j] - 1.0 - j as f64).abs() < 1e-11), "{y}");
         }
@@ -171,11 +209,11 @@ mod tests {
         for column in &mut columns {
             column[4] = 2.0 * column[1] - column[0];
         }
-        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 6).is_none());
-        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 4).is_some());
+        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 6, true).is_none());
+        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 4, true).is_some());
         for column in &mut columns {
             column[2] = 0.0;
         }
-        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 3).is_none());
+        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 3, true).is_none());
     }
 }

@@ -82,6 +82,26 @@ impl Line {
         tau
     }
 
+    /// Hangs it with the τ at which the greatest tension is the maximum; without a maximum, with its axial stiffness,
+    /// which stretches it to twice its length.
+    pub(super) fn at_maximum(&mut self) {
+        if self.range.maximum.is_infinite() {
+            self.set(self.rope().axial_stiffness);
+            return;
+        }
+        let mut tau = self.range.maximum.max(self.slackest);
+        // As for the least tension.
+        for _ in 0..30 {
+            self.set(tau);
+            let greatest = self.greatest();
+            let next = (tau + (self.range.maximum - greatest.value) / greatest.slope).max(self.slackest);
+            if (next - tau).abs() <= 1e-12 * next {
+                break;
+            }
+            tau = next;
+        }
+    }
+
     fn rope(&self) -> Rope {
         self.hanging.catenary.rope()
     }
@@ -89,6 +109,21 @@ impl Line {
     /// τ [N].
     pub(super) fn tau(&self) -> f64 {
         self.tau
+    }
+
+    /// The unstrained length [m] and its derivative by τ [m/N].
+    pub(super) fn length(&self) -> [f64; 2] {
+        [self.rope().unstrained_length, self.length_rate]
+    }
+
+    /// Load per unstrained length [N/m].
+    pub(super) fn weight_per_length(&self) -> f64 {
+        self.rope().weight_per_length
+    }
+
+    /// Sine of the chord's slope, positive if the anchor is above the platform.
+    pub(super) fn sin(&self) -> f64 {
+        self.rise / self.hanging.chord_w().norm()
     }
 
     /// Force on the platform and lever arm, world axes.

@@ -20,13 +20,13 @@ pub(super) struct Active<M = f64> {
 }
 
 /// Normals shorter than this, of columns of an orthogonal matrix, are rounding: the unknowns do not reach the quantity.
-const NO_NORMAL: f64 = 1e-12;
+pub(super) const NO_NORMAL: f64 = 1e-12;
 
 /// Violation that is rounding, in parts of the terms that it is the difference of.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A normal that the others make up to this part of its length adds nothing.
-const DEPENDENT: f64 = 1e-10;
+pub(super) const DEPENDENT: f64 = 1e-10;
 
 /// Slopes and parts of multipliers that are rounding.
 const FLAT: f64 = 1e-14;
@@ -57,88 +57,119 @@ impl Polyhedron {
         self.levels.push(level);
     }
 
-    /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
-    /// holds it there; `None` if there is no such point.
+    /// Moves `x` to the nearest point that satisfies all inequalities, see [`nearest`].
     pub(super) fn nearest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
-        let tolerance = tolerance.max(rounding(x));
-        self.approach(x, tolerance)
+        nearest(&mut Dense::of(self), x, tolerance)
     }
 
-    /// Moves `x` to a point whose last component is greatest, of all these the one nearest to where `x` was, and
-    /// returns what holds it up there (the solution of the dual linear problem; multipliers of walls only passed on the
-    /// way are zero). `None` if the polyhedron has no points or no highest one.
-    ///
-    /// The point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see [`Far`].
+    /// Moves `x` to a point whose last component is greatest, see [`highest`].
     pub(super) fn highest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
-        let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
-        point[self.dimension - 1].far = 1.0;
-        let held = self.approach(&mut point, tolerance.max(rounding(x)))?;
-        if point.iter().any(|x| x.far != 0.0) {
-            return None;
-        }
-        x.iter_mut().zip(&point).for_each(|(x, point)| *x = point.near);
-        Some(held.into_iter().map(|Active { row, multiplier }| Active { row, multiplier: multiplier.far }).collect())
+        highest(&mut Dense::of(self), x, tolerance)
     }
+}
 
-    /// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
-    /// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
-    fn approach<M: Magnitude>(&self, x: &mut [M], tolerance: f64) -> Option<Vec<Active<M>>> {
-        let mut active: Vec<Active<M>> = Vec::with_capacity(self.dimension + 1);
-        let mut basis = Basis::new(self.dimension);
-        // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
-        for _ in 0..100 * (self.dimension + 1) {
-            let Some((row, mut lack)) = self.most_violated(x, tolerance) else { return Some(active) };
-            let normal = self.normal(row);
-            let mut multiplier = M::ZERO;
-            loop {
-                let free = basis.split(normal);
-                let squared: f64 = basis.rest.iter().map(|z| z * z).sum();
-                // How far until a multiplier vanishes, and until the inequality holds.
-                let mut blocking: Option<(M, usize)> = None;
-                for (at, held) in active.iter().enumerate() {
-                    if basis.shares[at] > 0.0 {
-                        let until = held.multiplier / basis.shares[at];
-                        if blocking.is_none_or(|(first, _)| until < first) {
-                            blocking = Some((until, at));
-                        }
+/// Inequalities, and those of them that hold a point: everything that the active-set method has to know of them.
+pub(super) trait Walls {
+    /// Number of independent directions in which a point may move.
+    fn dimension(&self) -> usize;
+
+    /// The inequality that is violated most, by more than `tolerance` and rounding, and by how much.
+    fn most_violated<M: Magnitude>(&self, x: &[M], tolerance: f64) -> Option<(usize, M)>;
+
+    /// Splits the normal of an inequality into its parts inside and outside the span of the active ones; whether there
+    /// is any outside.
+    fn split(&mut self, row: usize) -> bool;
+
+    /// Splits the last unit vector in this way.
+    fn split_vertical(&mut self);
+
+    /// The part outside of the normal that was split last, …
+    fn rest(&self) -> &[f64];
+
+    /// … and how much of each active normal makes its part inside.
+    fn shares(&self) -> &[f64];
+
+    /// Makes the inequality active whose normal was split last.
+    fn hold(&mut self, row: usize);
+
+    /// Drops the active inequality at this place of their list.
+    fn release(&mut self, at: usize);
+
+    /// Puts a point that rounding has moved back to where it may be; whether it had to.
+    fn restore<M: Magnitude>(&mut self, x: &mut [M]) -> bool;
+}
+
+/// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
+/// holds it there; `None` if there is no such point.
+pub(super) fn nearest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+    let tolerance = tolerance.max(rounding(x));
+    approach(walls, x, tolerance)
+}
+
+/// Moves `x` to a point whose last component is greatest, of all these the one nearest to where `x` was, and
+/// returns what holds it up there (the solution of the dual linear problem; multipliers of walls only passed on the
+/// way are zero). `None` if the polyhedron has no points or no highest one.
+///
+/// The point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see [`Far`].
+pub(super) fn highest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+    let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
+    point.last_mut()?.far = 1.0;
+    let held = approach(walls, &mut point, tolerance.max(rounding(x)))?;
+    if point.iter().any(|x| x.far != 0.0) {
+        return None;
+    }
+    x.iter_mut().zip(&point).for_each(|(x, point)| *x = point.near);
+    Some(held.into_iter().map(|Active { row, multiplier }| Active { row, multiplier: multiplier.far }).collect())
+}
+
+/// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
+/// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
+fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) -> Option<Vec<Active<M>>> {
+    let mut active: Vec<Active<M>> = Vec::with_capacity(walls.dimension() + 1);
+    // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
+    for _ in 0..100 * (walls.dimension() + 1) {
+        let Some((row, mut lack)) = walls.most_violated(x, tolerance) else {
+            if walls.restore(x) {
+                continue;
+            }
+            return Some(active);
+        };
+        let mut multiplier = M::ZERO;
+        loop {
+            let free = walls.split(row);
+            let squared: f64 = walls.rest().iter().map(|z| z * z).sum();
+            // How far until a multiplier vanishes, and until the inequality holds.
+            let mut blocking: Option<(M, usize)> = None;
+            for (at, (held, share)) in active.iter().zip(walls.shares()).enumerate() {
+                if *share > 0.0 {
+                    let until = held.multiplier / *share;
+                    if blocking.is_none_or(|(first, _)| until < first) {
+                        blocking = Some((until, at));
                     }
                 }
-                let full = free.then(|| lack / squared);
-                let blocked = blocking.filter(|(until, _)| full.is_none_or(|full| *until < full));
-                let step = blocked.map(|(until, _)| until).or(full)?;
-                for (held, share) in active.iter_mut().zip(&basis.shares) {
-                    held.multiplier = held.multiplier.less(step * *share);
-                }
-                multiplier = multiplier + step;
-                if free {
-                    x.iter_mut().zip(&basis.rest).for_each(|(x, z)| *x = *x + step * *z);
-                    lack = lack - step * squared;
-                }
-                let Some((_, at)) = blocked else {
-                    basis.push();
-                    active.push(Active { row, multiplier });
-                    M::settle(x, &mut basis);
-                    break;
-                };
-                active.remove(at);
-                basis.rebuild(active.iter().map(|held| self.normal(held.row)));
             }
-        }
-        None
-    }
-
-    fn most_violated<M: Magnitude>(&self, x: &[M], tolerance: f64) -> Option<(usize, M)> {
-        let mut worst: Option<(usize, M)> = None;
-        for (row, level) in self.levels.iter().enumerate() {
-            let lack = M::lack(self.normal(row), x, *level, tolerance);
-            if let Some(lack) = lack
-                && worst.is_none_or(|(_, most)| most < lack || lack.is_nan())
-            {
-                worst = Some((row, lack));
+            let full = free.then(|| lack / squared);
+            let blocked = blocking.filter(|(until, _)| full.is_none_or(|full| *until < full));
+            let step = blocked.map(|(until, _)| until).or(full)?;
+            for (held, share) in active.iter_mut().zip(walls.shares()) {
+                held.multiplier = held.multiplier.less(step * *share);
             }
+            multiplier = multiplier + step;
+            if free {
+                x.iter_mut().zip(walls.rest()).for_each(|(x, z)| *x = *x + step * *z);
+                lack = lack - step * squared;
+            }
+            let Some((_, at)) = blocked else {
+                walls.hold(row);
+                active.push(Active { row, multiplier });
+                M::settle(x, walls);
+                break;
+            };
+            active.remove(at);
+            walls.release(at);
         }
-        worst
     }
+    None
 }
 
 /// What a point has of rounding where it starts, and keeps.
@@ -147,30 +178,36 @@ fn rounding(x: &[f64]) -> f64 {
 }
 
 /// What coordinates, violations and multipliers are counted in: numbers, or numbers of two sizes.
-trait Magnitude:
+pub(super) trait Magnitude:
     Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + Div<f64, Output = Self>
 {
     const ZERO: Self;
 
-    /// What `normal · x` lacks of `level`, if it is more than `tolerance` and rounding or is not a number: then there is
-    /// no such point.
-    fn lack(normal: &[f64], x: &[Self], level: f64, tolerance: f64) -> Option<Self>;
+    /// What the sum of terms, factor times coordinate, lacks of `level`, if it is more than `tolerance` and rounding or
+    /// is not a number: then there is no such point.
+    fn lack(terms: impl Iterator<Item = (f64, Self)>, level: f64, tolerance: f64) -> Option<Self>;
 
     /// What is left of a multiplier, at least nothing.
     fn less(self, by: Self) -> Self;
 
     fn is_nan(&self) -> bool;
 
+    /// The number, or of two sizes the smaller part.
+    fn near(self) -> f64;
+
+    /// That part larger by a number.
+    fn plus_near(self, by: f64) -> Self;
+
     /// Takes rounding from a point that lies on all active inequalities.
-    fn settle(x: &mut [Self], basis: &mut Basis);
+    fn settle(x: &mut [Self], walls: &mut impl Walls);
 }
 
 impl Magnitude for f64 {
     const ZERO: Self = 0.0;
 
-    fn lack(normal: &[f64], x: &[Self], level: f64, tolerance: f64) -> Option<Self> {
+    fn lack(terms: impl Iterator<Item = (f64, Self)>, level: f64, tolerance: f64) -> Option<Self> {
         let (mut lack, mut size) = (level, level.abs());
-        for (a, x) in normal.iter().zip(x) {
+        for (a, x) in terms {
             lack -= a * x;
             size += (a * x).abs();
         }
@@ -185,7 +222,15 @@ impl Magnitude for f64 {
         Self::is_nan(*self)
     }
 
-    fn settle(_: &mut [Self], _: &mut Basis) {}
+    fn near(self) -> f64 {
+        self
+    }
+
+    fn plus_near(self, by: f64) -> Self {
+        self + by
+    }
+
+    fn settle(_: &mut [Self], _: &mut impl Walls) {}
 }
 
 /// `far · L + near` with an L larger than every number: what is far is compared first.
@@ -193,7 +238,7 @@ impl Magnitude for f64 {
 /// The highest point of a polyhedron is the one nearest to a point high enough above. How high that is depends on the
 /// flattest edge, and a number so large would leave nothing of the digits of the others; so it stays a letter.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-struct Far {
+pub(super) struct Far {
     far: f64,
     near: f64,
 }
@@ -229,9 +274,9 @@ impl Div<f64> for Far {
 impl Magnitude for Far {
     const ZERO: Self = Self { far: 0.0, near: 0.0 };
 
-    fn lack(normal: &[f64], x: &[Self], level: f64, tolerance: f64) -> Option<Self> {
+    fn lack(terms: impl Iterator<Item = (f64, Self)>, level: f64, tolerance: f64) -> Option<Self> {
         let (mut lack, mut sizes) = (Self { far: 0.0, near: level }, Self { far: 0.0, near: level.abs() });
-        for (&a, &x) in normal.iter().zip(x) {
+        for (a, x) in terms {
             lack = lack - x * a;
             // What is far has been a unit vector: its rounding stays that of one.
             sizes = sizes + Self { far: a.abs(), near: (a * x.near).abs() };
@@ -255,13 +300,93 @@ impl Magnitude for Far {
         self.far.is_nan() || self.near.is_nan()
     }
 
-    /// The far part is what the vertical has outside of the active normals.
-    fn settle(x: &mut [Self], basis: &mut Basis) {
-        let mut vertical = vec![0.0; x.len()];
-        vertical[x.len() - 1] = 1.0;
-        basis.split(&vertical);
-        x.iter_mut().zip(&basis.rest).for_each(|(x, rest)| x.far = *rest);
+    fn near(self) -> f64 {
+        self.near
     }
+
+    fn plus_near(self, by: f64) -> Self {
+        Self { far: self.far, near: self.near + by }
+    }
+
+    /// The far part is what the vertical has outside of the active normals.
+    fn settle(x: &mut [Self], walls: &mut impl Walls) {
+        walls.split_vertical();
+        x.iter_mut().zip(walls.rest()).for_each(|(x, rest)| x.far = *rest);
+    }
+}
+
+/// A polyhedron with a basis of those of its normals that are active.
+struct Dense<'a> {
+    set: &'a Polyhedron,
+    active: Vec<usize>,
+    basis: Basis,
+}
+
+impl<'a> Dense<'a> {
+    fn of(set: &'a Polyhedron) -> Self {
+        Self { set, active: Vec::with_capacity(set.dimension + 1), basis: Basis::new(set.dimension) }
+    }
+}
+
+impl Walls for Dense<'_> {
+    fn dimension(&self) -> usize {
+        self.set.dimension
+    }
+
+    fn most_violated<M: Magnitude>(&self, x: &[M], tolerance: f64) -> Option<(usize, M)> {
+        worst(self.set.levels.iter().enumerate().map(|(row, level)| {
+            let terms = self.set.normal(row).iter().copied().zip(x.iter().copied());
+            M::lack(terms, *level, tolerance)
+        }))
+    }
+
+    fn split(&mut self, row: usize) -> bool {
+        self.basis.split(self.set.normal(row))
+    }
+
+    fn split_vertical(&mut self) {
+        let mut vertical = vec![0.0; self.set.dimension];
+        if let Some(last) = vertical.last_mut() {
+            *last = 1.0;
+        }
+        self.basis.split(&vertical);
+    }
+
+    fn rest(&self) -> &[f64] {
+        &self.basis.rest
+    }
+
+    fn shares(&self) -> &[f64] {
+        &self.basis.shares
+    }
+
+    fn hold(&mut self, row: usize) {
+        self.basis.push();
+        self.active.push(row);
+    }
+
+    fn release(&mut self, at: usize) {
+        self.active.remove(at);
+        self.basis.rebuild(self.active.iter().map(|row| self.set.normal(*row)));
+    }
+
+    /// Every point of the space is one.
+    fn restore<M: Magnitude>(&mut self, _: &mut [M]) -> bool {
+        false
+    }
+}
+
+/// The greatest lack and its number; one that is not a number goes before all others.
+pub(super) fn worst<M: Magnitude>(lacks: impl Iterator<Item = Option<M>>) -> Option<(usize, M)> {
+    let mut worst: Option<(usize, M)> = None;
+    for (row, lack) in lacks.enumerate() {
+        if let Some(lack) = lack
+            && worst.is_none_or(|(_, most)| most < lack || lack.is_nan())
+        {
+            worst = Some((row, lack));
+        }
+    }
+    worst
 }
 
 /// Orthonormal basis of the active normals, and the triangle that makes them of it.

@@ -3,11 +3,13 @@
 use super::Miss;
 use super::balance::Solutions;
 use super::line::{Line, Tension};
-use super::polyhedron::{Active, Polyhedron};
+use super::polyhedron::Active;
+use super::proof::{Claim, Reach};
+use super::room::{Found, MANY, Room};
 use crate::math::Vec6;
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::Limit;
-use crate::statics::{StaticsError, balance, load_size, scaled_residual, scaled_wrench};
+use crate::statics::{StaticsError, balance, load_size, load_wrench, scaled_residual, scaled_wrench};
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
 const MOST_ITERATIONS: usize = 100;
@@ -25,6 +27,9 @@ const VIOLATION: f64 = 1e-9;
 /// minimum (v = 1.1997), its slope next to zero or below, and a limit by it would be on the wrong side.
 const LEAST_SLOPE: f64 = 1e-3;
 
+/// Limit of further starts where neither tensions within the limits nor a proof that there are none is found.
+const MAX_STARTS: usize = 12;
+
 /// Tensions at a pose, on their way to the best.
 pub(super) struct Search<'a> {
     robot: &'a Robot,
@@ -33,6 +38,8 @@ pub(super) struct Search<'a> {
     /// What tensions are compared with [N].
     size: f64,
     iterations: usize,
+    /// Tensions within the limits that a search from other starts has found.
+    rescued: Option<Vec<f64>>,
 }
 
 /// The problem linearised about the present tensions.
@@ -71,6 +78,8 @@ struct Level {
     /// … and in those of tensions [N].
     height: f64,
     held_by: Vec<(usize, Limit)>,
+    /// Multipliers of the balance; zero where the distance is in units of the widths.
+    prices: Vec6,
 }
 
 /// A limited growth of the least distance from the limits [N].
@@ -119,7 +128,7 @@ impl<'a> Search<'a> {
         let weight = load_size(robot);
         let minima: f64 = lines.iter().map(|line| line.range.minimum + line.slackest).sum();
         let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
-        Self { robot, pose, lines, size, iterations: 0 }
+        Self { robot, pose, lines, size, iterations: 0, rescued: None }
     }
 
     pub(super) fn robot(&self) -> &Robot {
@@ -200,7 +209,14 @@ impl<'a> Search<'a> {
 
     pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let freedoms = self.robot.platform.freedoms.count();
-        Solutions::of(&linear.columns, scales, &linear.right, freedoms).ok_or(StaticsError::Singular)
+        Solutions::of(&linear.columns, scales, &linear.right, freedoms, true).ok_or(StaticsError::Singular)
+    }
+
+    /// The same for [`Room`], which can do without directions where they are many.
+    fn room_for(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
+        let freedoms = self.robot.platform.freedoms.count();
+        let few = self.lines.len() < MANY + freedoms;
+        Solutions::of(&linear.columns, scales, &linear.right, freedoms, few).ok_or(StaticsError::Singular)
     }
 
     /// Violation of inequalities that is rounding.
@@ -233,6 +249,10 @@ impl<'a> Search<'a> {
             let Some(step) = self.step(&linear, target, &scales)? else {
                 self.least_violation()?;
                 last = None;
+                if self.rescued.is_some() {
+                    // From where another start has led, shorter steps.
+                    part = (0.5 * part).max(0.05);
+                }
                 continue;
             };
             let change = self.change(&step.tau);
@@ -254,26 +274,25 @@ impl<'a> Search<'a> {
     }
 
     fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<Step>, StaticsError> {
-        let solutions = self.solutions(linear, scales)?;
+        let solutions = self.room_for(linear, scales)?;
         // The least of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
         let aim = |i: usize| {
             let tau = self.lines[i].tau();
             scales[i] * (tau - (tau - target[i]) / (scales[i] * scales[i]))
         };
-        let mut set = Polyhedron::new(solutions.redundancy());
+        let mut room = Room::new(&solutions, false);
         let mut rows = Vec::with_capacity(2 * scales.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let lower = self.floor(i, *lower);
-            set.add(solutions.part(i), 1.0, None, scales[i] * lower.at - solutions.particular[i]);
+            room.add(Some(i), 1.0, 0.0, scales[i] * lower.at);
             rows.push((i, 1.0));
             if upper.at.is_finite() {
-                set.add(solutions.part(i), -1.0, None, solutions.particular[i] - scales[i] * upper.at);
+                room.add(Some(i), -1.0, 0.0, -(scales[i] * upper.at));
                 rows.push((i, -1.0));
             }
         }
-        let mut z = solutions.along(aim);
-        let Some(active) = set.nearest(&mut z, self.tolerance(&solutions)) else { return Ok(None) };
-        let sigma = solutions.at(&z);
+        let found = room.nearest(aim, 0.0, self.tolerance(&solutions));
+        let Some(Found { sigma, held: active, .. }) = found else { return Ok(None) };
         let mut pressed = vec![0.0; scales.len()];
         for held in active {
             let (i, sign) = rows[held.row];
@@ -287,6 +306,7 @@ impl<'a> Search<'a> {
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
         let mut stride = Stride::default();
+        let mut reach = 1.0;
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
@@ -294,6 +314,11 @@ impl<'a> Search<'a> {
             if level.distance < -VIOLATION {
                 self.least_violation()?;
                 stride = Stride::default();
+                if self.rescued.is_some() {
+                    // From where another start has led, next to the limits, shorter steps each time.
+                    reach *= 0.3;
+                    stride.climb = Some(Climb { from: 0.0, by: reach * self.size });
+                }
                 continue;
             }
             let change = self.change(&level.tau);
@@ -334,9 +359,16 @@ impl<'a> Search<'a> {
     /// A cable below its minimum is continued by its tangent there, so that one that would have to push has a violation
     /// as well, and the forces no kink on which linearisations could disagree. If no cable has to push after all, the
     /// violation is found once more with the cables as they hang.
+    ///
+    /// What violates the limits least may be a local optimum where cables sag. The pose is refused for good only if a
+    /// direction proves it, see [`Claim`]; else the search begins again elsewhere.
     fn least_violation(&mut self) -> Result<(), StaticsError> {
+        if let Some(tau) = self.rescued.clone() {
+            self.set(&tau);
+            return Ok(());
+        }
         let minima: Vec<f64> = self.lines.iter_mut().map(Line::at_minimum).collect();
-        let level = self.least_violation_above(&minima)?;
+        let mut level = self.least_violation_above(&minima)?;
         if level.distance >= -VIOLATION * self.size {
             // There are such tensions; the next linear problem knows.
             return Ok(());
@@ -346,9 +378,51 @@ impl<'a> Search<'a> {
             && let Ok(hung) = self.least_violation_above(&slackest)
             && hung.distance < -VIOLATION * self.size
         {
-            return Err(StaticsError::BeyondLimits(self.miss(&hung)));
+            level = hung;
         }
-        Err(StaticsError::BeyondLimits(self.miss(&level)))
+
+        // The direction of the limits' multipliers proves it nearly always.
+        let reaches: Vec<Reach> = self.lines.iter().zip(&minima).map(|(line, tau)| Reach::of(line, *tau)).collect();
+        let freedoms = self.robot.platform.freedoms;
+        let load = scaled_wrench(&load_wrench(self.robot, self.pose), self.robot.platform_length());
+        let claim = Claim { reaches: &reaches, load: freedoms.reduced(&load), freedoms };
+        let verdict = claim.refuted(&level.prices);
+        if verdict.proved {
+            return Err(StaticsError::BeyondLimits(self.miss(&level)));
+        }
+
+        // Other starts: where the cables reach farthest in that direction, and all over between the limits.
+        let mut starts = 1;
+        for k in 0..MAX_STARTS {
+            starts += 1;
+            let start = if k == 0 { verdict.farthest.clone() } else { self.spread(&reaches, k) };
+            self.set(&start);
+            let Ok(found) = self.least_violation_above(&slackest) else { continue };
+            if found.distance >= -VIOLATION * self.size {
+                self.set(&found.tau);
+                self.rescued = Some(found.tau);
+                return Ok(());
+            }
+            if found.distance > level.distance {
+                level = found;
+            }
+        }
+        Err(StaticsError::NotFoundWithinLimits { miss: self.miss(&level), starts })
+    }
+
+    /// The `k`-th of tensions that spread over what the limits allow, even in their logarithms.
+    fn spread(&self, reaches: &[Reach], k: usize) -> Vec<f64> {
+        let cables = reaches.iter().zip(&self.lines).enumerate();
+        let tensions = cables.map(|(i, (reach, line))| {
+            let [low, high] = reach.limits();
+            // Without a maximum the reach is no tension that a start should have.
+            let high = if line.range.maximum.is_infinite() { high.min(self.size.max(2.0 * low)) } else { high };
+            let low = low.max(f64::MIN_POSITIVE);
+            // Multiples of irrational numbers have no pattern (Weyl).
+            let part = ((k as f64 + 1.0) * (i as f64 + 2.0).sqrt() * std::f64::consts::E).fract();
+            low * (high / low).max(1.0).powf(part)
+        });
+        tensions.collect()
     }
 
     /// The least violation when cables are continued by their tangents below these tensions.
@@ -390,60 +464,70 @@ impl<'a> Search<'a> {
         here: &[f64],
         climb: Option<Climb>,
     ) -> Result<Level, StaticsError> {
-        let solutions = self.solutions(linear, &vec![1.0; self.lines.len()])?;
+        let solutions = self.room_for(linear, &vec![1.0; self.lines.len()])?;
         // The height is in N either way.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
-        let mut set = Polyhedron::new(solutions.redundancy() + 1);
+        let mut room = Room::new(&solutions, true);
         let mut rows = Vec::with_capacity(3 * self.lines.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let width = widths.map_or(1.0, |widths| widths[i] / unit);
             let lower = if widths.is_some() { *lower } else { self.floor(i, *lower) };
-            let particular = solutions.particular[i];
-            set.add(solutions.part(i), 1.0, Some(-width * lower.rate), lower.at - particular);
+            room.add(Some(i), 1.0, -width * lower.rate, lower.at);
             rows.push(Some((i, Limit::Minimum)));
             if upper.at.is_finite() {
-                set.add(solutions.part(i), -1.0, Some(-width * upper.rate), particular - upper.at);
+                room.add(Some(i), -1.0, -width * upper.rate, -upper.at);
                 rows.push(Some((i, Limit::Maximum)));
             }
             if widths.is_some() {
-                set.add(solutions.part(i), 1.0, Some(0.0), self.lines[i].slackest - particular);
+                room.add(Some(i), 1.0, 0.0, self.lines[i].slackest);
                 rows.push(None);
             }
         }
         if widths.is_none() {
-            set.add([0.0].iter().cycle().take(solutions.redundancy()), 1.0, Some(-1.0), 0.0);
+            room.add(None, 1.0, -1.0, 0.0);
             rows.push(None);
         }
-        let mut point = match widths {
-            Some(_) if climb.is_none() => solutions.along(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at)),
-            _ => solutions.along(|i| here[i]),
-        };
         let tolerance = self.tolerance(&solutions);
-        let held = if let Some(climb) = climb {
-            point.push(climb.from + climb.by);
-            set.nearest(&mut point, tolerance)
-        } else {
-            point.push(0.0);
-            set.highest(&mut point, tolerance)
+        let found = match (climb, widths) {
+            (Some(climb), _) => room.nearest(|i| here[i], climb.from + climb.by, tolerance),
+            (None, None) => room.highest(|i| here[i], tolerance),
+            (None, Some(_)) => room.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance),
         };
-        let Some(held) = held else {
+        let Some(Found { sigma: tau, height, held }) = found else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
             return match widths {
                 Some(_) => self.level(linear, None, here, None),
                 None => Err(self.unsettled(f64::INFINITY, STILL)),
             };
         };
-        let height = point.pop().unwrap_or(f64::NAN);
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
         held_by.sort_by_key(|(i, _)| *i);
-        Ok(Level { tau: solutions.at(&point), height, distance: height / unit, held_by })
+        let mut prices = Vec6::zeros();
+        if widths.is_none() {
+            let mut pressed = vec![0.0; self.lines.len()];
+            for held in &held {
+                if let Some((i, limit)) = rows[held.row] {
+                    pressed[i] += if limit == Limit::Minimum { held.multiplier } else { -held.multiplier };
+                }
+            }
+            prices = solutions.prices(|i| -pressed[i]);
+        }
+        Ok(Level { tau, height, distance: height / unit, held_by, prices })
     }
 
-    fn miss(&self, level: &Level) -> Miss {
+    fn miss(&mut self, level: &Level) -> Miss {
+        let mut held_by = level.held_by.clone();
+        if held_by.is_empty() {
+            // The last step was a short one, which no limit has stopped: those that bind there are asked for again.
+            self.set(&level.tau);
+            if let Ok(there) = self.level(&self.linearise(), None, &level.tau, None) {
+                held_by = there.held_by;
+            }
+        }
         let names = |limit: Limit| {
-            let of = level.held_by.iter().filter(|(_, which)| *which == limit);
+            let of = held_by.iter().filter(|(_, which)| *which == limit);
             of.map(|(i, _)| self.robot.cables[*i].name.clone()).collect()
         };
         Miss { by: -level.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }

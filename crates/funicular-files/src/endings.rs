@@ -1,0 +1,167 @@
+//! Endings of files and what they mean, in one table for all that is written.
+
+use crate::FilesError;
+use std::path::Path;
+
+/// The meaning of an ending.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Any text; whatever is text may be in it.
+    Text,
+    /// Text with marks for headings and tables.
+    Markdown,
+    /// JSON.
+    Json,
+    /// A table, its values separated by commas.
+    Csv,
+    /// Rows of a sweep with units, robot and plan.
+    Parquet,
+    /// An image for ParaView.
+    Vti,
+    /// Curves and polygons for ParaView.
+    Vtp,
+    /// A page for a browser.
+    Html,
+    /// A robot file.
+    Toml,
+    /// A script.
+    Python,
+    /// Arrays of NumPy.
+    Npz,
+    /// Something that is never written, in words.
+    Other(&'static str),
+}
+
+/// Every ending that means something. One that is not here is free for any text.
+const ENDINGS: [(&[&str], Kind); 31] = [
+    (&["txt", "out", "log", "dat"], Kind::Text),
+    (&["md"], Kind::Markdown),
+    (&["json"], Kind::Json),
+    (&["csv"], Kind::Csv),
+    (&["parquet"], Kind::Parquet),
+    (&["vti"], Kind::Vti),
+    (&["vtp"], Kind::Vtp),
+    (&["html", "htm"], Kind::Html),
+    (&["toml"], Kind::Toml),
+    (&["py"], Kind::Python),
+    (&["npz"], Kind::Npz),
+    (&["partial", "writing"], Kind::Other("rows of a sweep on their way")),
+    (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
+    (&["tsv", "tab"], Kind::Other("a table separated by tabs")),
+    (&["xls", "xlsx", "xlsm", "xlsb", "ods"], Kind::Other("a spreadsheet")),
+    (&["arrow", "arrows", "feather", "ipc"], Kind::Other("an Arrow file")),
+    (&["h5", "hdf", "hdf5", "nc"], Kind::Other("an HDF5 file")),
+    (&["mat"], Kind::Other("a file of MATLAB's variables")),
+    (&["m"], Kind::Other("a script of MATLAB")),
+    (&["npy"], Kind::Other("one array of NumPy")),
+    (&["pkl", "pickle"], Kind::Other("Python's pickled objects")),
+    (&["ipynb"], Kind::Other("a notebook")),
+    (&["vtk", "vtu", "vtr", "vts", "vtm", "pvd"], Kind::Other("another format of VTK")),
+    (&["pdf", "ps", "eps"], Kind::Other("printed pages")),
+    (&["png", "jpg", "jpeg", "gif", "svg", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
+    (&["doc", "docx", "odt", "rtf", "ppt", "pptx", "tex"], Kind::Other("a document")),
+    (&["yaml", "yml", "ini"], Kind::Other("another format of settings")),
+    (&["xml", "wcrfx"], Kind::Other("another format of XML")),
+    (&["tcl", "js", "c", "h", "cpp", "rs", "jl", "sh", "bat"], Kind::Other("a program in another language")),
+    (&["db", "sqlite", "duckdb"], Kind::Other("a database")),
+    (&["zip", "gz", "tgz", "bz2", "xz", "zst", "7z", "tar"], Kind::Other("an archive")),
+];
+
+impl Kind {
+    /// The kind that the ending of a file names, in capitals or not; none for no ending, or for one that means nothing.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = ending(path)?;
+        ENDINGS.iter().find(|(endings, _)| endings.contains(&ending.as_str())).map(|(_, kind)| *kind)
+    }
+
+    /// In words.
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::Text => "text",
+            Self::Markdown => "Markdown",
+            Self::Json => "JSON",
+            Self::Csv => "CSV",
+            Self::Parquet => "a Parquet file",
+            Self::Vti => "an image of VTK",
+            Self::Vtp => "curves and polygons of VTK",
+            Self::Html => "an HTML page",
+            Self::Toml => "TOML",
+            Self::Python => "a Python script",
+            Self::Npz => "arrays of NumPy",
+            Self::Other(words) => words,
+        }
+    }
+}
+
+/// Refuses a file whose ending means something else than the text that is to be written into it.
+///
+/// `written` is that text in words, `fitting` the kinds whose endings it may have, besides those of any text and those that
+/// mean nothing.
+///
+/// # Errors
+/// [`FilesError::OtherEnding`], with the endings that fit.
+pub fn check(path: &Path, written: &str, fitting: &[Kind]) -> Result<(), FilesError> {
+    match Kind::of(path) {
+        None | Some(Kind::Text) => Ok(()),
+        Some(kind) if fitting.contains(&kind) => Ok(()),
+        Some(kind) => Err(FilesError::OtherEnding {
+            path: path.to_owned(),
+            written: written.to_owned(),
+            ending: ending(path).unwrap_or_default(),
+            means: kind.in_words(),
+            fitting: listed(fitting),
+        }),
+    }
+}
+
+/// The ending in small letters, without the dot.
+fn ending(path: &Path) -> Option<String> {
+    path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase)
+}
+
+/// The first ending of each kind: ".json, .csv or .txt".
+fn listed(kinds: &[Kind]) -> String {
+    let first =
+        |kind: &Kind| ENDINGS.iter().find(|(_, other)| other == kind).map(|(endings, _)| format!(".{}", endings[0]));
+    let mut endings: Vec<String> = kinds.iter().filter_map(first).collect();
+    match endings.pop() {
+        None => ".txt".to_owned(),
+        Some(last) if endings.is_empty() => last,
+        Some(last) => format!("{} or {last}", endings.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn an_ending_has_one_meaning_in_small_letters() {
+        let all: Vec<&str> = ENDINGS.iter().flat_map(|(endings, _)| endings.iter().copied()).collect();
+        assert_eq!(all.iter().collect::<HashSet<_>>().len(), all.len());
+        assert!(all.iter().all(|ending| ending.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit())));
+        let kinds: Vec<Kind> = ENDINGS.iter().map(|(_, kind)| *kind).collect();
+        assert!(kinds.iter().enumerate().all(|(i, kind)| !kinds[..i].contains(kind)), "one row for each");
+        assert_eq!(Kind::of(Path::new("a/b.JSON")), Some(Kind::Json));
+        for free in ["a", "a/b.c/d", ".json", "a.v2", "a.", "-", "a.b-c"] {
+            assert_eq!(Kind::of(Path::new(free)), None, "{free}");
+        }
+    }
+
+    #[test]
+    fn a_text_goes_where_it_fits_and_where_nothing_is_meant() {
+        let fitting = [Kind::Json, Kind::Csv, Kind::Text];
+        for fits in ["a.json", "a.csv", "a.txt", "a.out", "a", "a.v2"] {
+            check(Path::new(fits), "the result", &fitting).unwrap();
+        }
+        let said = check(Path::new("a.xlsx"), "the result", &fitting).unwrap_err().to_string();
+        assert_eq!(
+            said,
+            "a.xlsx would hold the result, and .xlsx means a spreadsheet; choose a name that ends in .json, .csv or .txt"
+        );
+        assert!(check(Path::new("a.html"), "a page", &[Kind::Html]).is_ok());
+        let said = check(Path::new("a.csv"), "a page", &[Kind::Html]).unwrap_err().to_string();
+        assert!(said.ends_with("and .csv means CSV; choose a name that ends in .html"), "{said}");
+    }
+}

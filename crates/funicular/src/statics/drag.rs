@@ -1,0 +1,78 @@
+//! The stiffness that the drag of the wind adds because it turns with the cables.
+
+use super::{Equilibrium, StaticModel, add_congruent, scaled, tangent_stiffness};
+use crate::math::Mat6;
+use crate::robot::Robot;
+
+/// Derivative `−∂wrench/∂(δp, δθ)` at an equilibrium with a drag of the wind that turns with the cables: what a small slow
+/// displacement meets. About the platform origin, world axes [N/m, N, N·m]; in wind not symmetric, without wind
+/// [`tangent_stiffness`] to the last bit.
+///
+/// `None` for ideal cables. Zero for motions that the platform does not have. A moment fixed in the world counts as in
+/// [`tangent_stiffness`].
+///
+/// # Example
+/// ```
+/// use funicular::robot::{Robot, Wind};
+/// use funicular::{math::Vec3, statics::{self, StaticModel}};
+/// let text = include_str!("../../../../robots/yuan2014-4mm.toml")
+///     .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2");
+/// let wind = Wind { velocity_w: Vec3::new(15.0, 0.0, 0.0), ..Wind::default() };
+/// let robot = Robot::from_toml(&text)?.with_wind(wind);
+/// let rest = statics::rest(&robot, StaticModel::Catenary, None)?.equilibrium;
+/// let tangent = statics::tangent_with_drag(&robot, &rest).ok_or("elastic cables have a tangent")?;
+/// assert!(statics::antisymmetric_part(&robot, &tangent) > 1e-5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equation (49d).
+pub fn tangent_with_drag(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    let held = tangent_stiffness(robot, equilibrium)?;
+    Some(drag_stiffness(robot, equilibrium).map_or(held, |turn| held + turn))
+}
+
+/// The part of [`tangent_with_drag`] that is due to the turn of the drag; 6×6, about the platform origin, world axes, not
+/// symmetric [N/m, N, N·m]. `None` where no drag turns: without wind, without drag coefficients, or with cables that
+/// carry no load along them (static models `ideal` and `spring`).
+///
+/// # References
+/// docs/theory.md, equation (49c).
+pub fn drag_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    if equilibrium.model != StaticModel::Catenary || !robot.wind_turns_with_cables() {
+        return None;
+    }
+    let mut total = Mat6::zeros();
+    for (i, cable) in equilibrium.cables.iter().enumerate() {
+        if let (Some(hanging), Some(turn)) = (&cable.hanging, robot.line_load_by_chord(i, &cable.chord_w())) {
+            // The chord shortens as the attachment moves along it: the two signs of −∂Φ/∂x and ∂d/∂x cancel.
+            add_congruent(&mut total, &(hanging.force_by_load_w() * turn), &cable.lever_w);
+        }
+    }
+    let freedoms = &robot.platform.freedoms;
+    Some(freedoms.expanded_matrix(&freedoms.reduced_matrix(&total)))
+}
+
+/// Size of the antisymmetric part of a stiffness over the size of the whole: Frobenius norms of the scaled matrices
+/// (theory (3)), moments over ℓ and rotations times ℓ.
+pub fn antisymmetric_part(robot: &Robot, stiffness: &Mat6) -> f64 {
+    let matrix = scaled(stiffness, robot.platform_length());
+    let size = matrix.norm();
+    if size > 0.0 { 0.5 * (matrix - matrix.transpose()).norm() / size } else { 0.0 }
+}
+
+/// How much the turn of the drag changes static displacements: the largest change of the displacement under any small load,
+/// over the displacement with the drag held; rotations times ℓ, moments over ℓ. `None` where no drag turns, and where the
+/// stiffness is singular.
+///
+/// # References
+/// docs/theory.md, equation (49e).
+pub fn drag_effect(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
+    let turn = drag_stiffness(robot, equilibrium)?;
+    let whole = tangent_stiffness(robot, equilibrium)? + turn;
+    let freedoms = &robot.platform.freedoms;
+    let [turn, mut whole] = [turn, whole].map(|k| freedoms.reduced_matrix(&scaled(&k, robot.platform_length())));
+    (freedoms.count()..6).for_each(|k| whole[(k, k)] = 1.0);
+    let effect = (whole.try_inverse()? * turn).singular_values().max();
+    effect.is_finite().then_some(effect)
+}

@@ -1,0 +1,245 @@
+//! Proof that no tensions within the limits balance the platform: a wrench direction in which they cannot reach it.
+//!
+//! For any direction y, balance needs `y·e + Σ y·w_i(τ_i) = 0`, e being the load and w_i the wrench of a cable. If the sum
+//! of the load's share and the greatest share that every cable can have within its limits is negative, no tensions
+//! within the limits balance the platform, however the cables sag: (39b). The greatest shares are each a search in one
+//! variable, along the true curve of the cable.
+
+use super::line::Line;
+use super::polyhedron::Polyhedron;
+use crate::math::{Vec3, Vec6};
+use crate::robot::Freedoms;
+
+/// Limit of intervals that are halved for one direction.
+const MAX_HALVINGS: usize = 100;
+
+/// Limit of directions that are tried after the first.
+const MAX_CUTS: usize = 60;
+
+/// Sine of a chord's slope up to which the unstrained length is a convex function of the tension; it is up to 0.98.
+const STEEP: f64 = 0.95;
+
+/// Rounding of the sum of all shares, in parts of their sizes.
+const ROUNDING: f64 = 1e-12;
+
+/// Where a cable's tension may be.
+#[derive(Debug, Clone)]
+pub(super) struct Reach {
+    /// The cable at the least τ within its limits, not slacker than (37), and at the greatest.
+    ends: [Line; 2],
+}
+
+impl Reach {
+    /// From a cable in any state; `minimum` is its [`Line::at_minimum`].
+    pub(super) fn of(line: &Line, minimum: f64) -> Self {
+        let mut ends = [line.clone(), line.clone()];
+        ends[0].set(minimum);
+        ends[1].at_maximum();
+        // Limits that are no wider than the bend of a heavy rope.
+        if ends[1].tau() < minimum {
+            ends[1].set(minimum);
+        }
+        Self { ends }
+    }
+
+    fn seen(&self, y: &Vec6, freedoms: &Freedoms) -> Seen {
+        let line = &self.ends[0];
+        let in_direction = |force_w: &Vec3| y.dot(&freedoms.reduced(&line.wrench(force_w)));
+        let upward = in_direction(&line.hanging.axes_w().1);
+        let sin = line.sin();
+        Seen {
+            along: in_direction(&line.hanging.chord_w().normalize()),
+            of_length: -0.5 * upward * line.weight_per_length(),
+            convex_bend: upward * sin >= 0.0,
+            steep: sin.abs() > STEEP,
+        }
+    }
+
+    /// The least and the greatest τ [N].
+    pub(super) fn limits(&self) -> [f64; 2] {
+        [self.ends[0].tau(), self.ends[1].tau()]
+    }
+}
+
+/// A cable seen in one direction: its share is `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    /// What the share is per τ of a straight cable.
+    along: f64,
+    /// The factor of the length, `−½ b w` [N/m in parts of y].
+    of_length: f64,
+    /// D enters it as a convex function.
+    convex_bend: bool,
+    /// The length is no convex function of the tension.
+    steep: bool,
+}
+
+/// A point of a cable's share.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    tau: f64,
+    /// The cable's wrench, scaled, in the platform's coordinates.
+    wrench: Vec6,
+    /// `along τ`.
+    straight: f64,
+    /// The part of D and that of the length, each with its derivative by τ.
+    bend: [f64; 2],
+    length: [f64; 2],
+}
+
+impl Point {
+    fn of(line: &Line, y: &Vec6, seen: &Seen, freedoms: &Freedoms) -> Self {
+        let wrench = freedoms.reduced(&line.wrench(&line.force().0));
+        let straight = seen.along * line.tau();
+        let length = line.length().map(|value| seen.of_length * value);
+        let slope = y.dot(&freedoms.reduced(&line.column()));
+        let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
+        Self { tau: line.tau(), wrench, straight, bend, length }
+    }
+
+    fn share(&self) -> f64 {
+        self.straight + self.bend[0] + self.length[0]
+    }
+}
+
+/// A part of a cable's reach.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    cable: usize,
+    ends: [Point; 2],
+}
+
+impl Part {
+    /// Nothing between the ends is above: (39b).
+    fn bound(&self, seen: &Seen) -> f64 {
+        let [from, to] = &self.ends;
+        let width = to.tau - from.tau;
+
+        // Straight lines above each part, by their values at both ends: a convex part is below its chord, a concave one
+        // below the tangent at either end.
+        let lines = |[p, q]: [[f64; 2]; 2], convex: bool| {
+            if convex { [[p[0], q[0]]; 2] } else { [[p[0], p[0] + p[1] * width], [q[0] - q[1] * width, q[0]]] }
+        };
+        let bends = lines([from.bend, to.bend], seen.convex_bend);
+        let lengths = if seen.steep {
+            // All that is known is that the length falls.
+            [[from.length[0].max(to.length[0]); 2]; 2]
+        } else {
+            lines([from.length, to.length], seen.of_length >= 0.0)
+        };
+
+        // The least of the sums.
+        let above = |bend: &[f64; 2], length: &[f64; 2]| {
+            (from.straight + bend[0] + length[0]).max(to.straight + bend[1] + length[1])
+        };
+        let sums = bends.iter().flat_map(|bend| lengths.iter().map(move |length| above(bend, length)));
+        sums.fold(f64::INFINITY, f64::min)
+    }
+
+    fn best(&self) -> Point {
+        let [from, to] = self.ends;
+        if from.share() > to.share() { from } else { to }
+    }
+}
+
+/// What the directions that were tried say.
+pub(super) struct Verdict {
+    /// No tensions within the limits balance the platform.
+    pub proved: bool,
+    /// The tensions with the greatest shares in the first direction [N].
+    pub farthest: Vec<f64>,
+}
+
+/// A load that cables are to balance, within their reaches; in the platform's coordinates, scaled.
+pub(super) struct Claim<'a> {
+    pub reaches: &'a [Reach],
+    pub load: Vec6,
+    pub freedoms: Freedoms,
+}
+
+impl Claim<'_> {
+    /// Whether a direction proves that the load is not balanced: the first one, or one of those that follow from it.
+    ///
+    /// Every direction that proves nothing has a set of tensions within the limits on the wrong side of its plane. The
+    /// next direction has all of these sets on the right side, with the widest least angle (cutting planes). There is
+    /// none if the load lies in the convex hull of what these tensions balance; then no direction is a proof.
+    pub(super) fn refuted(&self, first: &Vec6) -> Verdict {
+        let n = self.freedoms.count();
+        let mut seen: Vec<[f64; 6]> = Vec::new();
+        let mut y = *first;
+        let mut verdict = Verdict { proved: false, farthest: Vec::new() };
+        for _ in 0..=MAX_CUTS {
+            let (proved, farthest) = self.examine(&y);
+            if seen.is_empty() {
+                verdict.farthest = farthest.iter().map(|point| point.tau).collect();
+            }
+            if proved {
+                verdict.proved = true;
+                break;
+            }
+            let wrench = farthest.iter().fold(self.load, |sum, point| sum + point.wrench);
+            let Some(unit) = wrench.try_normalize(0.0) else { break };
+            seen.push(std::array::from_fn(|k| unit[k]));
+
+            let mut sides = Polyhedron::new(n);
+            for unit in &seen {
+                sides.add(unit[..n].iter(), -1.0, None, 1.0);
+            }
+            let mut next = [0.0; 6];
+            if sides.nearest(&mut next[..n], 1e-9).is_none() {
+                break;
+            }
+            let next = Vec6::from(next).normalize();
+            // Where the last direction comes again, rounding decides.
+            if (next - y).amax() < 1e-12 {
+                break;
+            }
+            y = next;
+        }
+        verdict
+    }
+
+    /// Whether one direction proves it, and the points of the cables with the greatest shares in it.
+    fn examine(&self, y: &Vec6) -> (bool, Vec<Point>) {
+        let mut parts: Vec<Part> = Vec::with_capacity(self.reaches.len());
+        let seen: Vec<Seen> = self.reaches.iter().map(|reach| reach.seen(y, &self.freedoms)).collect();
+        for (cable, reach) in self.reaches.iter().enumerate() {
+            let end = |k: usize| Point::of(&reach.ends[k], y, &seen[cable], &self.freedoms);
+            parts.push(Part { cable, ends: [end(0), end(1)] });
+        }
+        let mut best: Vec<Point> = parts.iter().map(Part::best).collect();
+        let own = y.dot(&self.load);
+        let size = own.abs() + best.iter().map(|point| point.share().abs()).sum::<f64>();
+
+        for _ in 0..=MAX_HALVINGS {
+            // The sum of all bounds decides, …
+            let mut bounds: Vec<f64> = best.iter().map(Point::share).collect();
+            for part in &parts {
+                bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable]));
+            }
+            if own + bounds.iter().sum::<f64>() < -ROUNDING * size {
+                return (true, best);
+            }
+
+            // … or that of shares that the cables do have.
+            if own + best.iter().map(Point::share).sum::<f64>() >= -ROUNDING * size {
+                break;
+            }
+
+            // Between both the part that is least known is halved.
+            let excess = |part: &Part| part.bound(&seen[part.cable]) - best[part.cable].share();
+            let widest = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])));
+            let Some(widest) = widest else { break };
+            let Part { cable, ends: [from, to] } = parts[widest];
+            let mut line = self.reaches[cable].ends[0].clone();
+            line.set((from.tau * to.tau).sqrt());
+            let middle = Point::of(&line, y, &seen[cable], &self.freedoms);
+            if middle.share() > best[cable].share() {
+                best[cable] = middle;
+            }
+            parts[widest].ends = [from, middle];
+            parts.push(Part { cable, ends: [middle, to] });
+        }
+        (false, best)
+    }
+}

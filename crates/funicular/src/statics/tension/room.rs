@@ -1,0 +1,91 @@
+//! The tensions that satisfy the linearised balance within linear bounds, whichever way they are searched.
+
+use super::balance::Solutions;
+use super::bounds::Bounds;
+use super::polyhedron::{self, Active, Polyhedron};
+
+/// Directions of the balance from which on the search is made in the space of the cables. With few the null space has
+/// shorter vectors and nothing to solve; with hundreds the space of the cables takes a small part of the time. Both ways
+/// end at the same point, so that the number between matters to the time alone.
+pub(super) const MANY: usize = 34;
+
+/// Bounds of tensions (scaled, σ) that satisfy the balance, and of a height if there is one.
+pub(super) struct Room<'a> {
+    solutions: &'a Solutions,
+    lifted: bool,
+    walls: Walls,
+}
+
+enum Walls {
+    Few(Polyhedron),
+    Many(Bounds),
+}
+
+/// Where a search has ended.
+pub(super) struct Found {
+    pub sigma: Vec<f64>,
+    /// Zero without a height.
+    pub height: f64,
+    pub held: Vec<Active>,
+}
+
+impl<'a> Room<'a> {
+    /// Without bounds as yet.
+    pub(super) fn new(solutions: &'a Solutions, lifted: bool) -> Self {
+        let walls = if solutions.has_directions() {
+            Walls::Few(Polyhedron::new(solutions.redundancy() + usize::from(lifted)))
+        } else {
+            Walls::Many(Bounds::new(solutions, lifted))
+        };
+        Self { solutions, lifted, walls }
+    }
+
+    /// Adds `sign σ_i + lift t ≥ level`; without a cable `lift t ≥ level`.
+    pub(super) fn add(&mut self, cable: Option<usize>, sign: f64, lift: f64, level: f64) {
+        match &mut self.walls {
+            Walls::Many(bounds) => bounds.add(cable, sign, lift, level),
+            Walls::Few(set) => {
+                let last = self.lifted.then_some(lift);
+                match cable {
+                    Some(i) => set.add(self.solutions.part(i), sign, last, level - sign * self.solutions.particular[i]),
+                    None => {
+                        set.add([0.0].iter().cycle().take(self.solutions.redundancy()), 1.0, last, level);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The tensions nearest to `start` that satisfy balance and bounds, see [`polyhedron::nearest`].
+    pub(super) fn nearest(self, start: impl Fn(usize) -> f64, height: f64, tolerance: f64) -> Option<Found> {
+        self.search(start, height, |walls, x| match walls {
+            Walls::Few(set) => set.nearest(x, tolerance),
+            Walls::Many(bounds) => polyhedron::nearest(bounds, x, tolerance),
+        })
+    }
+
+    /// The tensions of the greatest height, see [`polyhedron::highest`].
+    pub(super) fn highest(self, start: impl Fn(usize) -> f64, tolerance: f64) -> Option<Found> {
+        self.search(start, 0.0, |walls, x| match walls {
+            Walls::Few(set) => set.highest(x, tolerance),
+            Walls::Many(bounds) => polyhedron::highest(bounds, x, tolerance),
+        })
+    }
+
+    fn search(
+        mut self,
+        start: impl Fn(usize) -> f64,
+        height: f64,
+        end: impl FnOnce(&mut Walls, &mut [f64]) -> Option<Vec<Active>>,
+    ) -> Option<Found> {
+        let few = matches!(self.walls, Walls::Few(_));
+        let mut point = if few { self.solutions.along(start) } else { self.solutions.projected(start) };
+        if self.lifted {
+            point.push(height);
+        }
+        let held = end(&mut self.walls, &mut point)?;
+        let height = if self.lifted { point.pop()? } else { 0.0 };
+        let sigma = if few { self.solutions.at(&point) } else { point };
+        Some(Found { sigma, height, held })
+    }
+}
