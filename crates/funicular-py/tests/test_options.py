@@ -34,7 +34,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "import": ("`funicular.import_robot(files, …)`", [funicular.import_robot]),
     "export": ("`robot.equilibrium(…).export(to, path, …)`", [Robot.equilibrium, Equilibrium.export]),
     "validate": ("`funicular.validate()`", [funicular.validate]),
-    "request": ("`funicular.run(request)`", [funicular.run]),
+    "request": ("`funicular.run(request)`", [funicular.run, Robot.map, Robot.sweep]),
 }
 
 # Options that are something else than a keyword of their name, with what they stand on; a command's own go first.
@@ -61,22 +61,20 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     ("import", "--output-file"): ("`imported.write(path)`", funicular.Imported.write),
     ("request", "--format"): ("`json.dumps(result)`", funicular.run),
     ("request", "--output-file"): ("`json.dumps(result)`, `rows.write(path)`, `page.write(path)`", funicular.Page.write),
-    ("request", "--resume"): ("of `Robot.map`, `Robot.sweep`", Robot.map),
-    ("request", "--discard"): ("of `Robot.map`, `Robot.sweep`", Robot.map),
-    ("request", "--part"): ("of `Robot.map`, `Robot.sweep`", Robot.map),
-    ("request", "--threads"): ("of `Robot.map`, `Robot.sweep`", Robot.map),
 }
 
 
-def equal(command: str, option: str) -> str | None:
-    """What an option is in Python; None where it is nothing."""
+def equal(command: str, option: str) -> tuple[str, str] | None:
+    """What an option is in Python, and the callable whose keyword it is, if it is one; None where it is nothing."""
     for key in ((command, option), (None, option)):
         if key in OTHERS:
-            return OTHERS[key][0]
+            return OTHERS[key][0], ""
     keyword = option.removeprefix("--").replace("-", "_")
     for called in COMMANDS[command][1]:
         if keyword in inspect.signature(called).parameters:
-            return f"`{keyword}=` of `{called.__qualname__}`"
+            # A method that inspect knows by its class, a function by the package.
+            name = called.__qualname__ if "." in called.__qualname__ else f"funicular.{called.__name__}"
+            return f"`{keyword}=`", f"`{name}`"
     return None
 
 
@@ -84,12 +82,17 @@ def tables(executable: str) -> str:
     """Commands, then options with the commands that have them."""
     lines = ["| Command | Python |", "|---|---|"]
     lines += [f"| `{command}` | {COMMANDS[command][0]} |" for command in commands.commands(executable)]
-    rows: dict[tuple[str, str], list[str]] = {}
+    rows: dict[tuple[str, str], tuple[list[str], dict[str, None]]] = {}
     for command in commands.commands(executable):
         for option in commands.options(executable, command):
-            rows.setdefault((option, equal(command, option) or "MISSING"), []).append(command)
+            python, called = equal(command, option) or ("MISSING", "")
+            names, callables = rows.setdefault((option, python), ([], {}))
+            names.append(command)
+            callables[called] = None
     lines += ["", "| Option | of | Python |", "|---|---|---|"]
-    lines += [f"| `{option}` | {', '.join(names)} | {python} |" for (option, python), names in sorted(rows.items())]
+    for (option, python), (names, callables) in sorted(rows.items()):
+        of = ", ".join(filter(None, callables))
+        lines.append(f"| `{option}` | {', '.join(names)} | {python}{f' of {of}' if of else ''} |")
     return "\n".join(lines) + "\n"
 
 
