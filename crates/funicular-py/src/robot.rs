@@ -657,7 +657,7 @@ impl PyRobot {
     }
 
     /// `Equilibrium.all_equilibria` in the state of the robot file.
-    fn all_equilibria<'py>(slf: Py<Self>, py: Python<'py>) -> PyResult<Keyed<'py>> {
+    fn all_equilibria(slf: Py<Self>, py: Python<'_>) -> PyResult<Keyed<'_>> {
         Self::at_rest(slf, py)?.all_equilibria(py)
     }
 

@@ -70,7 +70,7 @@ pub(crate) fn stiffness(
 ) -> PyResult<Stiffness> {
     let (frequencies, one) = at_hz.map_or(Ok((vec![0.0], true)), |hz| hz.frequencies_of("at_hz"))?;
     let model = model(cable_model, assembly, in_plane_only)?;
-    let matrices = py.detach(|| analyses::stiffness::matrices(&of.at_rest, &model, &frequencies));
+    let matrices = py.detach(|| analyses::stiffness::matrices(&of.at_rest, model, &frequencies));
     let all = flat(&matrices.map_err(|error| errors::dynamics(&error))?);
     Ok(match (one, frequencies[..] == [0.0]) {
         (true, true) => Stiffness::Static(Matrix::of_rows(all.iter().map(|z| z.re).collect(), 6)),

@@ -41,14 +41,16 @@ fn requests() -> Vec<Value> {
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
-    let point = joined(&[&state, &tensions, &model, &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 })]);
+    let point =
+        joined(&[&state, &tensions, &model, &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 })]);
     let files = json!({ "files": [{ "path": "a.xml", "text": "<a/>", "guessed_encoding": "windows-1252" }] });
     let ropes = json!({
         "mass_kg_per_m": 0.05, "axial_stiffness_n": 1e6, "youngs_modulus_pa": 1e11, "diameter_m": 0.005,
         "inertia_kg_m2": [1.0, 1.0, 1.0, 0.0, 0.0, 0.1], "center_of_mass_m": [0.0, 0.0, 0.1], "mass_kg": 7.0,
         "cable_set": "springs", "pose": [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
     });
-    let grid = json!([{ "axis": "x", "from": -6.0, "to": 6.0, "count": 25 }, { "axis": "z", "values": [0.5, 1.0, 0.1] }]);
+    let grid =
+        json!([{ "axis": "x", "from": -6.0, "to": 6.0, "count": 25 }, { "axis": "z", "values": [0.5, 1.0, 0.1] }]);
     let of = |command: &str, parts: &[&Value]| joined(&[&[&json!({ "command": command })], parts].concat());
     vec![
         of("check", &[&robot]),
@@ -61,10 +63,7 @@ fn requests() -> Vec<Value> {
             &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0, "stations": 21, "damped": false })],
         ),
         of("frf", &[&robot, &state, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0 })]),
-        of(
-            "compare",
-            &[&robot, &state, &json!({ "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false })],
-        ),
+        of("compare", &[&robot, &state, &json!({ "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false })]),
         of(
             "pose-error",
             &[&robot, &json!({ "mass_kg": [10.55, 86.35, 100], "lengths_m": [6.9, 6.6], "tolerance_mm": 5.0 })],

@@ -37,11 +37,11 @@ pub struct Stiffness {
 pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffness> {
     crate::request::check_not_negative("at_hz", request.at_hz)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
-    let linearisation = linearisation_at(&at_rest, &request.model, request.at_hz);
-    let matrix = matrices(&at_rest, &request.model, &[request.at_hz])?[0];
+    let linearisation = linearisation_at(&at_rest, request.model, request.at_hz);
+    let matrix = matrices(&at_rest, request.model, &[request.at_hz])?[0];
 
     // The drag that turns with the cables makes the matrix unsymmetric; the models of vibration are not asked then.
-    let turns = drag_turns(&at_rest, &request.model, request.at_hz);
+    let turns = drag_turns(&at_rest, request.model, request.at_hz);
     let antisymmetric_part = turns.then(|| statics::antisymmetric_part(&at_rest.robot, &matrix.map(|k| k.re)));
     let warnings = at_rest.warnings((!turns).then_some((linearisation.cable_model, request.at_hz)));
 
@@ -61,8 +61,8 @@ pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffnes
 
 /// The linearisation at a frequency: at 0 Hz, unless a cable model is named, the tangent of the static model, which the exact
 /// cable model has at rest.
-fn linearisation_at(at_rest: &AtRest, model: &Model, hz: f64) -> Linearisation {
-    let linearisation = at_rest::linearisation(model, at_rest.equilibrium.model);
+fn linearisation_at(at_rest: &AtRest, model: Model, hz: f64) -> Linearisation {
+    let linearisation = at_rest::linearisation(&model, at_rest.equilibrium.model);
     if model.cable_model.is_none() && hz == 0.0 {
         return Linearisation { cable_model: CableModel::CatenaryTangent, ..linearisation };
     }
@@ -71,7 +71,7 @@ fn linearisation_at(at_rest: &AtRest, model: &Model, hz: f64) -> Linearisation {
 
 /// Whether the stiffness at a frequency has a drag of the wind that turns with the cables: at 0 Hz without a named cable
 /// model, which is that of vibration, with held drag.
-fn drag_turns(at_rest: &AtRest, model: &Model, hz: f64) -> bool {
+fn drag_turns(at_rest: &AtRest, model: Model, hz: f64) -> bool {
     model.cable_model.is_none()
         && linearisation_at(at_rest, model, hz) == WHOLE_TANGENT
         && statics::drag_stiffness(&at_rest.robot, &at_rest.equilibrium).is_some()
@@ -81,7 +81,7 @@ fn drag_turns(at_rest: &AtRest, model: &Model, hz: f64) -> bool {
 ///
 /// # Errors
 /// [`DynamicsError`]: a model that has no stiffness there.
-pub fn matrices(at_rest: &AtRest, model: &Model, frequencies: &[f64]) -> Result<Vec<CMat6>, DynamicsError> {
+pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<Vec<CMat6>, DynamicsError> {
     let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
     let still = if frequencies.contains(&0.0) { Some(Form::at(at_rest, model, 0.0)?) } else { None };
     let moving = if highest_hz > 0.0 { Some(Form::at(at_rest, model, highest_hz)?) } else { None };
@@ -99,17 +99,17 @@ const WHOLE_TANGENT: Linearisation =
 /// A stiffness over frequency.
 enum Form {
     /// The tangent of the statics, the same at every frequency.
-    Constant(CMat6),
+    Constant(Box<CMat6>),
     Dynamic(Box<Dynamics>),
 }
 
 impl Form {
     /// The stiffness up to a frequency [Hz].
-    fn at(at_rest: &AtRest, model: &Model, up_to_hz: f64) -> Result<Self, DynamicsError> {
+    fn at(at_rest: &AtRest, model: Model, up_to_hz: f64) -> Result<Self, DynamicsError> {
         let AtRest { robot, equilibrium, .. } = at_rest;
         let linearisation = linearisation_at(at_rest, model, up_to_hz);
         refuse_rigid(linearisation, equilibrium.model)?;
-        let constant = |tangent: Mat6| Self::Constant(tangent.map(|k| Complex::new(k, 0.0)));
+        let constant = |tangent: Mat6| Self::Constant(Box::new(tangent.map(|k| Complex::new(k, 0.0))));
         if drag_turns(at_rest, model, up_to_hz)
             && let Some(tangent) = statics::tangent_with_drag(robot, equilibrium)
         {
@@ -124,7 +124,7 @@ impl Form {
 
     fn matrix(&self, hz: f64) -> CMat6 {
         match self {
-            Self::Constant(matrix) => *matrix,
+            Self::Constant(matrix) => **matrix,
             Self::Dynamic(dynamics) => dynamics.stiffness(hz * TAU),
         }
     }
