@@ -4,7 +4,7 @@ use crate::args::ChangeArgs;
 use anyhow::{Context, Result, bail};
 use funicular_files::Guard;
 use funicular_study::request::RobotText;
-use funicular_study::robot_file::MAX_BYTES;
+use funicular_study::robot_file::{self, MAX_BYTES};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -52,11 +52,5 @@ fn limited(reader: impl Read, name: &str) -> Result<String> {
     let mut bytes = Vec::new();
     let most = MAX_BYTES as u64;
     reader.take(most + 1).read_to_end(&mut bytes).with_context(|| format!("cannot read the robot file {name}"))?;
-    if bytes.len() > MAX_BYTES {
-        bail!("{name} is larger than {} MiB: it is no robot file", MAX_BYTES >> 20);
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        anyhow::anyhow!("{name} is no text: byte {} is not UTF-8; a robot file is TOML in UTF-8", at + 1)
-    })
+    robot_file::decode(name, bytes)
 }

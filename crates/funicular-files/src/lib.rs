@@ -32,7 +32,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a file of a sweep cannot be read or written.
+/// Why a file of a sweep cannot be read or written. A message names options by their keys between ⟪ and ⟫, for
+/// [`worded`](funicular_study::wording::worded).
 #[derive(Debug, Error)]
 pub enum FilesError {
     /// The ending of a file says no format.
@@ -86,7 +87,7 @@ pub enum FilesError {
     },
     /// Work in the way.
     #[error(
-        "{} holds {done} of {rows} rows of a run that did not end: go on with --resume, or begin anew with --discard",
+        "{} holds {done} of {rows} rows of a run that did not end: go on with ⟪resume⟫, or begin anew with ⟪discard⟫",
         .journal.display()
     )]
     Unfinished {
@@ -98,7 +99,7 @@ pub enum FilesError {
         rows: usize,
     },
     /// A file that is no journal where one would be.
-    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with --discard", .path.display())]
+    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with ⟪discard⟫", .path.display())]
     NoJournal {
         /// The file.
         path: PathBuf,

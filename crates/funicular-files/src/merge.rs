@@ -74,11 +74,11 @@ fn checked(
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
     let Some(part) = file.part else {
-        return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without --part")));
+        return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without ⟪part⟫")));
     };
     if !file.complete || file.rows != record.rows_of(part.range(record.chunks())) {
         return Err(FilesError::Parts(format!(
-            "{shown} (part {part}) is incomplete: go on with the command that began it and --resume"
+            "{shown} (part {part}) is incomplete: go on with the command that began it and ⟪resume⟫"
         )));
     }
     if let Some((other, _)) = before.first().filter(|(other, _)| other.of != part.of) {

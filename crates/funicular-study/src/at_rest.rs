@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
-use funicular::ports::{Input, OnCable, Output, PlaceError, Places, PortError};
+use funicular::ports::{Input, OnCable, Output, PlaceError, Places};
 use funicular::response::Direction;
 use funicular::robot::{self, Freedoms, Pose, Robot, State, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
@@ -102,16 +102,24 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     }
     if let Some(pose) = &state.pose {
         let pose = pose.to_robot()?;
-        if robot.platform.freedoms == Freedoms::PointMass && pose.rot_wp.angle() != 0.0 {
-            bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
-        }
-        robot.platform.freedoms.check(&pose)?;
+        check_pose(&robot, &pose)?;
         robot.state = State::Pose(pose);
     }
     if let Some(mass) = state.mass_kg {
         robot.platform.mass = mass;
     }
     with_load(robot, &state.load)
+}
+
+/// Refuses a pose that the platform cannot have, whatever its cables do.
+///
+/// # Errors
+/// An orientation of a point mass, or a pose that a plane excludes.
+pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
+    if robot.platform.freedoms == Freedoms::PointMass && pose.rot_wp.angle() != 0.0 {
+        bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
+    }
+    Ok(robot.platform.freedoms.check(pose)?)
 }
 
 /// The robot with the loads that a request gives; others stay as the robot file has them.
@@ -161,13 +169,9 @@ pub fn linearisation(model: &Model, static_model: StaticModel) -> Linearisation 
 /// Input and output of a response, checked against what the robot can do.
 ///
 /// # Errors
-/// A signal that means nothing on the robot.
-pub fn directions(
-    robot: &Robot,
-    input: &Input,
-    output: &Output,
-    points: &Points,
-) -> Result<(Direction, Direction), PortError> {
+/// A signal that means nothing on the robot, or a point that is none.
+pub fn directions(robot: &Robot, input: &Input, output: &Output, points: &Points) -> Result<(Direction, Direction)> {
+    points.check()?;
     let [from, to] = [points.input_point_m, points.output_point_m].map(|point| point.map(Vec3::from));
     Ok((input.direction(robot, from)?, output.direction(robot, to)?))
 }

@@ -126,6 +126,9 @@ pub struct ModesRequest {
     /// Number of points along every cable whose displacements are wanted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations: Option<usize>,
+    /// Seek the damped partner of every mode; else damping ratios are of first order in the damping.
+    #[serde(default = "yes")]
+    pub damped: bool,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
@@ -356,6 +359,10 @@ pub struct PlotRequest {
 
 fn one() -> f64 {
     1.0
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn one_thousandth() -> f64 {

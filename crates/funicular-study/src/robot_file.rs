@@ -2,7 +2,7 @@
 
 use crate::request::{Change, RobotText};
 use crate::set_values::{self, Assignment};
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
 use funicular::robot::spec::SpecError;
 use thiserror::Error;
@@ -36,6 +36,20 @@ pub struct Refused {
     pub error: SpecError,
 }
 
+/// The text of a robot file from its bytes.
+///
+/// # Errors
+/// More than [`MAX_BYTES`] of them, or bytes that are not UTF-8.
+pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String> {
+    if bytes.len() > MAX_BYTES {
+        bail!("{name} is larger than {} MiB: it is no robot file", MAX_BYTES >> 20);
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        anyhow!("{name} is no text: byte {} is not UTF-8; a robot file is TOML in UTF-8", at + 1)
+    })
+}
+
 impl RobotText {
     /// The robot that the front ends carry.
     pub fn embedded() -> Self {
@@ -49,7 +63,7 @@ impl RobotText {
     pub fn read(&self) -> Result<RobotFile> {
         let mut name = if self.name.is_empty() { "<request>".to_owned() } else { self.name.clone() };
         if !self.set.is_empty() {
-            name.push_str(" with --set");
+            name.push_str(" with changes");
         }
         let text = self.changed_text()?;
         match Robot::from_toml(&text) {

@@ -12,7 +12,7 @@ use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
 pub struct Assignment {
     /// As the user wrote it.
     text: String,
-    /// What the user wrote it after: `--set`.
+    /// The option that asked for it, between ⟪ and ⟫.
     option: &'static str,
     path: Vec<String>,
     value: Value,
@@ -23,13 +23,10 @@ impl Assignment {
     pub fn text(&self) -> &str {
         &self.text
     }
-
-    /// The same, which the user wrote after something else than `--set`: what errors and the changed line say.
-    #[must_use]
-    pub fn said_after(self, option: &'static str) -> Self {
-        Self { option, ..self }
-    }
 }
+
+/// Name of the option that sets values, in messages.
+const OPTION: &str = "⟪set⟫";
 
 /// Why a value cannot be set: which, and what there is instead.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -91,7 +88,7 @@ pub fn path(text: &str) -> Result<Path, String> {
 /// use funicular_study::set_values;
 ///
 /// let change = set_values::assignment("platform.mass_kg=20")?;
-/// assert_eq!(set_values::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # from --set platform.mass_kg=20\n");
+/// assert_eq!(set_values::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # set: platform.mass_kg=20\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn assignment(text: &str) -> Result<Assignment, String> {
@@ -104,7 +101,7 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
         Err(_) if is_word(value) => Value::from(value),
         Err(_) => return Err(format!("`{value}` is not a TOML value: a number, \"text\" or an [array]")),
     };
-    Ok(Assignment { text: text.to_owned(), option: "--set", path, value })
+    Ok(Assignment { text: text.to_owned(), option: OPTION, path, value })
 }
 
 /// The change that a text like `platform.mass_kg=20` asks for, as a request has it.
@@ -124,7 +121,7 @@ pub fn change(text: &str) -> Result<Change, String> {
 pub fn of_json(at: &str, value: &serde_json::Value) -> Result<Assignment, String> {
     let value = from_json(value)?;
     let text = format!("{at}={}", value.to_string().trim());
-    Ok(Assignment { text, option: "--set", path: path(at)?.keys, value })
+    Ok(Assignment { text, option: OPTION, path: path(at)?.keys, value })
 }
 
 fn to_json(value: &Value) -> Result<serde_json::Value, String> {
@@ -143,7 +140,11 @@ fn to_json(value: &Value) -> Result<serde_json::Value, String> {
     })
 }
 
-fn from_json(value: &serde_json::Value) -> Result<Value, String> {
+/// A value in JSON as a robot file holds it.
+///
+/// # Errors
+/// A value that no robot file holds.
+pub fn from_json(value: &serde_json::Value) -> Result<Value, String> {
     use serde_json::Value as Json;
     Ok(match value {
         Json::String(text) => Value::from(text.as_str()),
@@ -248,7 +249,7 @@ fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assign
     if in_lines {
         // An error shows the line, and so where it comes from.
         let origin: String = assignment.text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        *value.decor_mut() = Decor::new(" ", format!(" # from {} {origin}", assignment.option));
+        *value.decor_mut() = Decor::new(" ", format!(" # set: {origin}"));
     }
     match table.get_mut(key) {
         Some(item @ (Item::Table(_) | Item::ArrayOfTables(_))) => {
@@ -278,12 +279,12 @@ mod tests {
     #[test]
     fn a_changed_value_says_where_it_comes_from() {
         let changed = set("platform.mass_kg=20").unwrap();
-        assert!(changed.contains("mass_kg = 20 # from --set platform.mass_kg=20\n"), "{changed}");
+        assert!(changed.contains("mass_kg = 20 # set: platform.mass_kg=20\n"), "{changed}");
     }
 
     #[test]
     fn cables_are_found_by_name_quoted_where_needed() {
-        assert!(set("cables.\"a.b\".x=[1, 2]").unwrap().contains("x = [1, 2] # from"));
+        assert!(set("cables.\"a.b\".x=[1, 2]").unwrap().contains("x = [1, 2] # set:"));
         let error = set("cables.a.x=1").unwrap_err().to_string();
         assert!(error.contains("no cable \"a\"") && error.contains("a.b"), "{error}");
     }

@@ -13,8 +13,11 @@ pub const MAX_MAGNITUDE: f64 = 1e12;
 /// # Errors
 /// What is wrong with the value.
 pub fn finite(value: f64) -> Result<f64, String> {
-    // The reader of texts decides; a number prints as a text that it reads as that number.
-    ports::number(&value.to_string()).map_err(|error| error.to_string())
+    if value.abs() <= MAX_MAGNITUDE {
+        return Ok(value);
+    }
+    // The reader of texts says what is wrong; a number prints as a text that it reads as that number.
+    ports::number(&format!("{value:?}")).map_err(|error| error.to_string())
 }
 
 /// Checks that a number is at least [`MIN_POSITIVE`].

@@ -17,6 +17,10 @@ pub enum Words {
 /// Keys whose option on the command line has another name.
 const PROGRAM_NAMES: [(&str, &str); 2] = [("robot", "ROBOT"), ("files", "FILE")];
 
+/// Keys that Python writes otherwise: switches with their value, a method, a shorter keyword.
+const PYTHON_NAMES: [(&str, &str); 4] =
+    [("resume", "resume=True"), ("discard", "discard=True"), ("set", "with_"), ("output_file", "file")];
+
 /// A text with the names of options as a front end writes them.
 ///
 /// # Example
@@ -41,11 +45,13 @@ pub fn worded(text: &str, words: Words) -> String {
 
 /// The name of one option as a front end writes it.
 pub fn option(key: &str, words: Words) -> String {
+    let own_name = |names: &[(&str, &'static str)]| names.iter().find(|(name, _)| *name == key).map(|(_, own)| *own);
     match words {
-        Words::Program => match PROGRAM_NAMES.iter().find(|(name, _)| *name == key) {
-            Some((_, name)) => (*name).to_owned(),
+        Words::Program => match own_name(&PROGRAM_NAMES) {
+            Some(name) => name.to_owned(),
             None => format!("--{}", key.replace('_', "-")),
         },
-        Words::Python | Words::Json => format!("`{key}`"),
+        Words::Python => format!("`{}`", own_name(&PYTHON_NAMES).unwrap_or(key)),
+        Words::Json => format!("`{key}`"),
     }
 }

@@ -115,6 +115,7 @@ impl ModesArgs {
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
             stations: self.stations,
+            damped: true,
             state: self.state.request(),
             model: self.model.request(),
         }

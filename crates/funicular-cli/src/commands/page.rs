@@ -9,6 +9,7 @@ use anyhow::{Context, Result, bail};
 use funicular_files::{Guard, SweepFile};
 use funicular_study::Request;
 use funicular_study::pages;
+use funicular_study::wording::{Words, worded};
 use std::path::Path;
 
 /// The page of one robot.
@@ -50,6 +51,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
 
 /// Writes a page and says so, where it is a file.
 fn write(target: &Target, path: &Path, page: &str) -> Result<()> {
+    let page = worded(page, Words::Program);
     target.write(page.as_bytes())?;
     if target.is_file() {
         errors::note(&format!("wrote {} ({:.1} MB)", path.display(), page.len() as f64 / 1e6));

@@ -36,7 +36,7 @@ fn without_arguments_the_pages_are_written_here() {
 fn a_page_repeats_what_was_typed_quoted_for_a_shell() {
     let page = succeed(&["report", &robot("cogiro.toml"), "-o", "-", "--set", "name=\"a b\"", "--input", "f:1,0,1"]);
     assert!(page.contains("--set &#39;name=&#34;a b&#34;&#39; --input &#39;f:1,0,1&#39;</pre>"));
-    assert!(page.contains("<h1>a b</h1>") && page.contains("name = &#34;a b&#34; # from --set"));
+    assert!(page.contains("<h1>a b</h1>") && page.contains("name = &#34;a b&#34; # set: name"));
     assert!(page.contains("a force along (1.000, 0.000, 1.000) at the platform origin"));
 }
 

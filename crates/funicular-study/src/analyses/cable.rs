@@ -2,7 +2,7 @@
 
 use super::found;
 use super::shared::SagNumbers;
-use crate::at_rest;
+use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::names::suggestion;
 use crate::request;
@@ -86,15 +86,52 @@ pub struct World {
 /// A name that no cable has, a robot without that equilibrium, or an undamped resonance at one of the frequencies.
 pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
     let frequency_hz = request.range.frequencies()?;
-    let Some(i) = robot.cables.iter().position(|cable| cable.name == request.name) else {
-        let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-        bail!("the robot has no cable \"{}\"{}", request.name, suggestion(&request.name, &names))
-    };
+    place(&robot, &request.name)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let wanted = Wanted {
+        name: &request.name,
+        frequency_hz,
+        cable_model: request.cable_model,
+        in_plane_only: request.in_plane_only,
+    };
+    about(&at_rest, wanted)
+}
+
+/// One cable of a robot that is at rest already.
+#[derive(Debug)]
+pub struct Wanted<'a> {
+    /// Name of the cable.
+    pub name: &'a str,
+    /// Frequencies [Hz], none negative, at least one.
+    pub frequency_hz: Vec<f64>,
+    /// Cable model; the default depends on the static model.
+    pub cable_model: Option<CableModel>,
+    /// Leave out the stiffness out of the cable's plane.
+    pub in_plane_only: bool,
+}
+
+/// Place of a cable in the robot.
+fn place(robot: &Robot, name: &str) -> Result<usize> {
+    let Some(i) = robot.cables.iter().position(|cable| cable.name == name) else {
+        let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+        bail!("the robot has no cable \"{name}\"{}", suggestion(name, &names))
+    };
+    Ok(i)
+}
+
+/// The stiffness of one cable of a robot that is at rest already.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, wanted: Wanted<'_>) -> Result<CableResult> {
+    let Wanted { name, frequency_hz, cable_model, in_plane_only } = wanted;
+    let i = place(&at_rest.robot, name)?;
+    let (from_hz, to_hz) =
+        frequency_hz.iter().fold((f64::INFINITY, 0.0_f64), |(from, to), hz| (from.min(*hz), to.max(*hz)));
     let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);
-    let model: CableModel = at_rest::cable_model(request.cable_model, at_rest.equilibrium.model);
-    let stiffness = EndStiffness::new(robot, i, state, model, request.in_plane_only, request.range.to_hz)
-        .map_err(|reason| DynamicsError::of_cable(&request.name, model, reason))?;
+    let model: CableModel = at_rest::cable_model(cable_model, at_rest.equilibrium.model);
+    let stiffness = EndStiffness::new(robot, i, state, model, in_plane_only, to_hz)
+        .map_err(|reason| DynamicsError::of_cable(name, model, reason))?;
     let sag = Sag::of(robot, i, state);
     let axes = LocalAxes::of_cable(robot, i, state);
     let values = curve(&stiffness, &axes, &frequency_hz)?;
@@ -107,15 +144,15 @@ pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult>
     };
     Ok(CableResult {
         robot: robot.name.clone(),
-        name: request.name.clone(),
+        name: name.to_owned(),
         static_model: at_rest.equilibrium.model.name(),
         cable_model: model.name(),
-        in_plane_only: request.in_plane_only,
+        in_plane_only,
         chord_m: sag.chord,
         parallel_tension_n: sag.tension,
         sag: SagNumbers::of(&sag),
         axes: Axes::of(&axes),
-        clamped_frequencies_hz: clamped(&stiffness, request)?,
+        clamped_frequencies_hz: clamped(&stiffness, from_hz, to_hz)?,
         local: Local {
             k_a: part(|k| k.axial),
             k_b: part(|k| k.coupling),
@@ -124,7 +161,7 @@ pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult>
         },
         world: World { real: world(|k| k.re), imag: world(|k| k.im) },
         frequency_hz,
-        warnings: warnings(robot, i, state, &sag, model, request),
+        warnings: warnings(robot, i, state, &sag, model, to_hz),
     })
 }
 
@@ -187,31 +224,23 @@ fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
 }
 
 /// Frequencies of the cable with both ends held in the range [Hz].
-fn clamped(stiffness: &EndStiffness, request: &request::CableRequest) -> Result<Option<Vec<f64>>> {
+fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<Vec<f64>>> {
     let EndStiffness::Dynamic(form) = stiffness else { return Ok(None) };
-    let limit = request.range.to_hz * TAU;
+    let limit = to_hz * TAU;
     let count = form.clamped_modes_below(limit);
     if count > MOST_CLAMPED {
         bail!(
-            "the cable has {count} clamped frequencies below {} Hz, at most {MOST_CLAMPED} are listed: lower ⟪to_hz⟫",
-            request.range.to_hz
+            "the cable has {count} clamped frequencies below {to_hz} Hz, at most {MOST_CLAMPED} are listed: lower ⟪to_hz⟫"
         );
     }
     let all = form.clamped_frequencies_below(limit).into_iter().map(|omega| omega / TAU);
-    Ok(Some(all.filter(|f| *f >= request.range.from_hz).collect()))
+    Ok(Some(all.filter(|f| *f >= from_hz).collect()))
 }
 
 /// What the core warns of, for this cable alone.
-fn warnings(
-    robot: &Robot,
-    i: usize,
-    state: &CableState,
-    sag: &Sag,
-    model: CableModel,
-    request: &request::CableRequest,
-) -> Vec<String> {
+fn warnings(robot: &Robot, i: usize, state: &CableState, sag: &Sag, model: CableModel, below_hz: f64) -> Vec<String> {
     use funicular::validity::{AXIAL_PART, DeepSag, Warning};
-    let cable = request.name.clone();
+    let cable = robot.cables[i].name.clone();
     let mut warnings = Vec::new();
     if state.is_slack() {
         warnings.push(Warning::Slack { cable: cable.clone() });
@@ -219,7 +248,7 @@ fn warnings(
     if let Some(deep) = DeepSag::of(robot, i, state, model) {
         warnings.push(Warning::DeepSag { cables: vec![deep], model });
     }
-    let (axial_hz, below_hz) = (sag.axial_frequency_hz(), request.range.to_hz);
+    let axial_hz = sag.axial_frequency_hz();
     if model != CableModel::Exact && below_hz > AXIAL_PART * axial_hz {
         warnings.push(Warning::AxialWaves { cable, axial_hz, below_hz });
     }

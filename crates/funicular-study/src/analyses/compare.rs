@@ -2,7 +2,7 @@
 
 use super::found;
 use super::modes::ModeRow;
-use crate::at_rest;
+use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::CableModel;
@@ -68,7 +68,15 @@ pub struct AdviceRow {
 /// A robot without that equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+}
+
+/// Cable models of a robot that is at rest already, whatever the state of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Compared> {
+    request::check_positive("below_hz", request.below_hz)?;
     let linearisation = Linearisation {
         // For the number of modes, before any work; the models follow.
         cable_model: CableModel::ClosedForm,

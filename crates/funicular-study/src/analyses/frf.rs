@@ -3,10 +3,11 @@
 use super::found;
 use super::shared::Models;
 use crate::Watch;
-use crate::at_rest::{self, directions};
+use crate::at_rest::{self, AtRest, directions};
 use crate::error::Cancelled;
 use crate::request;
 use anyhow::Result;
+use funicular::dynamics::Linearisation;
 use funicular::math::Complex;
 use funicular::ports::{Input, Output, Places};
 use funicular::response::{self, Peak, Quantity};
@@ -64,11 +65,72 @@ impl From<Peak> for PeakRow {
 pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Frf> {
     let frequencies = request.range.frequencies()?;
     request::check_not_negative("prominence_db", request.prominence_db)?;
-    let (from, to) = (request::input(&request.input)?, request::output(&request.output)?);
-    let (input, output) = directions(&robot, &from, &to, &request.signal_points)?;
+    // Signals that mean nothing are refused before the work.
+    directions(&robot, &request::input(&request.input)?, &request::output(&request.output)?, &request.signal_points)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
-    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.range.to_hz)?;
+    let pair =
+        Pair { input: &request.input, output: &request.output, points: request.signal_points, model: request.model };
+    let Response { from, to, input_place, output_place, linearisation, values, warnings } =
+        response(&at_rest, &pair, &frequencies, watch)?;
+    let peaks = response::peaks(&frequencies, &values, request.prominence_db);
+    Ok(Frf {
+        robot: at_rest.robot.name.clone(),
+        models: Models::of(&at_rest.equilibrium, linearisation),
+        unit: unit(&from, &to),
+        input: from.name,
+        input_place,
+        output: to.name,
+        output_place,
+        prominence_db: request.prominence_db,
+        peaks: peaks.into_iter().map(PeakRow::from).collect(),
+        frequency_hz: frequencies,
+        real: values.iter().map(|value| value.re).collect(),
+        imag: values.iter().map(|value| value.im).collect(),
+        warnings,
+    })
+}
+
+/// Signals of a response and how the robot is linearised for it.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<'a> {
+    /// Name of the input signal.
+    pub input: &'a str,
+    /// Name of the output signal.
+    pub output: &'a str,
+    /// Points of the platform.
+    pub points: request::Points,
+    /// Linearisation.
+    pub model: request::Model,
+}
+
+/// A response at frequencies, with what it is a response of.
+pub struct Response {
+    /// Input signal.
+    pub from: Input,
+    /// Output signal.
+    pub to: Output,
+    /// Where the input acts.
+    pub input_place: PlaceRow,
+    /// Where the output is measured.
+    pub output_place: PlaceRow,
+    /// How the robot was linearised.
+    pub linearisation: Linearisation,
+    /// One value per frequency.
+    pub values: Vec<Complex>,
+    /// Sentences that the user should know before trusting the values.
+    pub warnings: Vec<String>,
+}
+
+/// The response of a robot that is at rest already at frequencies [Hz], of which none is negative.
+///
+/// # Errors
+/// Signals that mean nothing on the robot, an undamped resonance at one of the frequencies, or work that was stopped.
+pub fn response(at_rest: &AtRest, pair: &Pair<'_>, frequencies: &[f64], watch: &mut dyn Watch) -> Result<Response> {
+    let (from, to) = (request::input(pair.input)?, request::output(pair.output)?);
+    let (input, output) = directions(&at_rest.robot, &from, &to, &pair.points)?;
+    let linearisation = at_rest::linearisation(&pair.model, at_rest.equilibrium.model);
+    let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
+    let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
 
     let places = at_rest.places(&dynamics, from.on_cable.as_ref(), to.on_cable.as_ref())?;
     let pose = &at_rest.equilibrium.pose;
@@ -82,22 +144,9 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
             return Err(Cancelled.into());
         }
     }
-    let peaks = response::peaks(&frequencies, &values, request.prominence_db);
-    Ok(Frf {
-        robot: at_rest.robot.name.clone(),
-        models: Models::of(&at_rest.equilibrium, linearisation),
-        input: from.name.clone(),
-        input_place: PlaceRow::of(&places, places.input, request.signal_points.input_point_m),
-        output: to.name.clone(),
-        output_place: PlaceRow::of(&places, places.output, request.signal_points.output_point_m),
-        unit: unit(&from, &to),
-        prominence_db: request.prominence_db,
-        peaks: peaks.into_iter().map(PeakRow::from).collect(),
-        frequency_hz: frequencies,
-        real: values.iter().map(|value| value.re).collect(),
-        imag: values.iter().map(|value| value.im).collect(),
-        warnings,
-    })
+    let input_place = PlaceRow::of(&places, places.input, pair.points.input_point_m);
+    let output_place = PlaceRow::of(&places, places.output, pair.points.output_point_m);
+    Ok(Response { from, to, input_place, output_place, linearisation, values, warnings })
 }
 
 /// Where one end of a response is.

@@ -10,7 +10,7 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::Dynamics;
 use funicular::modes;
 use funicular::ports::{Input, Output};
-use funicular::response::Quantity;
+use funicular::response::{Direction, Quantity};
 use funicular::robot::Robot;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -109,19 +109,28 @@ impl From<modes::Mode> for ModeRow {
 /// A request that contradicts itself or the robot, a robot without that equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
+    // Signals that mean nothing are refused before the work.
+    directions(&robot, pair(request)?.as_ref(), request)?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+}
+
+/// Natural frequencies of a robot that is at rest already, whatever the state of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
+    request::check_positive("below_hz", request.below_hz)?;
     let pair = pair(request)?;
-    let directions =
-        pair.as_ref().map(|(input, output)| at_rest::directions(&robot, input, output, &request.points)).transpose()?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let directions = directions(&at_rest.robot, pair.as_ref(), request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, modes::MOST)?;
     let found = modes::below(&dynamics, request.below_hz);
     warnings.extend(found.doubt());
-    let AtRest { robot, equilibrium, .. } = &at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
 
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let (damped, doubt) = modes::damped_partners(&dynamics, &found);
+    let (damped, doubt) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
     warnings.extend(doubt);
     if let Some(damped) = &damped {
         for (row, mode) in rows.iter_mut().zip(&damped.modes) {
@@ -151,7 +160,7 @@ pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
         let peak_unit = frf::unit(input, output);
         participation = Some(Participation { input: input.name.clone(), output: output.name.clone(), peak_unit });
     }
-    let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(&at_rest, &dynamics, count))?;
+    let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(at_rest, &dynamics, count))?;
     for (row, mode) in rows.iter_mut().zip(&found.modes) {
         row.cable_shapes = stations.iter().map(|of| of.in_mode(&dynamics, mode)).collect();
     }
@@ -179,6 +188,15 @@ fn pair(request: &request::ModesRequest) -> Result<Option<(Input, Output)>> {
         (Some(_), None) => bail!("⟪input⟫ is one end of a response: give ⟪output⟫, too"),
         (None, Some(_)) => bail!("⟪output⟫ is one end of a response: give ⟪input⟫, too"),
     }
+}
+
+/// Where the response begins and ends on the platform.
+fn directions(
+    robot: &Robot,
+    pair: Option<&(Input, Output)>,
+    request: &request::ModesRequest,
+) -> Result<Option<(Direction, Direction)>> {
+    pair.map(|(input, output)| at_rest::directions(robot, input, output, &request.points)).transpose()
 }
 
 /// Equal steps along every cable.

@@ -2,7 +2,7 @@
 
 use super::found;
 use super::shared::Models;
-use crate::at_rest;
+use crate::at_rest::{self, AtRest};
 use crate::request;
 use crate::text::significant;
 use anyhow::Result;
@@ -66,15 +66,30 @@ pub struct CoordinateRow {
 /// # Errors
 /// A signal that means nothing on the robot, a robot without that equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
+    check(&robot, request)?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+}
+
+/// Inputs and outputs of a model.
+type Signals = (Vec<(Input, Place)>, Vec<(Output, Place)>);
+
+/// Refuses numbers out of range and signals that mean nothing on the robot.
+fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     request::check_positive("below_hz", request.below_hz)?;
     request::check_not_negative("tolerance", request.tolerance)?;
     if let Some(hz) = request.damping_at_hz {
         request::check_positive("damping_at_hz", hz)?;
     }
-    let inputs = inputs(&robot, request)?;
-    let outputs = outputs(&robot, request)?;
+    request.points.check()?;
+    Ok((inputs(robot, request)?, outputs(robot, request)?))
+}
 
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+/// A model of a robot that is at rest already, whatever the state of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduced> {
+    let (inputs, outputs) = check(&at_rest.robot, request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, MOST_MODES)?;

@@ -182,10 +182,14 @@ impl LimitNumbers {
 /// # Errors
 /// A request that contradicts itself or the robot, or a robot without that equilibrium.
 pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request.tensions)?;
-    let AtRest { robot, equilibrium, rule, .. } = &at_rest;
+    about(&at_rest::equilibrium(robot, &request.state, &request.tensions)?, request.all)
+}
+
+/// The cables of a robot at rest, one row each.
+pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
+    let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let limited = rule.is_some() || robot.cables.iter().any(|cable| cable.limits() != TensionLimits::default());
-    let cables = equilibrium
+    equilibrium
         .cables
         .iter()
         .enumerate()
@@ -199,7 +203,16 @@ pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
             force_on_platform_n: cable.force_on_platform_w.into(),
             limits: limited.then(|| LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable))),
         })
-        .collect();
+        .collect()
+}
+
+/// Results for a robot at rest; `all` searches for all equilibria of its lengths.
+///
+/// # Errors
+/// A search that the robot has not, such as one of ideal cables.
+pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
+    let AtRest { robot, equilibrium, rule, .. } = at_rest;
+    let cables = cable_rows(at_rest);
     let (stable, least_stiffness_n_per_m) = match equilibrium.stability {
         Stability::Stable { least_stiffness } => (Some(true), Some(least_stiffness)),
         Stability::Unstable { least_stiffness, .. } => (Some(false), Some(least_stiffness)),
@@ -207,19 +220,19 @@ pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
     };
     let (mut equilibria, mut search, mut other_stable) = (None, None, None);
     let mut warnings = at_rest.warnings(None);
-    if request.all {
+    if all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let all = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
-        if let (true, Some(expected)) = (all.lacks_some(), all.expected_index_sum) {
+        let found = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
+        if let (true, Some(expected)) = (found.lacks_some(), found.expected_index_sum) {
             warnings.push(format!(
                 "the list of equilibria is not whole: the sum of (−1)^(falling directions) is {}, of all it is {expected} \
                  (after {} starts)",
-                all.index_sum, all.starts
+                found.index_sum, found.starts
             ));
         }
-        equilibria = Some(all.found.iter().map(EquilibriumRow::of).collect());
-        let (index_sum, expected_index_sum) = (all.index_sum, all.expected_index_sum);
-        search = Some(Search { starts: all.starts, index_sum, expected_index_sum });
+        equilibria = Some(found.found.iter().map(EquilibriumRow::of).collect());
+        let (index_sum, expected_index_sum) = (found.index_sum, found.expected_index_sum);
+        search = Some(Search { starts: found.starts, index_sum, expected_index_sum });
     } else {
         other_stable = OtherStable::of(robot, equilibrium);
     }

@@ -90,7 +90,7 @@ fn refuse_no_rows(file: &dyn SweepRows, label: &str) -> anyhow::Result<()> {
             "{label} is part {part} of {}, which has none of them: plot what `funicular merge` makes of all parts",
             counted(file.record().rows, "row")
         ),
-        None => bail!("{label} has no rows yet: let the sweep go on with --resume"),
+        None => bail!("{label} has no rows yet: let the sweep go on with ⟪resume⟫"),
     }
 }
 
@@ -136,7 +136,7 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
     let mut notes = Vec::new();
     if !input.file.is_complete() {
         notes.push(format!(
-            "the file is incomplete: {} of {} rows are there; the command that began it goes on with --resume",
+            "the file is incomplete: {} of {} rows are there; the command that began it goes on with ⟪resume⟫",
             rows.rows, rows.planned
         ));
     } else if let Some(part) = input.file.record().part {

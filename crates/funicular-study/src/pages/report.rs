@@ -3,7 +3,7 @@
 mod of_request;
 mod parts;
 
-pub use of_request::of_request;
+pub use of_request::{about, of_request};
 
 use super::Shell;
 use super::figure::response::{Curve, Marks, sampled};

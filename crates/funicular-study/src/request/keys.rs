@@ -36,6 +36,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("output_point_m", "point whose motion is measured, platform frame [m]"),
     ("prominence_db", "minimum height of a peak above the valleys beside it [dB]"),
     ("stations", "number of points along every cable whose displacements are wanted"),
+    ("damped", "seek the damped partner of every mode; else damping ratios are of first order in the damping"),
     ("tolerance", "maximum relative error of the responses by modes left out"),
     ("tolerance_mm", "distance from which on the spring pose is good enough [mm]"),
     ("damping_at_hz", "frequency at which constant damping ratios are right when made viscous [Hz]"),

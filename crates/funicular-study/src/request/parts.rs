@@ -276,7 +276,7 @@ impl Axis {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EachPoint {
     /// Names of the quantities.
-    #[serde(default = "default_quantities")]
+    #[serde(default = "EachPoint::default_quantities")]
     pub quantities: Vec<String>,
     /// Where the search for natural frequencies ends [Hz].
     #[serde(default = "default_up_to_hz")]
@@ -292,8 +292,11 @@ pub struct EachPoint {
     pub model: Model,
 }
 
-fn default_quantities() -> Vec<String> {
-    vec!["tension-min".to_owned(), "tension-max".to_owned()]
+impl EachPoint {
+    /// Quantities where none are named.
+    pub fn default_quantities() -> Vec<String> {
+        vec!["tension-min".to_owned(), "tension-max".to_owned()]
+    }
 }
 
 fn default_up_to_hz() -> f64 {
@@ -357,6 +360,14 @@ impl State {
         check_vector("load_point_m", load_point_m)?;
         check_vector("wind_m_s", wind_m_s)?;
         check_vector("cable_load_n_per_m", cable_load_n_per_m)
+    }
+}
+
+impl Points {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        check_vector("input_point_m", self.input_point_m)?;
+        check_vector("output_point_m", self.output_point_m)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Report, ReportInput, report};
 use crate::analyses::frf;
-use crate::at_rest;
+use crate::at_rest::{self, AtRest};
 use crate::pages::table::listed;
 use crate::request::{self, Tensions};
 use crate::robot_file::RobotFile;
@@ -19,21 +19,39 @@ use funicular::robot::Robot;
 pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_line: String) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     let RobotFile { robot, name, text } = file;
+    // Signals that mean nothing are refused before the work.
     let (from, to) = response(request, &robot)?;
-    if let Some(name) = [(&from.on_cable, &from.name), (&to.on_cable, &to.name)]
+    at_rest::directions(&robot, &from, &to, &request.points)?;
+    let at_rest = at_rest::equilibrium(robot, &request.state, &Tensions::default())?;
+    about(&at_rest, request, &name, &text, command_line)
+}
+
+/// The page of a robot that is at rest already, whatever the state of the request; `name` and `text` are those of its file.
+///
+/// # Errors
+/// As of [`of_request`].
+pub fn about(
+    at_rest: &AtRest,
+    request: &request::ReportRequest,
+    name: &str,
+    text: &str,
+    command_line: String,
+) -> Result<Report> {
+    request::check_positive("below_hz", request.below_hz)?;
+    let (from, to) = response(request, &at_rest.robot)?;
+    if let Some(signal) = [(&from.on_cable, &from.name), (&to.on_cable, &to.name)]
         .into_iter()
         .find_map(|(place, name)| place.is_some().then_some(name))
     {
-        bail!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
+        bail!("{signal} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
     }
 
-    let (input, output) = at_rest::directions(&robot, &from, &to, &request.points)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &Tensions::default())?;
+    let (input, output) = at_rest::directions(&at_rest.robot, &from, &to, &request.points)?;
     let pose = &at_rest.equilibrium.pose;
     report(&ReportInput {
-        at_rest: &at_rest,
-        file_label: &name,
-        robot_text: &text,
+        at_rest,
+        file_label: name,
+        robot_text: text,
         linearisation: at_rest::linearisation(&request.model, at_rest.equilibrium.model),
         below_hz: request.below_hz,
         frf_input: (input_in_words(&from, request.points.input_point_m), input.vector(pose)),
