@@ -80,7 +80,7 @@ fn pages_that_cannot_be_are_refused() {
         ("report -o /", 2, "it is a directory"),
         ("report --input mz --input-point-m 0,0,1", 2, "has no effect"),
         ("report --pose 30,0,1 -o -", 1, "no tensions found"),
-        ("report --set platform.mass_kg=-1", 2, "robots/yuan2014-4mm.toml with --set:"),
+        ("report --set platform.mass_kg=-1", 2, "robots/yuan2014-4mm.toml with changes:"),
         ("report --format json", 2, "unexpected argument"),
         ("paper ROBOT", 2, "unexpected argument"),
         ("paper -o /no/such/place.html", 2, "there is no directory /no/such"),
