@@ -10,8 +10,9 @@ pub(crate) use pencil::NullVector;
 use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, skew};
+use crate::platform::{add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
 use crate::robot::{Damping, Freedoms, Robot};
-use crate::statics::{CableState, Equilibrium, add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
+use crate::statics::{CableState, Equilibrium};
 use thiserror::Error;
 
 /// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown

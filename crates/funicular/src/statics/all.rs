@@ -7,9 +7,14 @@
 //! space, whatever the robot (theory, section 16). A list with another sum lacks an equilibrium; one with this sum may
 //! still lack a pair.
 
-use super::forward::{Search, elastic};
-use super::{Equilibrium, StaticModel, StaticsError, check_lengths, distance, forward};
+use super::equilibrium::Equilibrium;
+use super::error::StaticsError;
+use super::forward::{Search, elastic, forward};
+use super::model::StaticModel;
+use super::nearest::distance;
+use super::residual::check_lengths;
 use crate::math::{Vec3, inertia};
+use crate::platform::load_size;
 use crate::robot::{Freedoms, Pose, Robot};
 use std::f64::consts::TAU;
 
@@ -277,7 +282,7 @@ impl<'a> Hunt<'a> {
 
     /// Two energies are one but for rounding [J].
     fn level(&self, a: f64, b: f64) -> bool {
-        let scale = super::load_size(self.robot) * self.size;
+        let scale = load_size(self.robot) * self.size;
         (a - b).abs() <= 1e-9 * (a.abs() + b.abs() + scale)
     }
 

@@ -1,7 +1,10 @@
 //! The stiffness that the drag of the wind adds because it turns with the cables.
 
-use super::{Equilibrium, StaticModel, add_congruent, scaled, tangent_stiffness};
+use super::equilibrium::Equilibrium;
+use super::model::StaticModel;
+use super::stiffness::tangent_stiffness;
 use crate::math::Mat6;
+use crate::platform::{add_congruent, scaled};
 use crate::robot::Robot;
 
 /// Derivative `−∂wrench/∂(δp, δθ)` at an equilibrium with a drag of the wind that turns with the cables: what a small slow

@@ -2,13 +2,17 @@
 
 mod starts;
 
-use super::forward::{collect_ideal, pushing, straight_tensions};
-use super::{
-    Equilibrium, LoadedCable, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute,
-    load_size, load_wrench, scaled_residual, scaled_wrench, wrench_of,
-};
+use super::collect::collect;
+use super::equilibrium::{Equilibrium, RESIDUAL_LIMIT};
+use super::error::StaticsError;
+use super::ideal::{self, pushing, straight_tensions};
+use super::loaded_cable::{LONGEST, LoadedCable};
+use super::model::StaticModel;
+use super::residual::scaled_residual;
+use super::tension::{TensionRule, distribute};
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
+use crate::platform::{balance, load_size, load_wrench, scaled_wrench, wrench_of};
 use crate::robot::{Pose, Robot};
 
 /// The unstrained lengths and tensions that hold the platform at a pose.
@@ -56,7 +60,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     match model {
         StaticModel::Ideal => match pushing(&tensions) {
             Some((i, tension)) => Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension }),
-            None => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+            None => Ok(ideal::collect(robot, *pose, &tensions, 0)),
         },
         StaticModel::Spring => {
             if let Some(i) = weakest(&tensions).filter(|&i| tensions[i] <= 0.0) {
@@ -80,11 +84,6 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
 /// 15,000 such poses of the paper's robot the ratio runs from 1 through 2.5 (half of them) and 10 (all but 2 %) to 550
 /// beside singular poses.
 const OUT_OF_PROPORTION: f64 = 100.0;
-
-/// Unstrained length over chord up to which the search looks for slack cables where straight ones would push. 30,000
-/// random robots that rest with cables up to 1.25 times as long as their chords are all found with 2; poses that only
-/// longer ropes hold are held by their weight alone.
-pub(super) const LONGEST: f64 = 2.0;
 
 fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))

@@ -5,12 +5,15 @@
 //! forward statics brings the platform back to the surface, to a stable equilibrium of the new lengths. How the surface
 //! bends is learnt from the steps (Broyden, Fletcher, Goldfarb, Shanno), which start as those of a flat one.
 
+use super::drag::tangent_with_drag;
+use super::equilibrium::{CableState, Equilibrium};
+use super::error::StaticsError;
+use super::forward::forward;
 use super::limits::TensionRange;
-use super::{
-    CableState, Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
-    tangent_with_drag, wrench_of,
-};
+use super::loaded_cable::LoadedCable;
+use super::model::StaticModel;
 use crate::math::{DMat, Mat6, Vec3, Vec6};
+use crate::platform::{load_wrench, scaled, scaled_wrench, wrench_of};
 use crate::robot::{Cable, Pose, Robot};
 
 /// An equilibrium near a pose that was asked for.

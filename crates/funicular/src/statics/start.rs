@@ -1,7 +1,7 @@
 //! A start pose from the lengths alone.
 
-use super::wrench_of;
 use crate::math::{Mat6, Vec3, Vec6};
+use crate::platform::wrench_of;
 use crate::robot::{Freedoms, Pose, Robot};
 
 /// The pose at which straight cables of the given lengths [m] come closest to closing, in least squares.

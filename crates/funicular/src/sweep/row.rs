@@ -10,6 +10,7 @@ use crate::cable::{CableModel, Sag};
 use crate::dynamics::{Dynamics, Linearisation};
 use crate::math::{DMat, Mat6, Vec6, inertia, rotation};
 use crate::modes::Kind;
+use crate::platform::wrench_of;
 use crate::pose_error::PoseDifference;
 use crate::robot::{Robot, State};
 use crate::statics::{self, Equilibrium, Stability, StaticModel, StaticsError, TensionRange};
@@ -319,7 +320,7 @@ fn inverse_condition(robot: &Robot, rest: &Equilibrium) -> f64 {
         .iter()
         .map(|cable| {
             let along = (cable.anchor_w - cable.attachment_w).normalize();
-            freedoms.reduced(&statics::wrench_of(&along, &(cable.lever_w / ell)))
+            freedoms.reduced(&wrench_of(&along, &(cable.lever_w / ell)))
         })
         .collect();
     let matrix = DMat::from_fn(freedoms.count(), columns.len(), |i, j| columns[j][i]);

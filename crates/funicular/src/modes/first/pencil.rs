@@ -8,8 +8,9 @@ use crate::cable::exact::abreast::{Abreast, Kept, LANES, Line, Part};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, Still};
 use crate::math::{Mat6, Vec6};
+use crate::platform::wrench_of;
 use crate::robot::{Freedoms, Robot};
-use crate::statics::{Equilibrium, wrench_of};
+use crate::statics::Equilibrium;
 use pulp::Simd;
 use std::array::from_fn;
 

@@ -3,9 +3,11 @@
 use crate::catenary::space::HangingCable;
 use crate::catenary::{Catenary, Rope};
 use crate::math::{Mat3, Mat6, Vec3, Vec6};
+use crate::platform::{add_congruent, add_lever_term, scaled, wrench_of};
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::TensionRange;
-use crate::statics::{LoadedCable, StaticModel, add_congruent, add_lever_term, scaled, wrench_of};
+use crate::statics::loaded_cable::LoadedCable;
+use crate::statics::model::StaticModel;
 
 /// A cable at the pose.
 ///

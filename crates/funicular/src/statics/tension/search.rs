@@ -1,15 +1,16 @@
 //! The iteration: linearise the balance and the limits, solve the linear problem exactly, repeat.
 
-use super::Miss;
 use super::balance::Solutions;
 use super::line::{Line, Tension};
 use super::polyhedron::Active;
 use super::proof::{Claim, Reach};
 use super::room::{Found, MANY, Room};
 use crate::math::Vec6;
+use crate::platform::{balance, load_size, load_wrench, scaled_wrench};
 use crate::robot::{Pose, Robot};
-use crate::statics::limits::Limit;
-use crate::statics::{StaticsError, balance, load_size, load_wrench, scaled_residual, scaled_wrench};
+use crate::statics::error::StaticsError;
+use crate::statics::limits::{Limit, Miss};
+use crate::statics::residual::scaled_residual;
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
 const MOST_ITERATIONS: usize = 100;

@@ -8,7 +8,9 @@ mod model;
 
 use super::search::Search;
 use crate::math::{Mat6, inertia};
-use crate::statics::{StaticsError, assembled, scaled};
+use crate::platform::scaled;
+use crate::statics::error::StaticsError;
+use crate::statics::stiffness::assembled;
 use model::{Model, Step};
 
 /// Gain of stiffness, relative, that is not worth a step.

@@ -9,7 +9,7 @@ use super::super::polyhedron::Polyhedron;
 use super::super::search::{Linear, Search};
 use super::{GAIN, least_eigenvalue, present};
 use crate::math::{Mat6, Vec6, inertia};
-use crate::statics::StaticsError;
+use crate::statics::error::StaticsError;
 
 /// Most linearisations; straight cables need two, sagging ones many more.
 const MOST_LINEARISATIONS: usize = 60;
