@@ -37,6 +37,15 @@ pub fn skew(v: &Vec3) -> Mat3 {
     v.cross_matrix()
 }
 
+/// Symmetric part `(A + Aᵀ)/2` of a square matrix.
+#[inline]
+pub fn symmetric_part<D: nalgebra::Dim>(matrix: &nalgebra::OMatrix<f64, D, D>) -> nalgebra::OMatrix<f64, D, D>
+where
+    nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<D, D>,
+{
+    (matrix + matrix.transpose()) * 0.5
+}
+
 /// Matrix of any size.
 pub type DMat = nalgebra::DMatrix<f64>;
 /// Complex matrix of any size.

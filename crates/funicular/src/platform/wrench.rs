@@ -31,11 +31,6 @@ pub(crate) fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (
     })
 }
 
-/// A wrench with its moments divided by ℓ: one unit throughout.
-pub(crate) fn scaled_wrench(wrench: &Vec6, ell: f64) -> Vec6 {
-    Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { wrench[i] / ell })
-}
-
 /// Adds `Jᵀ K J` of a 3×3 stiffness at a lever arm, `J = [I, −[r]×]`.
 pub(crate) fn add_congruent(total: &mut Mat6, stiffness: &Mat3, lever: &Vec3) {
     let cross = skew(lever);
@@ -64,10 +59,4 @@ pub(crate) fn add_load_terms(total: &mut Mat6, robot: &Robot, pose: &Pose) {
     add_lever_term(total, force_w, &(pose.rot_wp * point_p));
     let mut view = total.fixed_view_mut::<3, 3>(3, 3);
     view += skew(moment_w) * 0.5;
-}
-
-/// `S M S` with `S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ)`: one unit throughout.
-pub(crate) fn scaled(matrix: &Mat6, platform_length: f64) -> Mat6 {
-    let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / platform_length };
-    Mat6::from_fn(|i, j| matrix[(i, j)] * scale(i) * scale(j))
 }

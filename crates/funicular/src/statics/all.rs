@@ -226,7 +226,7 @@ impl<'a> Hunt<'a> {
         let mut here = search.at(start);
         let mut steps = 0;
         while here.residual > 1e-13 {
-            let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.freedoms.count());
+            let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.coordinates.count());
             let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {
                 return None;
@@ -239,7 +239,7 @@ impl<'a> Hunt<'a> {
                     vector * (vector.dot(&here.wrench) / curvature)
                 })
                 .sum();
-            let next = search.at(search.moved(&here.pose, &search.limited(&here, &step).0));
+            let next = search.at(search.coordinates.moved(&here.pose, &search.limited(&here, &step).0));
             let near = here.residual < here.limit;
             if near && next.residual >= here.residual {
                 break;
@@ -257,7 +257,7 @@ impl<'a> Hunt<'a> {
     fn take(&mut self, equilibrium: &Equilibrium) -> bool {
         let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
         let trial = search.at(equilibrium.pose);
-        let (values, _) = inertia::eigen(&search.stiffness(&trial), search.freedoms.count());
+        let (values, _) = inertia::eigen(&search.stiffness(&trial), search.coordinates.count());
         let zero = INDIFFERENT * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let falling = values.iter().filter(|value| **value < -zero).count();
         let indifferent = values.iter().filter(|value| value.abs() <= zero).count();

@@ -9,9 +9,9 @@ use super::residual::{check_lengths, elastic_rounding, scaled_residual};
 use super::stiffness::assembled;
 use super::{energy, ideal, start};
 use crate::catenary::space::HangingCable;
-use crate::math::{Mat6, Vec3, Vec6, inertia};
-use crate::platform::{balance, load_size, scaled, scaled_wrench};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::math::{Mat6, Vec6, inertia};
+use crate::platform::{Coordinates, balance, load_size};
+use crate::robot::{Pose, Robot};
 
 /// Limit of iterations. Robots of the library take 4 to 12; random ones whose platform slides down a narrow valley of
 /// stiff ropes, some of them slack, up to 450.
@@ -77,11 +77,10 @@ pub(super) struct Search<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
     /// The cables; the drag of the wind is that of one pose, so that all loads have a potential.
-    loaded: Vec<LoadedCable>,
-    ell: f64,
+    loaded: Vec<LoadedCable<'a>>,
     /// Force that rounding of chords leaves [N].
     rounding: f64,
-    pub(super) freedoms: Freedoms,
+    pub(super) coordinates: Coordinates,
     /// The platform may turn; else its orientation is held.
     pub(super) turns: bool,
 }
@@ -90,8 +89,8 @@ impl<'a> Search<'a> {
     /// With the drag that the cables have at `pose`.
     pub(super) fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, pose: &Pose) -> Self {
         let loaded = LoadedCable::all(robot, pose, model);
-        let (ell, freedoms) = (robot.platform_length(), robot.platform.freedoms);
-        Self { robot, lengths, loaded, ell, rounding: elastic_rounding(robot), freedoms, turns: true }
+        let (coordinates, rounding) = (Coordinates::of(robot), elastic_rounding(robot));
+        Self { robot, lengths, loaded, rounding, coordinates, turns: true }
     }
 
     pub(super) fn at(&self, pose: Pose) -> Trial {
@@ -101,9 +100,9 @@ impl<'a> Search<'a> {
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
         let energy = energy::of_parts(self.robot, &pose, cables.iter());
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
-        let residual = scaled_residual(self.robot, &wrench, force_scale);
+        let residual = scaled_residual(&self.coordinates, &wrench, force_scale);
         let limit = if force_scale > 0.0 { RESIDUAL_LIMIT.max(self.rounding / force_scale) } else { RESIDUAL_LIMIT };
-        let wrench = self.freedoms.reduced(&scaled_wrench(&wrench, self.ell));
+        let wrench = self.coordinates.reduce(&wrench);
         Trial { pose, cables, wrench, residual, limit, energy }
     }
 
@@ -145,8 +144,9 @@ impl<'a> Search<'a> {
         let parts =
             trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
-        let mut total = self.freedoms.reduced_matrix(&scaled(&((total + total.transpose()) * 0.5), self.ell));
-        for row in (0..6).filter(|&k| k >= self.freedoms.count() || !self.turns && self.freedoms.is_rotation(k)) {
+        let mut total = self.coordinates.reduce_symmetric(&total);
+        let freedoms = self.coordinates.freedoms();
+        for row in (0..6).filter(|&k| k >= freedoms.count() || !self.turns && freedoms.is_rotation(k)) {
             total.row_mut(row).fill(0.0);
             total.column_mut(row).fill(0.0);
             total[(row, row)] = 1.0;
@@ -156,13 +156,8 @@ impl<'a> Search<'a> {
 
     /// Work of the load's moment along a step; a moment that stays fixed in the world has no energy.
     fn work(&self, step: &Vec6) -> f64 {
-        let step = self.freedoms.expanded(step);
-        self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.ell
-    }
-
-    pub(super) fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
-        let step = self.freedoms.expanded(step);
-        pose.moved(&Vec3::new(step[0], step[1], step[2]), &(Vec3::new(step[3], step[4], step[5]) / self.ell))
+        let step = self.coordinates.expand(step);
+        self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.coordinates.ell()
     }
 }
 
@@ -215,15 +210,15 @@ impl Search<'_> {
         let lengths: f64 = self.lengths.iter().sum();
         let chords: f64 = from.cables.iter().map(|cable| cable.chord_w().norm()).sum();
         let reach = (REACH * lengths).max(FAR_REACH * chords) / self.lengths.len() as f64;
-        let motion = self.freedoms.expanded(step);
-        let length =
-            (motion.fixed_rows::<3>(0).norm() / reach).max(motion.fixed_rows::<3>(3).norm() / (0.5 * self.ell));
+        let motion = self.coordinates.expand(step);
+        let length = (motion.fixed_rows::<3>(0).norm() / reach)
+            .max(motion.fixed_rows::<3>(3).norm() / (0.5 * self.coordinates.ell()));
         (if length > 1.0 { step / length } else { *step }, length)
     }
 
     /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
     pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
-        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness).sum();
+        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness()).sum();
         let least_diagonal = 1e-9 * stiffest / self.lengths.iter().copied().fold(0.0, f64::max);
         let mut here = self.at(start);
         let mut shift = 0.0;
@@ -241,7 +236,7 @@ impl Search<'_> {
             if here.residual < 1e-13 || (near && exhausted) {
                 // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
                 if escapes < 3
-                    && inertia::negative_eigenvalues(&stiffness, self.freedoms.count()) > 0
+                    && inertia::negative_eigenvalues(&stiffness, self.coordinates.count()) > 0
                     && let Some(lower) = descend_from_saddle(self, &here, &stiffness)
                 {
                     escapes += 1;
@@ -254,7 +249,7 @@ impl Search<'_> {
             let diagonal = stiffness.diagonal().amax().max(least_diagonal);
             let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
             let (step, length) = self.limited(&here, &step);
-            let next = self.at(self.moved(&here.pose, &step));
+            let next = self.at(self.coordinates.moved(&here.pose, &step));
             // Near rest the energy drowns in rounding; there the residual decides.
             let expected = step.dot(&here.wrench);
             let lower = next.energy - self.work(&step) < here.energy - 1e-4 * expected;
@@ -302,15 +297,15 @@ fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64)
 
 /// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
 fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
-    let (values, vectors) = inertia::eigen(stiffness, search.freedoms.count());
+    let (values, vectors) = inertia::eigen(stiffness, search.coordinates.count());
     let noise = 1e-10 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
         return None;
     }
     [0.3, -0.3, 0.1, -0.1, 0.01, -0.01]
         .into_iter()
-        .map(|part| vectors[0] * (part * search.ell))
-        .map(|step| (search.at(search.moved(&here.pose, &step)), search.work(&step)))
+        .map(|part| vectors[0] * (part * search.coordinates.ell()))
+        .map(|step| (search.at(search.coordinates.moved(&here.pose, &step)), search.work(&step)))
         .map(|(trial, work)| (trial.energy - work, trial))
         .filter(|(energy, trial)| *energy < here.energy && trial.residual.is_finite())
         .min_by(|a, b| a.0.total_cmp(&b.0))

@@ -5,36 +5,38 @@ use super::error::StaticsError;
 use super::model::StaticModel;
 use super::residual::residual_of;
 use crate::math::{Mat6, Vec3, Vec6};
-use crate::platform::{load_wrench, scaled_wrench, wrench_of};
+use crate::platform::{Coordinates, StraightCable, load_wrench};
 use crate::robot::{Pose, Robot};
 
 /// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
 pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, StaticsError> {
-    let ell = robot.platform_length();
+    let coordinates = Coordinates::of(robot);
     let mut pose = start;
     let mut iterations = 0;
     let gap_of = |pose: &Pose| {
-        robot.cables.iter().zip(lengths).fold(0.0_f64, |worst, (cable, length)| {
-            worst.max(((cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() - length).abs())
-        })
+        robot
+            .cables
+            .iter()
+            .zip(lengths)
+            .fold(0.0_f64, |worst, (cable, length)| worst.max((cable.chord_w(pose).norm() - length).abs()))
     };
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let mut gap = gap_of(&pose);
     while gap > 1e-14 * longest && iterations < 100 {
         iterations += 1;
-        let columns = unit_wrenches(robot, &pose, ell);
+        let columns = unit_wrenches(robot, &pose, &coordinates);
         let rows = columns.transpose();
         let gaps = Vec6::from_fn(|i, _| match (robot.cables.get(i), lengths.get(i)) {
-            (Some(cable), Some(length)) => (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() - length,
+            (Some(cable), Some(length)) => cable.chord_w(&pose).norm() - length,
             _ => 0.0,
         });
         let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
-        let step = robot.platform.freedoms.expanded(&step);
+        let step = coordinates.expand(&step);
         // Halve the step until the gap falls.
         let mut part = 1.0;
         let next = loop {
             let translation = Vec3::new(step[0], step[1], step[2]) * part;
-            let turn = Vec3::new(step[3], step[4], step[5]) * (part / ell);
+            let turn = Vec3::new(step[3], step[4], step[5]) * (part / coordinates.ell());
             let next = pose.moved(&translation, &turn);
             if gap_of(&next) < gap {
                 break Some(next);
@@ -74,12 +76,10 @@ pub(super) fn pushing(tensions: &[f64]) -> Option<(usize, f64)> {
 
 /// Unit tension wrenches (e, r × e/ℓ) of straight cables in the platform's coordinates as columns; the identity beyond
 /// them.
-fn unit_wrenches(robot: &Robot, pose: &Pose, ell: f64) -> Mat6 {
+fn unit_wrenches(robot: &Robot, pose: &Pose, coordinates: &Coordinates) -> Mat6 {
     let mut columns = Mat6::identity();
     for (i, cable) in robot.cables.iter().enumerate().take(6) {
-        let lever = pose.rot_wp * cable.attachment_p;
-        let e = (cable.anchor_w - pose.position_w - lever).normalize();
-        columns.set_column(i, &robot.platform.freedoms.reduced(&wrench_of(&e, &(lever / ell))));
+        columns.set_column(i, &StraightCable::at(cable, pose).unit_wrench(coordinates));
     }
     columns
 }
@@ -87,13 +87,13 @@ fn unit_wrenches(robot: &Robot, pose: &Pose, ell: f64) -> Mat6 {
 /// Tensions of straight cables, as many as freedoms, that balance a wrench about the platform origin.
 pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Result<Vec<f64>, StaticsError> {
     for cable in &robot.cables {
-        if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
+        if cable.chord_w(pose).norm() == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
     }
-    let ell = robot.platform_length();
-    let right = -robot.platform.freedoms.reduced(&scaled_wrench(load, ell));
-    let columns = unit_wrenches(robot, pose, ell);
+    let coordinates = Coordinates::of(robot);
+    let right = -coordinates.reduce(load);
+    let columns = unit_wrenches(robot, pose, &coordinates);
     let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
     // Frobenius' norms bound the condition from above, and cost a tenth of the singular values.
     let bound = columns.norm() * inverse.norm();
@@ -115,7 +115,7 @@ pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: u
         .zip(tensions)
         .map(|(cable, &tension)| {
             let attachment_w = pose.point_w(&cable.attachment_p);
-            let chord = cable.anchor_w - attachment_w;
+            let chord = cable.chord_w(&pose);
             CableState {
                 attachment_w,
                 lever_w: attachment_w - pose.position_w,

@@ -5,7 +5,7 @@ use super::error::StaticsError;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use crate::math::Vec6;
-use crate::platform::{balance, load_size};
+use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
 
 /// Total wrench on the platform at any pose, cables, weight and load, about the platform origin [N, N·m]; the residual of
@@ -33,17 +33,15 @@ pub(super) fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), Static
 }
 
 /// The larger of force and moment/ℓ, over all tensions and the weight; what the platform cannot do is not counted.
-pub(super) fn scaled_residual(robot: &Robot, wrench: &Vec6, force_scale: f64) -> f64 {
-    let wrench = robot.platform.freedoms.allowed(wrench);
-    let force = wrench.fixed_rows::<3>(0).norm();
-    let moment = wrench.fixed_rows::<3>(3).norm() / robot.platform_length();
-    if force_scale > 0.0 { force.max(moment) / force_scale } else { force.max(moment) }
+pub(super) fn scaled_residual(coordinates: &Coordinates, wrench: &Vec6, force_scale: f64) -> f64 {
+    let size = coordinates.wrench_size(wrench);
+    if force_scale > 0.0 { size / force_scale } else { size }
 }
 
 /// Scaled residual of a set of cable states at a pose.
 pub(super) fn residual_of(robot: &Robot, pose: &Pose, cables: &[CableState]) -> f64 {
     let (wrench, scale) = balance(robot, pose, cables.iter().map(|c| (c.force_on_platform_w, c.lever_w)));
-    scaled_residual(robot, &wrench, scale)
+    scaled_residual(&Coordinates::of(robot), &wrench, scale)
 }
 
 /// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of some chords' length, a few operations.

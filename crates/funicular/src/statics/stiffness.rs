@@ -2,7 +2,7 @@
 
 use super::equilibrium::{Equilibrium, Stability};
 use crate::math::{Mat3, Mat6, Vec3, inertia};
-use crate::platform::{add_congruent, add_lever_term, add_load_terms, scaled};
+use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
 
 /// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
@@ -22,9 +22,8 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
         .iter()
         .map(|cable| Some((cable.tangent_w()?, cable.force_on_platform_w, cable.lever_w)))
         .collect();
-    let freedoms = &robot.platform.freedoms;
     let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
-    Some(freedoms.expanded_matrix(&freedoms.reduced_matrix(&whole)))
+    Some(Coordinates::of(robot).allowed_matrix(&whole))
 }
 
 /// Stiffness of cables (3×3, force on the platform, lever arm) and of weight and load at a pose.
@@ -39,9 +38,8 @@ pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item =
 }
 
 pub(super) fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
-    let n = robot.platform.freedoms.count();
-    let scaled = scaled(&((stiffness + stiffness.transpose()) * 0.5), robot.platform_length());
-    let values = inertia::eigenvalues(&robot.platform.freedoms.reduced_matrix(&scaled), n);
+    let coordinates = Coordinates::of(robot);
+    let values = inertia::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());
     // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();

@@ -21,6 +21,7 @@ use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::ideal;
 use super::model::StaticModel;
+use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use line::Line;
 use search::Search;
@@ -93,12 +94,12 @@ pub fn distribute(
     }
     robot.platform.freedoms.check(pose)?;
     for cable in &robot.cables {
-        if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
+        if cable.chord_w(pose).norm() == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
     }
-    let ell = robot.platform_length();
-    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, ell)).collect();
+    let coordinates = Coordinates::of(robot);
+    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, coordinates)).collect();
     check(robot, model, rule, &lines)?;
     let mut search = Search::new(robot, pose, lines);
     match rule {

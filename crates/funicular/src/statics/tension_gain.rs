@@ -2,7 +2,7 @@
 
 use super::equilibrium::Equilibrium;
 use crate::math::{Mat6, inertia};
-use crate::platform::wrench_of;
+use crate::platform::Coordinates;
 use crate::robot::Robot;
 
 /// How much tension a load may take at most: the least norm of the tensions [N] that balance the worst wrench of size one
@@ -31,14 +31,13 @@ pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, lim
 /// Sum of the squares of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None`
 /// where they are fewer than the freedoms.
 fn wrench_gram(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
-    let ell = robot.platform_length();
-    let freedoms = &robot.platform.freedoms;
+    let coordinates = Coordinates::of(robot);
     let (mut gram, mut pulling) = (Mat6::zeros(), 0);
     for cable in equilibrium.cables.iter().filter(|cable| !cable.is_slack()) {
         let force = cable.force_on_platform_w.try_normalize(0.0).unwrap_or_else(|| cable.chord_w().normalize());
-        let unit = freedoms.reduced(&wrench_of(&force, &(cable.lever_w / ell)));
+        let unit = coordinates.reduce_force(&force, &cable.lever_w);
         gram += unit * unit.transpose();
         pulling += 1;
     }
-    (pulling >= freedoms.count()).then_some(gram)
+    (pulling >= coordinates.count()).then_some(gram)
 }
