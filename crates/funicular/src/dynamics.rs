@@ -9,7 +9,7 @@ pub(crate) use pencil::NullVector;
 
 use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
-use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6};
+use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, Freedoms, Robot};
 use crate::statics::{CableState, Equilibrium};
@@ -307,8 +307,8 @@ impl Dynamics {
 const RESOLUTION: f64 = 1e-9;
 
 /// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.
-fn add_local<T: Copy + std::ops::AddAssign + nalgebra::Scalar>(
-    total: &mut nalgebra::Matrix6<T>,
+fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
+    total: &mut Matrix6<T>,
     term: &Term,
     k: &LocalStiffness<T>,
     times: impl Fn(T, f64) -> T,
