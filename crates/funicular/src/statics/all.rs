@@ -9,7 +9,7 @@
 
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
-use super::forward::{Search, elastic, forward};
+use super::forward::{AT_REST, Search, elastic, forward};
 use super::model::StaticModel;
 use super::nearest::distance;
 use super::residual::check_lengths;
@@ -225,7 +225,7 @@ impl<'a> Hunt<'a> {
         let search = Search::new(self.robot, self.lengths, self.model, &start);
         let mut here = search.at(start);
         let mut steps = 0;
-        while here.residual > 1e-13 {
+        while here.residual > AT_REST {
             let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.coordinates.count());
             let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {

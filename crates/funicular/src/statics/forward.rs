@@ -161,6 +161,10 @@ impl<'a> Search<'a> {
     }
 }
 
+/// Scaled residual at which a search ends at once. Rounding leaves 1e-15 to 1e-12: where it leaves more than this, the
+/// search ends when no step betters the residual.
+pub(super) const AT_REST: f64 = 1e-13;
+
 /// Limit of rounds in which the drag of the wind follows the cables; each gains a factor, see theory, section 15.
 const MOST_ROUNDS: usize = 100;
 
@@ -180,7 +184,7 @@ pub(super) fn elastic(
         for _ in 0..MOST_ROUNDS {
             search = Search::new(robot, lengths, model, &here.pose);
             here = search.at(here.pose);
-            if here.residual < 1e-13 || (here.residual < here.limit && here.residual > 0.5 * last) {
+            if here.residual < AT_REST || (here.residual < here.limit && here.residual > 0.5 * last) {
                 break;
             }
             last = here.residual;
@@ -203,6 +207,17 @@ const REACH: f64 = 0.2;
 /// twice as long as unstrained for it, so that it changes no search of a robot near its place.
 const FAR_REACH: f64 = 0.1;
 
+/// Angle that the platform may turn by in one step [rad]. Large turns are taken in several: at a whole radian a rotation
+/// differs from its first order by half of itself.
+const MAX_TURN: f64 = 0.5;
+
+/// Part of the work expected of a step, to first order, that the energy has to fall by (Armijo's condition). Of a quadratic
+/// energy a full step of Newton's method gains one half, a step at the edge of divergence nothing.
+const ARMIJO: f64 = 1e-4;
+
+/// Saddles that one search leaves; each time the energy falls, so that none is met twice.
+const MAX_ESCAPES: usize = 3;
+
 impl Search<'_> {
     /// A step from a place cut to what may be taken at once, and how many times that it was: half a radian, a fifth of
     /// the mean cable or a tenth of the mean distance.
@@ -212,7 +227,7 @@ impl Search<'_> {
         let reach = (REACH * lengths).max(FAR_REACH * chords) / self.lengths.len() as f64;
         let motion = self.coordinates.expand(step);
         let length = (motion.fixed_rows::<3>(0).norm() / reach)
-            .max(motion.fixed_rows::<3>(3).norm() / (0.5 * self.coordinates.ell()));
+            .max(motion.fixed_rows::<3>(3).norm() / (MAX_TURN * self.coordinates.ell()));
         (if length > 1.0 { step / length } else { *step }, length)
     }
 
@@ -225,6 +240,7 @@ impl Search<'_> {
         let (mut refused, mut exhausted) = (false, false);
         let mut escapes = 0;
         let mut iterations = 0;
+
         while iterations < MOST_ITERATIONS {
             iterations += 1;
             let stiffness = self.stiffness(&here);
@@ -233,9 +249,11 @@ impl Search<'_> {
                 // The last digits are those of Newton's method alone.
                 shift = 0.0;
             }
-            if here.residual < 1e-13 || (near && exhausted) {
-                // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
-                if escapes < 3
+
+            // The end, unless the place is a saddle.
+            if here.residual < AT_REST || (near && exhausted) {
+                // A saddle is left along its weakest direction: the energy falls both ways.
+                if escapes < MAX_ESCAPES
                     && inertia::negative_eigenvalues(&stiffness, self.coordinates.count()) > 0
                     && let Some(lower) = descend_from_saddle(self, &here, &stiffness)
                 {
@@ -245,15 +263,19 @@ impl Search<'_> {
                 }
                 break;
             }
-            // Where all cables are slack there is no stiffness to compare with.
+
+            // The step. Where all cables are slack there is no stiffness to compare with.
             let diagonal = stiffness.diagonal().amax().max(least_diagonal);
             let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
             let (step, length) = self.limited(&here, &step);
             let next = self.at(self.coordinates.moved(&here.pose, &step));
-            // Near rest the energy drowns in rounding; there the residual decides.
+
+            // Whether it is a gain. Near rest the energy drowns in rounding; there the residual decides.
             let expected = step.dot(&here.wrench);
-            let lower = next.energy - self.work(&step) < here.energy - 1e-4 * expected;
+            let lower = next.energy - self.work(&step) < here.energy - ARMIJO * expected;
             let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
+
+            // Taken, or tried again with a larger shift.
             if next.residual.is_finite() && (lower || quieter) {
                 // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
                 // necessary still is.
@@ -280,6 +302,7 @@ impl Search<'_> {
                 }
             }
         }
+
         (here, iterations)
     }
 }
