@@ -340,7 +340,7 @@ impl StaticsError {
 
 fn searched(starts: usize, residual: f64, greatest: Option<f64>) -> String {
     if starts == 0 {
-        return format!("one of them would have to be more than {} times as long as its chord", LONGEST);
+        return format!("one of them would have to be more than {LONGEST} times as long as its chord");
     }
     let starts = crate::counted(starts, "start");
     greatest.map_or_else(

@@ -233,7 +233,7 @@ impl Search<'_> {
 
     /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
     pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
-        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness()).sum();
+        let stiffest: f64 = self.loaded.iter().map(LoadedCable::axial_stiffness).sum();
         let least_diagonal = 1e-9 * stiffest / self.lengths.iter().copied().fold(0.0, f64::max);
         let mut here = self.at(start);
         let mut shift = 0.0;

@@ -224,7 +224,7 @@ fn symmetric(reader: &mut Reader, tensor: &Mat3, elements: &[[&Value; 3]; 3]) ->
             return None;
         }
     }
-    Some(symmetric_part(&tensor))
+    Some(symmetric_part(tensor))
 }
 
 /// Whether a body can have this tensor: principal moments positive, none larger than the sum of the others.
