@@ -2,6 +2,7 @@
 
 mod export;
 mod import;
+mod request;
 mod sweep;
 pub(crate) mod values;
 
@@ -12,10 +13,10 @@ use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
 use funicular::ports::{Input, Output};
 use funicular::statics::StaticModel;
-use funicular_files::edit::Assignment;
-pub(crate) use import::{ImportArgs, ImportedPlatformArgs, RopeArgs};
+use funicular_study::request::Change;
+pub(crate) use import::ImportArgs;
 use std::path::PathBuf;
-pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs, WhatArgs};
+pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
 use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
@@ -26,6 +27,9 @@ use values::{Lengths, MassRange, PoseNumbers, Tensions};
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
 #[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]
 pub(crate) struct Cli {
+    /// Print the request that the command stands for as JSON, and run nothing
+    #[arg(long, global = true, help_heading = "Request")]
+    pub(crate) print_request: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -143,6 +147,14 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
         funicular validate --format json")]
     Validate(ValidateArgs),
+    /// Run a request written as JSON: the options of any command and the text of the robot file in one object
+    ///
+    /// Every command prints its request with --print-request. The keys are the names of the options, with _ for -.
+    #[command(
+        after_help = "Example:\n  funicular statics robots/cogiro.toml --pose 1,2,1.5 --print-request > request.json\n  \
+        funicular request request.json --format json"
+    )]
+    Request(RequestArgs),
 }
 
 /// The robot.
@@ -159,8 +171,8 @@ pub(crate) struct RobotArgs {
 #[derive(Debug, Args)]
 pub(crate) struct ChangeArgs {
     /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by their name; repeatable)
-    #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_files::edit::assignment)]
-    pub(crate) set: Vec<Assignment>,
+    #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_study::set_values::change)]
+    pub(crate) set: Vec<Change>,
 }
 
 /// The state: as the robot file says, or as these options say.
@@ -542,6 +554,15 @@ pub(crate) struct PaperArgs {
     /// Write the page to FILE, as a whole or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-paper.html")]
     pub(crate) output_file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RequestArgs {
+    /// The request (JSON), or - for standard input
+    #[arg(value_name = "FILE.json")]
+    pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
 }
 
 #[derive(Debug, Args)]

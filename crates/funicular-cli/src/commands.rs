@@ -1,20 +1,258 @@
-//! One file a verb: options and a robot in, a result out.
+//! One file per command: how its results look as text and CSV. This file reads what the arguments name, makes the
+//! request, and has it run.
 
-pub(crate) mod cable;
-pub(crate) mod check;
-pub(crate) mod compare;
-pub(crate) mod export;
-pub(crate) mod frf;
-pub(crate) mod import;
-pub(crate) mod map;
-pub(crate) mod merge;
-pub(crate) mod modes;
-pub(crate) mod paper;
-pub(crate) mod plot;
-pub(crate) mod pose_error;
-pub(crate) mod reduce;
-pub(crate) mod report;
-pub(crate) mod statics;
-pub(crate) mod stiffness;
-pub(crate) mod sweep;
-pub(crate) mod validate;
+mod cable;
+mod check;
+mod compare;
+mod frf;
+mod modes;
+mod page;
+mod pose_error;
+mod reduce;
+mod request;
+mod statics;
+mod stiffness;
+mod validate;
+
+use crate::args::{Cli, Command, ExportArgs, ImportArgs, MapArgs, MergeArgs, OutputArgs, ReduceArgs, RobotArgs};
+use crate::output::{Content, Sink, Target};
+use crate::progress::{Shown, Waiting};
+use crate::table::counted;
+use crate::{errors, pose_csv, robot_file, sweep_run};
+use anyhow::{Context, Result, bail};
+use funicular::robot::Robot;
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
+use funicular_study::analyses;
+use funicular_study::export::ExportFormat;
+use funicular_study::import::SourceFile;
+use funicular_study::request::{self as requests, Request, RobotText};
+use funicular_study::wording::Words;
+use funicular_study::{at_rest, export, import};
+use reduce::ModelFile;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Runs a command, or prints its request.
+pub(crate) fn run(cli: &Cli) -> Result<()> {
+    if cli.print_request {
+        return request::print(&request_of(&cli.command)?);
+    }
+    match &cli.command {
+        Command::Request(args) => request::run(args),
+        Command::Map(args) => {
+            let mut guard = robot_file::guard(Some(&args.robot.robot));
+            if let Some(poses) = &args.poses {
+                guard.reads("the poses", poses);
+            }
+            sweep_run::run(&request_of(&cli.command)?, &mut guard, &args.run)
+        }
+        Command::Sweep(args) => {
+            let mut guard = robot_file::guard(Some(&args.robot.robot));
+            sweep_run::run(&request_of(&cli.command)?, &mut guard, &args.run)
+        }
+        Command::Merge(args) => merge(args),
+        Command::Plot(args) => page::plot(args),
+        Command::Report(args) => page::report(&request_of(&cli.command)?, args.robot.as_deref(), &args.output_file),
+        Command::Paper(args) => page::paper(&args.output_file),
+        Command::Import(args) => import(args),
+        Command::Export(args) => export(&request_of(&cli.command)?, args),
+        Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
+        Command::Check(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Statics(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Stiffness(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Modes(args) => {
+            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Frf(args) => {
+            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Compare(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::PoseError(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Cable(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
+        Command::Validate(args) => analyse(&request_of(&cli.command)?, &args.output, Guard::default()),
+    }
+}
+
+/// The request that a command stands for, with the texts of the files that it names.
+fn request_of(command: &Command) -> Result<Request> {
+    let robot = |args: &RobotArgs| robot_file::read(Some(&args.robot), &args.changes);
+    Ok(match command {
+        Command::Check(args) => Request::Check(requests::CheckRequest { robot: robot(&args.robot)? }),
+        Command::Statics(args) => Request::Statics(args.request(robot(&args.robot)?)),
+        Command::Stiffness(args) => Request::Stiffness(args.request(robot(&args.robot)?)),
+        Command::Modes(args) => Request::Modes(args.request(robot(&args.robot)?)),
+        Command::Frf(args) => Request::Frf(args.request(robot(&args.robot)?)),
+        Command::Compare(args) => Request::Compare(args.request(robot(&args.robot)?)),
+        Command::PoseError(args) => Request::PoseError(args.request(robot(&args.robot)?)),
+        Command::Cable(args) => Request::Cable(args.request(robot(&args.robot)?)),
+        Command::Reduce(args) => Request::Reduce(args.request(robot(&args.robot)?)),
+        Command::Map(args) => Request::Map(map_request(args, robot(&args.robot)?)?),
+        Command::Sweep(args) => Request::Sweep(args.request(robot(&args.robot)?)),
+        Command::Merge(args) => Request::Merge(args.request()),
+        Command::Plot(args) => Request::Plot(args.request()),
+        Command::Report(args) => Request::Report(args.request(robot_file::read(args.robot.as_deref(), &args.changes)?)),
+        Command::Paper(_) => Request::Paper(requests::PaperRequest {}),
+        Command::Import(args) => Request::Import(args.request(sources(&args.files)?)),
+        Command::Export(args) => Request::Export(args.request(robot(&args.robot)?)),
+        Command::Validate(_) => Request::Validate(requests::ValidateRequest {}),
+        Command::Request(args) => request::read(&args.file)?,
+    })
+}
+
+/// A map's request; errors of its poses name the line of their file.
+fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest> {
+    let poses = match &args.poses {
+        Some(path) => Some(pose_csv::read(path, &robot.read()?.robot)?),
+        None => None,
+    };
+    Ok(args.request(robot, poses))
+}
+
+/// Runs a request whose results are printed.
+fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
+    if let Some(robot) = request.robot() {
+        // The robot file's own errors come before those of the place for the result.
+        robot.read()?;
+    }
+    let sink = Sink::open(output, &mut guard)?;
+    let mut watch = Shown::default();
+    match request {
+        Request::Check(of) => sink.write(&analyses::check::run(of.robot.read()?.robot)),
+        Request::Statics(of) => {
+            let waiting = Waiting::for_("the equilibrium");
+            let found = analyses::statics::run(of.robot.read()?.robot, of)?;
+            drop(waiting);
+            sink.write(&found)
+        }
+        Request::Stiffness(of) => sink.write(&analyses::stiffness::run(of.robot.read()?.robot, of)?),
+        Request::Modes(of) => sink.write(&analyses::modes::run(of.robot.read()?.robot, of)?),
+        Request::Frf(of) => {
+            let found = analyses::frf::run(of.robot.read()?.robot, of, &mut watch)?;
+            drop(watch);
+            sink.write(&found)
+        }
+        Request::Compare(of) => sink.write(&analyses::compare::run(of.robot.read()?.robot, of)?),
+        Request::PoseError(of) => {
+            let found = analyses::pose_error::run(&of.robot.read()?.robot, of, &mut watch)?;
+            drop(watch);
+            sink.write(&found)
+        }
+        Request::Cable(of) => sink.write(&analyses::cable::run(of.robot.read()?.robot, of)?),
+        Request::Validate(_) => {
+            let found = analyses::validate::run()?;
+            sink.write(&found)?;
+            Ok(found.verdict()?)
+        }
+        other => bail!("`{}` makes a file, and has its own way to write it", other.command()),
+    }
+}
+
+/// The model of `reduce`, printed, and its matrices in files.
+fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
+    let Request::Reduce(of) = request else { bail!("this is no request of `reduce`") };
+    let robot = of.robot.read()?.robot;
+    let mut guard = robot_file::guard(Some(&args.robot.robot));
+    let sink = Sink::open(&args.sink, &mut guard)?;
+    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
+
+    let waiting = Waiting::for_("the model, and what it leaves out");
+    let mut found = analyses::reduce::run(robot, of)?;
+    drop(waiting);
+    found.model_file = args.model_file.as_ref().map(|path| path.display().to_string());
+    if let Some(file) = file {
+        file.write(&found)?;
+    }
+    sink.write(&found)
+}
+
+/// Parts become one file.
+fn merge(args: &MergeArgs) -> Result<()> {
+    let rows = funicular_files::merge(&args.parts, &args.output_file)?;
+    errors::note(&format!("{} in {}", counted(rows, "row"), args.output_file.display()));
+    Ok(())
+}
+
+/// Files of other programs become a robot file.
+fn import(args: &ImportArgs) -> Result<()> {
+    let request = args.request(sources(&args.files)?);
+    let mut guard = Guard::default();
+    for source in &args.files {
+        guard.reads("the source file", source);
+    }
+    write_import(&request, &mut guard, &args.output_file)
+}
+
+fn write_import(request: &requests::ImportRequest, guard: &mut Guard, path: &Path) -> Result<()> {
+    let content = Content { name: "the robot file", option: "-o", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let target = Target::open(Some(path), content, guard)?;
+    let imported = import::run(request, Words::Program)?;
+    target.write(imported.text.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    for assumed in &imported.assumed {
+        errors::warn(&format!("assumed: {assumed}"));
+    }
+    for lost in &imported.lost {
+        errors::warn(&format!("not carried over: {lost}"));
+    }
+    Ok(())
+}
+
+/// The files of another program as text.
+fn sources(paths: &[PathBuf]) -> Result<Vec<SourceFile>> {
+    let read = |path: &PathBuf| {
+        let shown = path.display().to_string();
+        if path.is_dir() {
+            bail!("cannot read {shown}: it is a directory; name the files in it");
+        }
+        let file = File::open(path).with_context(|| format!("cannot read {shown}"))?;
+        let mut bytes = Vec::new();
+        // One byte more than a file may have says that it has too many.
+        file.take(import::MAX_BYTES as u64 + 1)
+            .read_to_end(&mut bytes)
+            .with_context(|| format!("cannot read {shown}"))?;
+        SourceFile::decode(shown, &bytes)
+    };
+    paths.iter().map(read).collect()
+}
+
+/// The robot at rest as a file of another program.
+fn export(request: &Request, args: &ExportArgs) -> Result<()> {
+    let Request::Export(of) = request else { bail!("this is no request of `export`") };
+    let robot = of.robot.read()?.robot;
+    write_export(of, robot, &mut robot_file::guard(Some(&args.robot.robot)), &args.output_file)
+}
+
+fn write_export(of: &requests::ExportRequest, robot: Robot, guard: &mut Guard, path: &Path) -> Result<()> {
+    let (in_words, fitting): (_, &[Kind]) = match of.to {
+        ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
+        ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
+        ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
+    };
+    let content = Content { name: "the exported robot", option: "-o", in_words, fitting };
+    let target = Target::open(Some(path), content, guard)?;
+    export::refuse(of)?;
+    let at_rest = at_rest::equilibrium(robot, &of.state, &of.tensions)?;
+    let exported = export::run(&at_rest, of)?;
+    target.write(exported.text.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    exported.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}

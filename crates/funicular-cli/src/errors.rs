@@ -1,8 +1,8 @@
 //! What the user sees when there is no result: one message on stderr, and the exit code.
 
-use funicular::dynamics::DynamicsError;
-use funicular::response::ResponseError;
-use funicular::statics::StaticsError;
+use funicular_study::robot_file::Refused;
+use funicular_study::wording::{Words, worded};
+use funicular_study::{Error, ErrorKind};
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 use thiserror::Error;
@@ -15,16 +15,6 @@ const BAD_INPUT: u8 = 2;
 /// The user or the system has stopped it: what a shell calls SIGINT.
 const INTERRUPTED: u8 = 130;
 
-/// A message that already says `error:` and shows its place.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub(crate) struct Rendered(pub(crate) String);
-
-/// A result that cannot be given, though nothing is wrong with the input.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub(crate) struct NoSolution(pub(crate) String);
-
 /// Work that was stopped from outside, with what is left of it.
 #[derive(Debug, Error)]
 #[error("{0}")]
@@ -36,9 +26,9 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
         // `| head` has seen enough.
         return ExitCode::SUCCESS;
     }
-    let message = match error.downcast_ref::<Rendered>() {
-        Some(rendered) => rendered.to_string(),
-        None => format!("{} {error:#}", styled("error:", "31")),
+    let message = match refused(error) {
+        Some(refused) => refused.error.render(&refused.name, &refused.text, stderr_has_colour()),
+        None => format!("{} {}", styled("error:", "31"), worded(&format!("{error:#}"), Words::Program)),
     };
     to_stderr(&message);
     ExitCode::from(code(error))
@@ -46,7 +36,7 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
 
 /// Prints what the user should know before trusting a result.
 pub(crate) fn warn(warning: &str) {
-    to_stderr(&format!("{} {warning}", styled("warning:", "33")));
+    to_stderr(&format!("{} {}", styled("warning:", "33"), worded(warning, Words::Program)));
 }
 
 /// Prints what was done.
@@ -72,17 +62,19 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
+/// The robot file that the reader refuses, which shows its own errors at their places.
+fn refused(error: &anyhow::Error) -> Option<&Refused> {
+    let cause = error.downcast_ref::<Error>().map_or(error, Error::cause);
+    cause.downcast_ref()
+}
+
 fn code(error: &anyhow::Error) -> u8 {
     if error.is::<Interrupted>() {
         return INTERRUPTED;
     }
-    let no_solution = match error.downcast_ref::<StaticsError>() {
-        Some(error) => error.is_no_solution(),
-        None => {
-            matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
-                || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
-                || error.is::<NoSolution>()
-        }
-    };
-    if no_solution { NO_SOLUTION } else { BAD_INPUT }
+    match error.downcast_ref::<Error>().map_or_else(|| ErrorKind::of(error), Error::kind) {
+        ErrorKind::Input => BAD_INPUT,
+        ErrorKind::NoSolution => NO_SOLUTION,
+        ErrorKind::Cancelled => INTERRUPTED,
+    }
 }

@@ -1,32 +1,22 @@
 //! Where a result goes: standard output, or a file that is written as a whole or not at all.
 
 use crate::args::{Format, OutputArgs};
-use crate::errors::NoSolution;
-use crate::json;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_files::Guard;
 use funicular_files::endings::{self, Kind};
 use funicular_files::whole::{Temporary, is_regular_or_new};
-use serde::Serialize;
+use funicular_study::analyses::Found;
+use funicular_study::{NoSolution, json};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What a command found. Its serialisation is the JSON, without the keys that all results have.
-pub(crate) trait Results: Serialize {
-    /// The verb.
-    const COMMAND: &'static str;
-
-    /// The verb, where several give the same kind of result.
+/// Results as the program prints them.
+pub(crate) trait Printed: Found {
+    /// The name of the command, where several give the same kind of result.
     fn command(&self) -> &'static str {
         Self::COMMAND
     }
-
-    /// Name of the robot; empty where the result is of no single one.
-    fn robot(&self) -> &str;
-
-    /// What the user should know before trusting it.
-    fn warnings(&self) -> &[String];
 
     /// Tables to read, rounded.
     fn text(&self) -> String;
@@ -123,13 +113,13 @@ impl Sink {
     }
 
     /// Writes the result; its warnings go to stderr, too.
-    pub(crate) fn write<R: Results>(&self, results: &R) -> Result<()> {
+    pub(crate) fn write<R: Printed>(&self, results: &R) -> Result<()> {
         self.target.write(&self.render(results)?)?;
         results.warnings().iter().for_each(|warning| crate::errors::warn(warning));
         Ok(())
     }
 
-    fn render<R: Results>(&self, results: &R) -> Result<Vec<u8>> {
+    fn render<R: Printed>(&self, results: &R) -> Result<Vec<u8>> {
         let mut bytes = Vec::new();
         match self.format {
             Format::Json => as_json(&mut bytes, results)?,
@@ -154,7 +144,7 @@ impl Sink {
     }
 }
 
-fn as_json<R: Results>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
+fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
     json::write(out, results.command(), results.robot(), results, results.warnings()).map_err(|error| {
         NoSolution(format!(
             "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the frequency or check the units"

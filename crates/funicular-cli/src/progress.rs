@@ -1,5 +1,6 @@
 //! A bar or a spinner for what takes over a second, on a terminal only.
 
+use funicular_study::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
@@ -58,6 +59,19 @@ impl Drop for Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// A bar for the progress of an analysis, drawn where there is a terminal.
+#[derive(Default)]
+pub(crate) struct Shown {
+    bar: Option<Progress>,
+}
+
+impl Watch for Shown {
+    fn progress(&mut self, done: usize, total: usize, what: &'static str) {
+        let bar = self.bar.get_or_insert_with(|| Progress::with_rate(total, what));
+        bar.advance(done - bar.done);
     }
 }
 

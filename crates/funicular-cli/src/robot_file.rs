@@ -1,33 +1,21 @@
-//! The robot file: found, read, changed as `--set` says, checked.
+//! The text of the robot file: found and read; what is in it is the study's affair.
 
 use crate::args::ChangeArgs;
-use crate::errors::Rendered;
 use anyhow::{Context, Result, bail};
-use funicular::robot::Robot;
-use funicular_files::{Guard, edit};
+use funicular_files::Guard;
+use funicular_study::request::RobotText;
+use funicular_study::robot_file::{self, MAX_BYTES};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest robot file [bytes]; a cable takes some 200, so this is no robot but another file given by mistake.
-const LARGEST: u64 = 16 << 20;
-
-/// The robot that the program carries: its name and its file.
-const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", include_str!("../../../robots/yuan2014-4mm.toml"));
-
-/// A robot with the text that describes it.
-pub(crate) struct RobotFile {
-    pub(crate) robot: Robot,
-    /// Where the text is from.
-    pub(crate) name: String,
-    /// With the changes of `--set`.
-    pub(crate) text: String,
-}
-
-/// Reads the robot that the arguments name; without a path the one that the program carries.
-pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotFile> {
-    let (mut name, mut text) = match path {
-        None => (EMBEDDED.0.to_owned(), EMBEDDED.1.to_owned()),
+/// Reads the text of the robot that the arguments name; without a path it is the one that the program carries.
+pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotText> {
+    let (name, text) = match path {
+        None => {
+            let RobotText { name, text, .. } = RobotText::embedded();
+            (name, text)
+        }
         Some(path) if path.as_os_str() == "-" => {
             let name = "<stdin>".to_owned();
             let text = limited(io::stdin().lock(), &name)?;
@@ -39,14 +27,7 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotFil
             (name, text)
         }
     };
-    if !changes.set.is_empty() {
-        text = edit::apply(&text, &changes.set)?;
-        name.push_str(" with --set");
-    }
-    match Robot::from_toml(&text) {
-        Ok(robot) => Ok(RobotFile { robot, name, text }),
-        Err(error) => Err(Rendered(error.render(&name, &text, crate::errors::stderr_has_colour())).into()),
-    }
+    Ok(changes.robot(name, text))
 }
 
 /// Guard of a command's files that knows the robot file, also where that is standard input.
@@ -69,12 +50,7 @@ fn open(path: &Path, name: &str) -> Result<File> {
 
 fn limited(reader: impl Read, name: &str) -> Result<String> {
     let mut bytes = Vec::new();
-    reader.take(LARGEST + 1).read_to_end(&mut bytes).with_context(|| format!("cannot read the robot file {name}"))?;
-    if bytes.len() as u64 > LARGEST {
-        bail!("{name} is larger than {} MiB: it is no robot file", LARGEST >> 20);
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        anyhow::anyhow!("{name} is no text: byte {} is not UTF-8; a robot file is TOML in UTF-8", at + 1)
-    })
+    let most = MAX_BYTES as u64;
+    reader.take(most + 1).read_to_end(&mut bytes).with_context(|| format!("cannot read the robot file {name}"))?;
+    robot_file::decode(name, bytes)
 }

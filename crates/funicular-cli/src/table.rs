@@ -1,6 +1,7 @@
-//! Text: aligned tables and rounded numbers.
+//! Aligned tables of text.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
+pub(crate) use funicular_study::text::{NONE, counted, decimals, decimals_or_none, short, significant, vector};
 use std::fmt;
 
 /// A table with a header; columns from the second on hold numbers and are aligned to the right.
@@ -48,71 +49,9 @@ impl fmt::Display for Table {
     }
 }
 
-/// With a number of decimals; no minus before zero.
-pub(crate) fn decimals(value: f64, count: usize) -> String {
-    let text = format!("{value:.count$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.to_owned(),
-        _ => text,
-    }
-}
-
-/// With a number of significant digits; as a power of ten where that is shorter.
-pub(crate) fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let exponent = value.abs().log10().floor() as i64;
-    if (-4..=6).contains(&exponent) {
-        decimals(value, (i64::try_from(digits).unwrap_or(i64::MAX) - 1 - exponent).max(0) as usize)
-    } else {
-        format!("{value:.places$e}", places = digits.saturating_sub(1))
-    }
-}
-
-/// As [`significant`], without the zeros at the end: for numbers that the user chose.
-pub(crate) fn short(value: f64, digits: usize) -> String {
-    let text = significant(value, digits);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
-}
-
-/// What stands where there is no number.
-pub(crate) const NONE: &str = "–";
-
-/// As [`decimals`], or a dash.
-pub(crate) fn decimals_or_none(value: Option<f64>, count: usize) -> String {
-    value.map_or_else(|| NONE.to_owned(), |value| decimals(value, count))
-}
-
-/// `a, b, c` with a number of decimals each.
-pub(crate) fn vector(values: &[f64], count: usize) -> String {
-    values.iter().map(|value| decimals(*value, count)).collect::<Vec<_>>().join(", ")
-}
-
-/// `1 mode`, `2 modes`.
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_rounded_as_said() {
-        assert_eq!(decimals(-0.0001, 2), "0.00");
-        assert_eq!(decimals(-0.016, 2), "-0.02");
-        assert_eq!(significant(1234.5678, 6), "1234.57");
-        assert_eq!(significant(-0.000_012_345, 3), "-1.23e-5");
-        assert_eq!(significant(1.5e9, 4), "1.500e9");
-        assert_eq!(significant(0.0, 4), "0");
-        assert_eq!(short(10.55, 6), "10.55");
-        assert_eq!(short(100.0, 6), "100");
-    }
 
     #[test]
     fn columns_are_aligned() {

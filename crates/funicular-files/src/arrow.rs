@@ -1,10 +1,10 @@
 //! Rows in memory as Arrow has them.
 
-use crate::record::Record;
 use arrow_array::builder::{BooleanBuilder, Float64Builder, StringBuilder};
 use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use funicular::sweep::{Chunk, Column, Kind, Values};
+use funicular_study::sweep::Record;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;

@@ -1,7 +1,8 @@
 //! Rows as CSV: a header, every digit, nothing where there is no value.
 
-use crate::{Record, Rows};
+use crate::Rows;
 use funicular::sweep::{Chunk, Column, Values};
+use funicular_study::sweep::Record;
 use std::io::{self, Write};
 
 /// Writes chunks as CSV.

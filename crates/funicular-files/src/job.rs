@@ -3,8 +3,9 @@
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::whole::{Temporary, is_regular_or_new};
-use crate::{Difference, FilesError, Format, Record, Rows, behind_link, vti, with_ending, write_whole};
+use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_whole};
 use funicular::sweep::Chunk;
+use funicular_study::sweep::{Difference, Record};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -145,7 +146,7 @@ impl Job {
     }
 
     fn failed(&self, path: &Path, cause: std::io::Error) -> FilesError {
-        let saved = format!("{}: {}, then go on with --resume", self.safe(), crate::to_do(&cause));
+        let saved = format!("{}: {}, then go on with ⟪resume⟫", self.safe(), crate::to_do(&cause));
         FilesError::Write { path: path.to_owned(), saved, cause }
     }
 }
@@ -157,7 +158,7 @@ pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Resul
         return Err(place("it is a directory; add a file name".to_owned()));
     }
     if !is_regular_or_new(path) {
-        return Err(place("it is no regular file; `--format csv` without a file writes to standard output".to_owned()));
+        return Err(place("it is no regular file; name one, or leave out ⟪output_file⟫".to_owned()));
     }
     if fs::metadata(path).is_ok_and(|metadata| metadata.permissions().readonly()) {
         return Err(place("it is read-only".to_owned()));
@@ -178,7 +179,7 @@ fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
     let other_part =
         || Difference::of_values("part", &journal::shown_part(file.part), &journal::shown_part(record.part));
     if let Some(difference) = record.difference(&file.json, &file.robot_file).or_else(other_part) {
-        let advice = "choose another file, or replace this one without --resume";
+        let advice = "choose another file, or replace this one without ⟪resume⟫";
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
     Ok(file.complete && file.rows == record.rows_of(record.range()))
@@ -201,7 +202,7 @@ fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal,
         }),
         Found::Foreign => Err(FilesError::NoJournal { path: path() }),
         Found::Chunks { difference: Some(difference), .. } => {
-            let advice = "choose another file, or begin anew with --discard";
+            let advice = "choose another file, or begin anew with ⟪discard⟫";
             Err(FilesError::Foreign { path: path(), difference, advice })
         }
         Found::Chunks { done, rows, .. } if begin == Begin::Anew => {

@@ -3,8 +3,9 @@
 //! One line of magic, then frames: length and CRC-32 of what follows, 4 bytes each, little-endian. The first frame is
 //! the record (JSON) and the robot file, every other one chunk, in order.
 
-use crate::{Difference, FilesError, Part, Record, Rows};
+use crate::{FilesError, Rows};
 use funicular::sweep::{Chunk, Kind, Values};
+use funicular_study::sweep::{Difference, Part, Record};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions, TryLockError};

@@ -1,13 +1,11 @@
-//! Files of funicular: robot files edited by path, and the results of sweeps.
+//! Files of funicular: the results of maps and sweeps.
 //!
 //! A [`Job`] takes the [chunks](funicular::sweep::Chunk) of a [plan](funicular::sweep::Plan) in order. They go to a
 //! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
 //! as a whole. Parquet, CSV and VTK hold the same rows; [`arrow::batch`] gives them in memory.
 
 pub mod arrow;
-mod asked;
 mod csv;
-pub mod edit;
 pub mod endings;
 mod guard;
 mod job;
@@ -15,31 +13,27 @@ mod journal;
 mod merge;
 mod parquet;
 mod read;
-mod record;
 mod sealed;
 pub mod table;
-mod variations;
 mod vti;
 pub mod whole;
 
-pub use asked::{Asked, Source};
 pub use guard::Guard;
 pub use job::{Begin, Job, Opened};
 pub use merge::merge;
 pub use read::SweepFile;
-pub use record::{Difference, Part, Record};
 pub use table::Table;
-pub use variations::{Variation, Variations};
-pub use vti::Grid;
 
 use endings::Kind;
 use funicular::sweep::Chunk;
+use funicular_study::sweep::{Difference, Record};
 use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a file of a sweep cannot be read or written.
+/// Why a file of a sweep cannot be read or written. A message names options by their keys between ⟪ and ⟫, for
+/// [`worded`](funicular_study::wording::worded).
 #[derive(Debug, Error)]
 pub enum FilesError {
     /// The ending of a file says no format.
@@ -93,7 +87,7 @@ pub enum FilesError {
     },
     /// Work in the way.
     #[error(
-        "{} holds {done} of {rows} rows of a run that did not end: go on with --resume, or begin anew with --discard",
+        "{} holds {done} of {rows} rows of a run that did not end: go on with ⟪resume⟫, or begin anew with ⟪discard⟫",
         .journal.display()
     )]
     Unfinished {
@@ -105,7 +99,7 @@ pub enum FilesError {
         rows: usize,
     },
     /// A file that is no journal where one would be.
-    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with --discard", .path.display())]
+    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with ⟪discard⟫", .path.display())]
     NoJournal {
         /// The file.
         path: PathBuf,

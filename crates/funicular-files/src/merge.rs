@@ -1,9 +1,10 @@
 //! Parts become the file that one run would have written.
 
 use crate::parquet::ParquetFile;
-use crate::record::SCHEMA;
-use crate::{FilesError, Format, Guard, Part, Record, Rows, behind_link, job, write_whole};
+use crate::{FilesError, Format, Guard, Rows, behind_link, job, write_whole};
 use funicular::sweep::{Chunk, Column, Kind};
+use funicular_study::sweep::SCHEMA;
+use funicular_study::sweep::{Part, Record};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::io;
@@ -73,11 +74,11 @@ fn checked(
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
     let Some(part) = file.part else {
-        return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without --part")));
+        return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without ⟪part⟫")));
     };
     if !file.complete || file.rows != record.rows_of(part.range(record.chunks())) {
         return Err(FilesError::Parts(format!(
-            "{shown} (part {part}) is incomplete: go on with the command that began it and --resume"
+            "{shown} (part {part}) is incomplete: go on with the command that began it and ⟪resume⟫"
         )));
     }
     if let Some((other, _)) = before.first().filter(|(other, _)| other.of != part.of) {

@@ -2,7 +2,7 @@
 
 use crate::arrow::{self, Builders};
 use crate::sealed::{self, Seal, Sealing};
-use crate::{FilesError, Format, Part, Record, Rows};
+use crate::{FilesError, Format, Rows};
 use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use ::parquet::basic::Compression;
@@ -11,6 +11,7 @@ use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
 use ::parquet::schema::types::ColumnPath;
 use funicular::sweep::{Chunk, Kind};
+use funicular_study::sweep::{Part, Record};
 use serde_json::Value;
 use std::fs::File;
 use std::io::{self, Write};

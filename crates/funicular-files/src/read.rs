@@ -1,9 +1,10 @@
 //! Rows read back from a file, for pictures.
 
+use crate::FilesError;
 use crate::merge::record_of;
 use crate::parquet::ParquetFile;
-use crate::{FilesError, Record};
 use funicular::sweep::Chunk;
+use funicular_study::sweep::{Record, SweepRows};
 use std::path::Path;
 
 /// A Parquet file of a sweep.
@@ -52,5 +53,27 @@ impl SweepFile {
                 Ok(())
             })
             .map_err(|cause| FilesError::Read { path: self.file.path.clone(), cause })
+    }
+}
+
+impl SweepRows for SweepFile {
+    fn record(&self) -> &Record {
+        &self.record
+    }
+
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
+    fn first_row(&self) -> usize {
+        self.first_row
+    }
+
+    fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    fn each(&self, take: &mut dyn FnMut(&Chunk)) -> anyhow::Result<()> {
+        Ok(Self::each(self, take)?)
     }
 }

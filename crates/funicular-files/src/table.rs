@@ -2,10 +2,11 @@
 
 use crate::arrow::{self, Builders};
 use crate::parquet::{GROUP, ParquetFile};
-use crate::{FilesError, Format, Record, Rows, journal, merge, write_whole};
+use crate::{FilesError, Format, Rows, journal, merge, write_whole};
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, Schema};
 use funicular::sweep::{Chunk, Values};
+use funicular_study::sweep::Record;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;

@@ -1,47 +1,14 @@
 //! Rows of a grid as a VTK image, for ParaView.
 
-use crate::{Record, Rows};
+use crate::Rows;
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
-use funicular::sweep::{AXES, Column, Kind, Steps, Values};
+use funicular::sweep::{AXES, Column, Kind, Values};
+use funicular_study::request::Axis;
+use funicular_study::sweep::{Record, axes_of};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
-use serde_json::{Value, json};
 use std::io::{self, Write};
-
-/// The axes of a sweep, the fastest first.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Grid(pub Vec<(String, Steps)>);
-
-impl Grid {
-    /// As a plan has it.
-    pub fn to_json(&self) -> Value {
-        let axes = self.0.iter().map(|(axis, steps)| match steps {
-            Steps::Range { from, to, count } => json!({ "axis": axis, "from": from, "to": to, "count": count }),
-            Steps::List(values) => json!({ "axis": axis, "values": values }),
-        });
-        axes.collect()
-    }
-
-    /// What [`Grid::to_json`] wrote; `None` for anything else.
-    pub fn from_json(json: &Value) -> Option<Self> {
-        let axis = |json: &Value| {
-            let name = json["axis"].as_str()?.to_owned();
-            let steps = match json["values"].as_array() {
-                Some(values) if !values.is_empty() => {
-                    Steps::List(values.iter().map(Value::as_f64).collect::<Option<_>>()?)
-                }
-                Some(_) => return None,
-                None => {
-                    let count = usize::try_from(json["count"].as_u64()?).ok()?;
-                    Steps::range(json["from"].as_f64()?, json["to"].as_f64()?, count).ok()?
-                }
-            };
-            Some((name, steps))
-        };
-        json.as_array()?.iter().map(axis).collect::<Option<_>>().map(Self)
-    }
-}
 
 /// Three axes: where each begins, its step and its number of values.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +27,7 @@ impl Image {
     /// Positions where only positions vary; else the axes that vary, in their order.
     fn of(record: &Record) -> Result<Self, String> {
         let no_grid = || "an image needs a grid, and this is a list".to_owned();
-        let axes = record.plan.get("grid").and_then(Value::as_array).ok_or_else(no_grid)?;
+        let axes = axes_of(&record.plan).ok_or_else(no_grid)?;
         let axes: Vec<(&str, [f64; 2], usize)> = axes.iter().map(axis).collect::<Result<_, _>>()?;
         let varying: Vec<_> = axes.iter().copied().filter(|axis| axis.2 > 1).collect();
         let positions_only = varying.iter().all(|axis| AXES[..3].contains(&axis.0));
@@ -80,19 +47,18 @@ impl Image {
     }
 }
 
-/// Name, begin and step, number of values.
-fn axis(json: &Value) -> Result<(&str, [f64; 2], usize), String> {
-    let name = json["axis"].as_str().unwrap_or_default();
-    let number = |key: &str| json[key].as_f64().unwrap_or_default();
-    if let Some(values) = json["values"].as_array() {
-        return match &values[..] {
-            [value] => Ok((name, [value.as_f64().unwrap_or_default(), 1.0], 1)),
-            _ => Err(format!("an image has equal steps: give the axis {name} as from:to:count")),
-        };
+/// Name, first value and step, number of values.
+fn axis(axis: &Axis) -> Result<(&str, [f64; 2], usize), String> {
+    match axis {
+        Axis::Range { axis, from, to, count } => {
+            let step = (to - from) / (count.max(&2) - 1) as f64;
+            Ok((axis, [*from, step], *count))
+        }
+        Axis::List { axis, values } => match values[..] {
+            [value] => Ok((axis, [value, 1.0], 1)),
+            _ => Err(format!("an image has equal steps: give the axis {axis} as from:to:count")),
+        },
     }
-    let count = json["count"].as_u64().unwrap_or(1) as usize;
-    let (from, to) = (number("from"), number("to"));
-    Ok((name, [from, (to - from) / (count.max(2) - 1) as f64], count))
 }
 
 /// Writes the image. Numbers that do not exist are NaN, which VTK has no other word for; `feasible` and `status` (the number of

@@ -4,7 +4,9 @@
 use arrow_array::{Array, Float64Array};
 use funicular::robot::Robot;
 use funicular::sweep::{Chunk, Options, Plan, Poses, Quantity, Steps, Values};
-use funicular_files::{Begin, FilesError, Grid, Job, Opened, Part, Record, SweepFile, Table, merge};
+use funicular_files::{Begin, FilesError, Job, Opened, SweepFile, Table, merge};
+use funicular_study::request::Axis;
+use funicular_study::sweep::{Part, Record};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use serde_json::{Map, json};
 use std::fs::{self, File};
@@ -28,7 +30,13 @@ fn sweep() -> (Record, Vec<Chunk>) {
     let chunks = (0..plan.chunks()).map(|index| plan.evaluate(index, || false).unwrap()).collect();
     let record = Record {
         robot_file: ROBOT.to_owned(),
-        plan: Map::from_iter([("grid".to_owned(), Grid(axes.to_vec()).to_json()), ("mass_kg".to_owned(), json!(1.5))]),
+        plan: Map::from_iter([
+            (
+                "grid".to_owned(),
+                json!(axes.iter().map(|(axis, steps)| Axis::new(axis.clone(), steps)).collect::<Vec<_>>()),
+            ),
+            ("mass_kg".to_owned(), json!(1.5)),
+        ]),
         columns: plan.columns().to_vec(),
         rows: plan.rows(),
         chunk_rows: plan.chunk_rows(),

@@ -1,6 +1,7 @@
 //! NumPy arrays in and out, with the types that the `.pyi` names. An array that goes out owns what it was made of.
 
 use crate::errors;
+use funicular_study::values;
 use numpy::ndarray::{Array, ArrayD, Dimension, Ix1, Ix2, Ix3, IxDyn};
 use numpy::{Complex64, Element, IntoPyArray, PyArray, PyArrayDyn, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
@@ -437,19 +438,14 @@ impl Number {
         self.0.map_err(|error| error.named(what))
     }
 
-    /// Checks as [`finite`].
-    pub(crate) fn finite(self, what: &str) -> PyResult<f64> {
-        finite(what, self.value(what)?)
+    /// Refuses what is not positive, by the rule for requests.
+    pub(crate) fn positive(self, what: &str) -> PyResult<f64> {
+        values::positive(self.value(what)?).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
     }
 
     /// Checks as [`not_negative`].
     pub(crate) fn not_negative(self, what: &str) -> PyResult<f64> {
         not_negative(what, self.value(what)?)
-    }
-
-    /// Checks as [`positive`].
-    pub(crate) fn positive(self, what: &str) -> PyResult<f64> {
-        positive(what, self.value(what)?)
     }
 }
 
@@ -539,15 +535,12 @@ impl Numbers {
         Ok((one_row(array, what)?, false))
     }
 
-    /// Three numbers, finite.
+    /// Three numbers.
     pub(crate) fn three(self, what: &str) -> PyResult<[f64; 3]> {
         let row = self.row(what)?;
         let [x, y, z] = row[..] else {
             return Err(errors::input(format!("`{what}` has {} numbers where x, y, z are needed", row.len())));
         };
-        for value in [x, y, z] {
-            finite(what, value)?;
-        }
         Ok([x, y, z])
     }
 
@@ -565,9 +558,14 @@ impl Numbers {
 
     /// Frequencies, one or a row of them.
     pub(crate) fn frequencies(self) -> PyResult<(Vec<f64>, bool)> {
-        let (frequencies, one) = self.one_or_row("hz")?;
+        self.frequencies_of("hz")
+    }
+
+    /// Frequencies by the name of their argument.
+    pub(crate) fn frequencies_of(self, what: &str) -> PyResult<(Vec<f64>, bool)> {
+        let (frequencies, one) = self.one_or_row(what)?;
         for &hz in &frequencies {
-            not_negative("hz", hz)?;
+            not_negative(what, hz)?;
         }
         Ok((frequencies, one))
     }
@@ -585,40 +583,7 @@ pub(crate) fn complex_numbers(name: &str, values: ComplexNumbers) -> PyResult<Ou
     values.array(name).map(Out)
 }
 
-/// Largest magnitude of a number, as in robot files.
-const LARGEST: f64 = 1e12;
-/// Smallest quantity that has to be positive, as in robot files.
-const SMALLEST: f64 = 1e-12;
-
-/// Says what is wrong with what is no number to compute with.
-pub(crate) fn magnitude(what: &str, value: f64) -> Result<f64, String> {
-    if value.abs() <= LARGEST {
-        Ok(value)
-    } else if value.is_finite() {
-        Err(format!("{what} is {value:e}: it must be at most {LARGEST:e} in magnitude"))
-    } else {
-        Err(format!("{what} is {value}: it must be finite"))
-    }
-}
-
-/// Refuses what is no number to compute with.
-pub(crate) fn finite(what: &str, value: f64) -> PyResult<f64> {
-    // Arrays are long: a text is made of what is wrong alone.
-    if value.abs() <= LARGEST { Ok(value) } else { magnitude(&format!("`{what}`"), value).map_err(errors::input) }
-}
-
-/// Refuses negative numbers, too.
+/// Refuses negative numbers and what is no number to compute with, by the rule for requests.
 pub(crate) fn not_negative(what: &str, value: f64) -> PyResult<f64> {
-    if finite(what, value)? < 0.0 {
-        return Err(errors::input(format!("`{what}` is {value}: it must not be negative")));
-    }
-    Ok(value)
-}
-
-/// Refuses zero, too.
-pub(crate) fn positive(what: &str, value: f64) -> PyResult<f64> {
-    if finite(what, value)? < SMALLEST {
-        return Err(errors::input(format!("`{what}` is {value}: it must be positive, at least {SMALLEST:e}")));
-    }
-    Ok(value)
+    values::not_negative(value).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
 }

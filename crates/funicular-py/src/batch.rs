@@ -1,16 +1,19 @@
 //! Many states of one robot, side by side.
 
-use crate::arrays::{Matrix, Numbers, Vector, magnitude};
+use crate::arrays::{Matrix, Numbers, Vector};
 use crate::equilibrium::least_stiffness;
 use crate::errors;
 use crate::pose;
-use crate::request::{Options, check_pose};
 use crate::threads::Threads;
 use crate::waiting::{hand_over, look};
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
-use funicular::statics::{self, Rest, Stability};
+use funicular::statics::{self, Rest, Stability, StaticModel, TensionRule};
+use funicular_study::at_rest;
+use funicular_study::request::{State as StateOfAll, Tensions};
+use funicular_study::values;
+use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -47,8 +50,8 @@ pub(crate) struct States {
 }
 
 impl States {
-    pub(crate) fn read(poses: Option<Numbers>, lengths: Option<Numbers>) -> PyResult<Self> {
-        match (poses, lengths) {
+    pub(crate) fn read(poses: Option<Numbers>, lengths_m: Option<Numbers>) -> PyResult<Self> {
+        match (poses, lengths_m) {
             (Some(poses), None) => {
                 let (flat, columns) = poses.rows("poses")?;
                 if ![3, 6, 7].contains(&columns) {
@@ -60,10 +63,10 @@ impl States {
                 Ok(Self { poses: true, flat, columns })
             }
             (None, Some(lengths)) => {
-                let (flat, columns) = lengths.rows("lengths")?;
+                let (flat, columns) = lengths.rows("lengths_m")?;
                 Ok(Self { poses: false, flat, columns })
             }
-            _ => Err(errors::input("give `poses` or `lengths`, one of them".to_owned())),
+            _ => Err(errors::input("give `poses` or `lengths_m`, one of them".to_owned())),
         }
     }
 
@@ -75,11 +78,14 @@ impl States {
     fn state(&self, robot: &Robot, row: usize) -> Result<State, String> {
         let row = &self.flat[row * self.columns..(row + 1) * self.columns];
         if self.poses {
-            let pose = pose::of_row(row)?;
-            check_pose(robot, &pose)?;
+            let text = |error: anyhow::Error| worded(&format!("{error:#}"), Words::Python);
+            let pose = pose::of_row(row)?.to_robot().map_err(text)?;
+            at_rest::check_pose(robot, &pose).map_err(text)?;
             return Ok(State::Pose(pose));
         }
-        row.iter().try_for_each(|length| magnitude("an unstrained length", *length).map(drop))?;
+        for length in row {
+            values::finite(*length).map_err(|reason| format!("an unstrained length: {reason}"))?;
+        }
         Ok(State::Lengths(row.to_vec()))
     }
 }
@@ -124,7 +130,8 @@ impl Found {
 struct Work<'a> {
     robot: &'a Robot,
     states: &'a States,
-    options: &'a Options,
+    model: StaticModel,
+    rule: Option<TensionRule>,
     next: AtomicUsize,
     stop: AtomicBool,
 }
@@ -132,7 +139,7 @@ struct Work<'a> {
 impl Work<'_> {
     fn row(&self, robot: &mut Robot, row: usize) -> Row {
         robot.state = self.states.state(robot, row).map_err(|reason| ("input", reason))?;
-        match statics::rest(robot, self.options.model, self.options.rule.clone()) {
+        match statics::rest(robot, self.model, self.rule.clone()) {
             Ok(rest) => Ok(Found::of(robot, &rest)),
             Err(error) => Err((error.code(), error.to_string())),
         }
@@ -159,16 +166,22 @@ pub(crate) fn equilibria(
     py: Python<'_>,
     robot: &Robot,
     states: States,
-    options: &Options,
+    state: &StateOfAll,
+    tensions: &Tensions,
     threads: Option<Threads>,
 ) -> PyResult<Equilibria> {
-    let robot = options.robot(robot)?;
+    let prepared = || {
+        let robot = at_rest::with_limits(&at_rest::with_state(robot.clone(), state)?, tensions)?;
+        anyhow::Ok((robot, at_rest::rule(tensions)?))
+    };
+    let (robot, rule) = prepared().map_err(|error| errors::study(&error))?;
+    let model = state.static_model;
     let mut columns = Columns::new(robot.cables.len(), states.count());
     let next = AtomicUsize::new(0);
-    let work = Work { robot: &robot, states: &states, options, next, stop: AtomicBool::new(false) };
+    let work = Work { robot: &robot, states: &states, model, rule, next, stop: AtomicBool::new(false) };
     let threads = Threads::of(threads).get().min(states.count().div_ceil(AT_ONCE)).max(1);
     py.detach(|| side_by_side(&work, threads, |rows, found| columns.put(rows, found)))?;
-    columns.into_python(py, options).map(Equilibria)
+    columns.into_python(py, model).map(Equilibria)
 }
 
 /// Threads of this call alone: a pool that outlives it would not survive a fork, and Python's process pools fork.
@@ -242,7 +255,7 @@ impl Columns {
         }
     }
 
-    fn into_python(self, py: Python<'_>, options: &Options) -> PyResult<Py<PyAny>> {
+    fn into_python(self, py: Python<'_>, model: StaticModel) -> PyResult<Py<PyAny>> {
         let fields = PyDict::new(py);
         let numpy = py.import("numpy")?;
         fields.set_item("status", numpy.call_method1("array", (self.status, "U18"))?)?;
@@ -260,7 +273,7 @@ impl Columns {
         fields.set_item("stable", Vector::<bool>::from_iter(self.stable))?;
         fields.set_item("least_stiffness_n_per_m", Vector::<f64>::from_iter(self.least_stiffness))?;
         fields.set_item("nearest_pose_distance_m", Vector::<f64>::from_iter(self.distance))?;
-        fields.set_item("model", options.model.name())?;
+        fields.set_item("model", model.name())?;
         Ok(py.import("funicular._results")?.getattr("Equilibria")?.call((), Some(&fields))?.unbind())
     }
 }

@@ -2,25 +2,21 @@
 
 use crate::arrays;
 use crate::errors;
-use funicular_files::edit;
+use funicular_study::request::Change;
+use funicular_study::set_values;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
+use serde_json::Value as Json;
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-/// The text with values put at their paths.
-pub(crate) fn with_values(text: &str, changes: &Bound<'_, PyDict>) -> PyResult<String> {
-    let mut assignments = Vec::with_capacity(changes.len());
-    for (path, value) in changes {
+/// Changes of a robot file: values by their paths.
+pub(crate) fn changes(of: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
+    let change = |(path, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let path: String = path.extract()?;
-        let value = value_of(&path, &value, 0)?;
-        let written = format!("{path}={}", value.to_string().trim());
-        let assignment = edit::assignment(&written).map_err(|reason| errors::change(format!("{path}: {reason}")))?;
-        assignments.push(assignment.said_after("with_"));
-    }
-    edit::apply(text, &assignments).map_err(|reason| {
-        let reason = format!("{reason:#}");
-        errors::change(reason.strip_prefix("with_ ").unwrap_or(&reason).to_owned())
-    })
+        let value = json_of(&path, &value, 0)?;
+        Ok(Change { path, value })
+    };
+    of.iter().map(change).collect()
 }
 
 /// The text of a dictionary with the keys of a robot file.
@@ -78,31 +74,42 @@ fn tables_of<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyDict>>> 
     rows.filter(|rows| !rows.is_empty())
 }
 
-/// A value of TOML; arrays of NumPy and their numbers, too.
+/// A value of TOML.
 fn value_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    let value = json_of(path, value, depth)?;
+    set_values::from_json(&value).map_err(|reason| errors::change(format!("`{path}`: {reason}")))
+}
+
+/// A value of a robot file; arrays of NumPy and their numbers, too.
+fn json_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Json> {
     check_depth(path, depth)?;
     if let Ok(value) = value.cast::<PyBool>() {
-        return Ok(Value::from(value.is_true()));
+        return Ok(value.is_true().into());
     }
     if let Ok(value) = value.cast::<PyString>() {
-        return Ok(Value::from(value.to_str()?));
+        return Ok(value.to_str()?.into());
     }
     if let Ok(value) = value.cast::<PyInt>() {
         return match value.extract::<i64>() {
-            Ok(value) => Ok(Value::from(value)),
+            Ok(value) => Ok(value.into()),
             Err(_) => Err(errors::change(format!("`{path}` is {value}: no value of a robot is so large"))),
         };
     }
     if let Ok(value) = value.cast::<PyFloat>() {
-        return Ok(Value::from(value.value()));
+        let number = serde_json::Number::from_f64(value.value());
+        let refused = || errors::change(format!("`{path}` is {}: it must be finite", value.value()));
+        return number.map(Json::Number).ok_or_else(refused);
     }
     if value.cast::<PyList>().is_ok() || value.cast::<PyTuple>().is_ok() {
-        let items: PyResult<Array> = value.try_iter()?.map(|item| value_of(path, &item?, depth + 1)).collect();
-        return Ok(Value::Array(items?));
+        return value
+            .try_iter()?
+            .map(|item| json_of(path, &item?, depth + 1))
+            .collect::<PyResult<Vec<_>>>()
+            .map(Json::Array);
     }
     // Numbers and arrays of other libraries, such as NumPy.
     if let Some(plain) = arrays::as_python(path, value, errors::change)? {
-        return value_of(path, &plain, depth + 1);
+        return json_of(path, &plain, depth + 1);
     }
     let kind = value.get_type().name()?.to_string();
     Err(errors::change(format!("`{path}` is of type {kind}: a robot file holds numbers, text, and lists of them")))

@@ -1,13 +1,15 @@
-//! The core's errors as the exceptions of `funicular`, with the same texts.
+//! Errors of the crates below as the exceptions of `funicular`, with their texts in the words of Python.
 
 use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::DynamicsError;
-use funicular::modes::TooMany;
-use funicular::ports::{PlaceError, PortError};
+use funicular::ports::PlaceError;
 use funicular::response::ResponseError;
-use funicular::robot::spec::SpecError;
 use funicular::statics::StaticsError;
 use funicular_files::FilesError;
+use funicular_study::robot_file::Refused;
+use funicular_study::set_values::EditError;
+use funicular_study::wording::{Words, worded};
+use funicular_study::{Error, NoSolution};
 use pyo3::PyErr;
 
 /// The exceptions, which are written in Python so that they have types, pickle and can be caught by any base.
@@ -15,46 +17,70 @@ mod python {
     pyo3::import_exception!(funicular._errors, DynamicsError);
     pyo3::import_exception!(funicular._errors, FileError);
     pyo3::import_exception!(funicular._errors, InputError);
+    pyo3::import_exception!(funicular._errors, NoSolutionError);
     pyo3::import_exception!(funicular._errors, ResponseError);
     pyo3::import_exception!(funicular._errors, RobotFileError);
     pyo3::import_exception!(funicular._errors, StaticsError);
 }
+
+/// Line, column, message and help of one thing that is wrong with a robot file.
+type Issue = (usize, usize, String, Option<String>);
 
 /// An argument that has to change.
 pub(crate) fn input(text: String) -> PyErr {
     python::InputError::new_err(text)
 }
 
+/// A change of a robot file that cannot be made.
+pub(crate) fn change(text: String) -> PyErr {
+    python::RobotFileError::new_err((text, Vec::<Issue>::new()))
+}
+
+/// Any error of the study; its kind and its cause decide the exception.
+pub(crate) fn study(error: &anyhow::Error) -> PyErr {
+    let cause = error.downcast_ref::<Error>().map_or(error, Error::cause);
+    let text = || worded(&format!("{cause:#}"), Words::Python);
+    if let Some(error) = cause.downcast_ref::<StaticsError>() {
+        return python::StaticsError::new_err((text(), error.code()));
+    }
+    if let Some(refused) = cause.downcast_ref::<Refused>() {
+        return robot_file(refused);
+    }
+    if cause.is::<EditError>() {
+        return change(text());
+    }
+    if cause.is::<DynamicsError>() || cause.is::<CableMotionError>() {
+        return python::DynamicsError::new_err(text());
+    }
+    if let Some(PlaceError::Motion(_)) = cause.downcast_ref() {
+        return python::DynamicsError::new_err(text());
+    }
+    if cause.is::<ResponseError>() {
+        return python::ResponseError::new_err(text());
+    }
+    if cause.is::<NoSolution>() {
+        return python::NoSolutionError::new_err(text());
+    }
+    input(text())
+}
+
 /// A robot file that cannot be used: its lines, and carets under what is wrong.
-pub(crate) fn robot_file(error: &SpecError, name: &str, text: &str) -> PyErr {
-    let issues: Vec<(usize, usize, String, Option<String>)> = error
-        .issues()
-        .iter()
+fn robot_file(refused: &Refused) -> PyErr {
+    let Refused { name, text, error } = refused;
+    let issues: Vec<Issue> = (error.issues().iter())
         .map(|issue| (issue.line, issue.column, issue.message.clone(), issue.help.clone()))
         .collect();
     python::RobotFileError::new_err((error.render(name, text, false), issues))
 }
 
-/// A change of a robot file that cannot be made.
-pub(crate) fn change(text: String) -> PyErr {
-    python::RobotFileError::new_err((text, Vec::<(usize, usize, String, Option<String>)>::new()))
-}
-
-/// What the program's texts advise, and how Python says it.
-const ADVICE: [(&str, &str); 3] = [
-    ("--resume", "`resume=True`"),
-    ("--discard", "`force=True`"),
-    ("`--format csv` without a file writes to standard output", "leave out `file` for rows in memory"),
-];
-
-/// A file of a sweep that cannot be read or written; what to do in the words of Python.
+/// A file of a sweep that cannot be read or written.
 pub(crate) fn files(error: &FilesError) -> PyErr {
-    let text = ADVICE.iter().fold(error.to_string(), |text, (program, python)| text.replace(program, python));
-    python::FileError::new_err(text)
+    python::FileError::new_err(worded(&error.to_string(), Words::Python))
 }
 
-pub(crate) fn statics(error: &StaticsError) -> PyErr {
-    python::StaticsError::new_err((error.to_string(), error.code()))
+/// A file that cannot be written.
+pub(crate) fn unwritable(text: String) -> PyErr {
+    python::FileError::new_err(text)
 }
 
 pub(crate) fn dynamics(error: &DynamicsError) -> PyErr {
@@ -63,23 +89,4 @@ pub(crate) fn dynamics(error: &DynamicsError) -> PyErr {
 
 pub(crate) fn response(error: &ResponseError) -> PyErr {
     python::ResponseError::new_err(error.to_string())
-}
-
-pub(crate) fn port(error: &PortError) -> PyErr {
-    input(error.to_string())
-}
-
-pub(crate) fn place(error: &PlaceError) -> PyErr {
-    match error {
-        PlaceError::Port(error) => port(error),
-        PlaceError::Motion(error) => motion(error),
-    }
-}
-
-fn motion(error: &CableMotionError) -> PyErr {
-    python::DynamicsError::new_err(error.to_string())
-}
-
-pub(crate) fn too_many(error: &TooMany) -> PyErr {
-    input(error.to_string())
 }

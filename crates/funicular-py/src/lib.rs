@@ -5,13 +5,13 @@
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
+mod answers;
 mod arrays;
 mod batch;
 mod catenary;
 mod edit;
 mod equilibrium;
 mod errors;
-mod names;
 mod pose;
 mod request;
 mod robot;
@@ -19,12 +19,17 @@ mod sweep;
 mod threads;
 mod vibration;
 mod waiting;
+mod written;
 
 use pyo3::prelude::*;
 
 /// The compiled half of `funicular`; import `funicular` instead.
 #[pymodule]
 mod _funicular {
+    #[pymodule_export]
+    use crate::answers::{
+        answer, complete_request, imported, merge_parts, plot_page, source_file, text_of, write_file,
+    };
     #[pymodule_export]
     use crate::arrays::{complex_numbers, real_numbers};
     #[pymodule_export]

@@ -1,15 +1,13 @@
 //! Position and orientation of the platform.
 
-use crate::arrays::{ARRAY_LIKE, Matrix, Numbers, Reduced, Vector, finite};
+use crate::arrays::{ARRAY_LIKE, Matrix, Numbers, Reduced, Vector};
 use crate::errors;
 use funicular::math::{Rotation, rotation};
 use funicular::robot::Pose;
+use funicular_study::request;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
 use pyo3::type_object::PyTypeCheck;
-
-/// Largest difference of a quaternion's length from 1 that is rounding of printed digits.
-const UNIT: f64 = 1e-3;
 
 /// Position and orientation of the platform; immutable.
 ///
@@ -48,7 +46,8 @@ impl PyPose {
             }
             (None, None) => {}
         }
-        of_row(&row).map(Self).map_err(errors::input)
+        let pose = of_row(&row).map_err(errors::input)?.to_robot().map_err(|error| errors::study(&error))?;
+        Ok(Self(Pose { rot_wp: signed(pose.rot_wp), ..pose }))
     }
 
     /// Origin of the platform frame in the world, x, y, z [m].
@@ -136,32 +135,13 @@ fn signed(rotation: Rotation) -> Rotation {
 }
 
 /// A pose of x, y, z, of these and roll, pitch, yaw [degrees], or of these and a quaternion w, x, y, z.
-pub(crate) fn of_row(row: &[f64]) -> Result<Pose, String> {
-    if let Some(bad) = row.iter().find(|value| finite("pose", **value).is_err()) {
-        return Err(format!("a pose has the number {bad}: it must be finite, at most 1e12 in magnitude"));
-    }
+pub(crate) fn of_row(row: &[f64]) -> Result<request::Pose, String> {
     match *row {
-        [x, y, z] => Ok(Pose::new([x, y, z], [0.0; 3])),
-        [x, y, z, roll, pitch, yaw] => Ok(Pose::new([x, y, z], [roll, pitch, yaw])),
-        [x, y, z, w, i, j, k] => {
-            let quaternion = funicular::math::Quaternion::new(w, i, j, k);
-            let off = quaternion.norm() - 1.0;
-            if off.abs() > UNIT {
-                return Err(format!(
-                    "the quaternion ({w}, {i}, {j}, {k}) has the length {}: it must be 1",
-                    quaternion.norm()
-                ));
-            }
-            // One that is unit but for rounding keeps its bits.
-            let rotation = if off.abs() < 1e-15 {
-                Rotation::new_unchecked(quaternion)
-            } else {
-                Rotation::from_quaternion(quaternion)
-            };
-            Ok(Pose { position_w: [x, y, z].into(), rot_wp: signed(rotation) })
-        }
+        [x, y, z] => Ok(request::Pose::Angles([x, y, z, 0.0, 0.0, 0.0])),
+        [x, y, z, roll, pitch, yaw] => Ok(request::Pose::Angles([x, y, z, roll, pitch, yaw])),
+        [x, y, z, w, i, j, k] => Ok(request::Pose::Quaternion([x, y, z], [w, i, j, k])),
         _ => Err(format!(
-            "a pose has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion w, x, \
+            "`pose` has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion w, x, \
              y, z",
             row.len()
         )),
@@ -169,7 +149,7 @@ pub(crate) fn of_row(row: &[f64]) -> Result<Pose, String> {
 }
 
 /// A pose, or a row of its numbers.
-pub(crate) struct PoseLike(pub(crate) Pose);
+pub(crate) struct PoseLike(pub(crate) request::Pose);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for PoseLike {
     type Error = PyErr;
@@ -182,7 +162,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for PoseLike {
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(pose) = object.cast::<PyPose>() {
-            return Ok(Self(pose.get().0));
+            return Ok(Self((&pose.get().0).into()));
         }
         let row = object.extract::<Numbers>()?.row("pose")?;
         of_row(&row).map(Self).map_err(errors::input)

@@ -1,179 +1,93 @@
-//! Which equilibrium is asked for: a state, models, limits and loads, checked as the program checks its options.
+//! Keywords of Python as the parts of a request. What they mean together is decided in `funicular_study`.
 
-use crate::arrays::{Number, Numbers, Vector, finite, not_negative};
+use crate::arrays::{Number, Numbers};
 use crate::errors;
-use crate::names;
-use crate::pose::PyPose;
-use funicular::math::Vec3;
-use funicular::robot::{Freedoms, Load, LoadError, Pose, Robot, State, TensionLimits};
-use funicular::statics::{StaticModel, TensionRule};
+use crate::pose::PoseLike;
+use funicular_study::names::Named;
+use funicular_study::request::{Load, Model, Points, State, Tensions, Terms};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-/// All but the state.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Options {
-    pub(crate) model: StaticModel,
-    pub(crate) rule: Option<TensionRule>,
-    pub(crate) limits: TensionLimits,
-    pub(crate) force_n: Option<[f64; 3]>,
-    pub(crate) moment_n_m: Option<[f64; 3]>,
-    pub(crate) load_point_m: Option<[f64; 3]>,
+/// A choice of its name.
+pub(crate) fn named<T: Named>(keyword: &str, name: &str) -> PyResult<T> {
+    T::from_name(name).map_err(|reason| errors::input(format!("`{keyword}`: {reason}")))
 }
 
-/// The same as Python gives it.
-pub(crate) struct Given<'a> {
-    pub(crate) model: &'a str,
+fn number(value: Option<Number>, keyword: &str) -> PyResult<Option<f64>> {
+    value.map(|value| value.value(keyword)).transpose()
+}
+
+fn three(value: Option<Numbers>, keyword: &str) -> PyResult<Option<[f64; 3]>> {
+    value.map(|numbers| numbers.three(keyword)).transpose()
+}
+
+/// State and loads as Python gives them.
+pub(crate) struct StateKeywords<'a> {
+    pub(crate) pose: Option<PoseLike>,
+    pub(crate) lengths_m: Option<Numbers>,
+    pub(crate) mass_kg: Option<Number>,
+    pub(crate) static_model: &'a str,
+    pub(crate) force_n: Option<Numbers>,
+    pub(crate) moment_n_m: Option<Numbers>,
+    pub(crate) load_point_m: Option<Numbers>,
+    pub(crate) wind_m_s: Option<Numbers>,
+    pub(crate) cable_load_n_per_m: Option<Numbers>,
+}
+
+impl StateKeywords<'_> {
+    pub(crate) fn request(self) -> PyResult<State> {
+        Ok(State {
+            lengths_m: self.lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
+            pose: self.pose.map(|pose| pose.0),
+            mass_kg: number(self.mass_kg, "mass_kg")?,
+            static_model: named("static_model", self.static_model)?,
+            load: Load {
+                force_n: three(self.force_n, "force_n")?,
+                moment_n_m: three(self.moment_n_m, "moment_n_m")?,
+                load_point_m: three(self.load_point_m, "load_point_m")?,
+                wind_m_s: three(self.wind_m_s, "wind_m_s")?,
+                cable_load_n_per_m: three(self.cable_load_n_per_m, "cable_load_n_per_m")?,
+            },
+        })
+    }
+}
+
+/// Rule and limits of the tensions as Python gives them.
+pub(crate) struct TensionKeywords<'a> {
     pub(crate) tension_rule: Option<&'a str>,
     pub(crate) wanted_tension_n: Option<Numbers>,
     pub(crate) min_tension_n: Option<Number>,
     pub(crate) max_tension_n: Option<Number>,
-    pub(crate) force_n: Option<Numbers>,
-    pub(crate) moment_n_m: Option<Numbers>,
-    pub(crate) load_point_m: Option<Numbers>,
 }
 
-impl Options {
-    pub(crate) fn read(given: Given<'_>) -> PyResult<Self> {
-        let wanted = given.wanted_tension_n.map(one_or_more).transpose()?;
-        let three = |value: Option<Numbers>, what| value.map(|numbers| numbers.three(what)).transpose();
-        Ok(Self {
-            model: names::static_model(given.model)?,
-            rule: names::tension_rule(given.tension_rule, wanted)?,
-            limits: TensionLimits {
-                minimum: given.min_tension_n.map(|value| value.not_negative("min_tension_n")).transpose()?,
-                maximum: given.max_tension_n.map(|value| value.positive("max_tension_n")).transpose()?,
-            },
-            force_n: three(given.force_n, "force_n")?,
-            moment_n_m: three(given.moment_n_m, "moment_n_m")?,
-            load_point_m: three(given.load_point_m, "load_point_m")?,
+impl TensionKeywords<'_> {
+    pub(crate) fn request(self) -> PyResult<Tensions> {
+        let wanted = self.wanted_tension_n.map(|wanted| wanted.one_or_row("wanted_tension_n")).transpose()?;
+        Ok(Tensions {
+            tension_rule: self.tension_rule.map(|name| named("tension_rule", name)).transpose()?,
+            wanted_tension_n: wanted.map(|(wanted, _)| wanted),
+            min_tension_n: number(self.min_tension_n, "min_tension_n")?,
+            max_tension_n: number(self.max_tension_n, "max_tension_n")?,
         })
     }
-
-    /// The robot with limits and loads.
-    pub(crate) fn robot(&self, robot: &Robot) -> PyResult<Robot> {
-        self.adjusted(robot).map_err(errors::input)
-    }
-
-    /// The same without Python's lock.
-    pub(crate) fn adjusted(&self, robot: &Robot) -> Result<Robot, String> {
-        let mut robot = robot.with_tension_limits(self.limits);
-        for cable in &robot.cables {
-            if let TensionLimits { minimum: Some(minimum), maximum: Some(maximum) } = cable.limits()
-                && minimum >= maximum
-            {
-                return Err(format!(
-                    "the least tension of cable \"{}\" is {minimum} N and its greatest {maximum} N: give min_tension_n \
-                     below max_tension_n (what is not given is as the robot file says)",
-                    cable.name
-                ));
-            }
-        }
-        let or = |given: Option<[f64; 3]>, of_file: Vec3| given.map_or(of_file, Vec3::from);
-        robot.load = Load {
-            force_w: or(self.force_n, robot.load.force_w),
-            moment_w: or(self.moment_n_m, robot.load.moment_w),
-            point_p: or(self.load_point_m, robot.load.point_p),
-        };
-        if self.load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
-            return Err("`load_point_m` is where a force acts, and there is none: give `force_n`".to_owned());
-        }
-        robot.load.check(&robot.platform.freedoms).map_err(|error: LoadError| error.to_string())?;
-        Ok(robot)
-    }
-
-    /// What [`Options::read`] reads this from, without what is not given.
-    pub(crate) fn to_python(&self, into: &Bound<'_, PyDict>) -> PyResult<()> {
-        into.set_item("model", self.model.name())?;
-        match &self.rule {
-            Some(TensionRule::Closest(wanted)) => {
-                into.set_item("wanted_tension_n", wanted.iter().copied().collect::<Vector>())?;
-            }
-            Some(rule) => into.set_item("tension_rule", rule.name())?,
-            None => {}
-        }
-        for (key, value) in [("min_tension_n", self.limits.minimum), ("max_tension_n", self.limits.maximum)] {
-            if let Some(value) = value {
-                into.set_item(key, value)?;
-            }
-        }
-        for (key, value) in
-            [("force_n", self.force_n), ("moment_n_m", self.moment_n_m), ("load_point_m", self.load_point_m)]
-        {
-            if let Some(value) = value {
-                into.set_item(key, value)?;
-            }
-        }
-        Ok(())
-    }
 }
 
-/// Wanted tensions, one for all or one a cable.
-fn one_or_more(numbers: Numbers) -> PyResult<Vec<f64>> {
-    let (values, _) = numbers.one_or_row("wanted_tension_n")?;
-    for &value in &values {
-        not_negative("wanted_tension_n", value)?;
-    }
-    Ok(values)
+/// How the robot is linearised.
+pub(crate) fn model(cable_model: Option<&str>, assembly: &str, in_plane_only: bool) -> PyResult<Model> {
+    Ok(Model {
+        cable_model: cable_model.map(|name| named("cable_model", name)).transpose()?,
+        terms: terms(assembly, in_plane_only)?,
+    })
 }
 
-/// The state asked.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Asked {
-    /// As the robot file says.
-    OfFile,
-    Pose(Pose),
-    Lengths(Vec<f64>),
+/// Terms of the stiffness.
+pub(crate) fn terms(assembly: &str, in_plane_only: bool) -> PyResult<Terms> {
+    Ok(Terms { assembly: named("assembly", assembly)?, in_plane_only })
 }
 
-impl Asked {
-    pub(crate) fn read(pose: Option<Pose>, lengths: Option<Numbers>) -> PyResult<Self> {
-        match (pose, lengths) {
-            (Some(_), Some(_)) => Err(errors::input("give `pose` or `lengths`, not both".to_owned())),
-            (Some(pose), None) => Ok(Self::Pose(pose)),
-            (None, Some(lengths)) => {
-                let lengths = lengths.row("lengths")?;
-                for &length in &lengths {
-                    finite("lengths", length)?;
-                }
-                Ok(Self::Lengths(lengths))
-            }
-            (None, None) => Ok(Self::OfFile),
-        }
-    }
-
-    /// The robot in this state.
-    pub(crate) fn robot(&self, robot: Robot) -> PyResult<Robot> {
-        self.put(robot).map_err(errors::input)
-    }
-
-    /// The same without Python's lock.
-    pub(crate) fn put(&self, mut robot: Robot) -> Result<Robot, String> {
-        match self {
-            Self::OfFile => {}
-            Self::Pose(pose) => {
-                check_pose(&robot, pose)?;
-                robot.state = State::Pose(*pose);
-            }
-            Self::Lengths(lengths) => robot.state = State::Lengths(lengths.clone()),
-        }
-        Ok(robot)
-    }
-
-    pub(crate) fn to_python(&self, into: &Bound<'_, PyDict>) -> PyResult<()> {
-        match self {
-            Self::OfFile => Ok(()),
-            Self::Pose(pose) => into.set_item("pose", PyPose(*pose)),
-            Self::Lengths(lengths) => into.set_item("lengths", lengths.iter().copied().collect::<Vector>()),
-        }
-    }
-}
-
-/// Whether a platform can have a pose at all.
-pub(crate) fn check_pose(robot: &Robot, pose: &Pose) -> Result<(), String> {
-    let freedoms = &robot.platform.freedoms;
-    if *freedoms == Freedoms::PointMass && pose.rot_wp.angle() != 0.0 {
-        return Err("a point mass has no orientation: give x, y, z".to_owned());
-    }
-    freedoms.check(pose).map_err(|error| error.to_string())
+/// Points of the platform where a response begins and ends.
+pub(crate) fn points(input_point_m: Option<Numbers>, output_point_m: Option<Numbers>) -> PyResult<Points> {
+    Ok(Points {
+        input_point_m: three(input_point_m, "input_point_m")?,
+        output_point_m: three(output_point_m, "output_point_m")?,
+    })
 }

@@ -7,8 +7,8 @@ mod plan;
 mod table;
 mod work;
 
-pub(crate) use arguments::{Axes, Makes, Settings, Told, poses};
-pub(crate) use plan::{PointsAsked, PyPlan};
+pub(crate) use arguments::{Axes, Makes, Told, poses};
+pub(crate) use plan::PyPlan;
 pub(crate) use table::PyTable;
 pub(crate) use work::PyWork;
 
@@ -40,7 +40,7 @@ impl<'py> IntoPyObject<'py> for SweepObject {
 pub(crate) struct Run {
     pub(crate) file: Option<PathBuf>,
     pub(crate) resume: bool,
-    pub(crate) force: bool,
+    pub(crate) discard: bool,
     pub(crate) threads: Option<Threads>,
     pub(crate) executor: Option<Makes>,
     pub(crate) chunks_per_task: Option<Count>,
@@ -55,7 +55,7 @@ impl Run {
         let keywords = PyDict::new(py);
         keywords.set_item("file", self.file)?;
         keywords.set_item("resume", self.resume)?;
-        keywords.set_item("force", self.force)?;
+        keywords.set_item("discard", self.discard)?;
         keywords.set_item("threads", self.threads.map(|threads| threads.0))?;
         keywords.set_item("executor", self.executor.map(|executor| executor.0))?;
         keywords.set_item("chunks_per_task", chunks_per_task)?;

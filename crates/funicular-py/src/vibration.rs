@@ -1,34 +1,25 @@
 //! Stiffness, modes and responses of a robot at rest.
 
-use crate::arrays::{ComplexNumbers, Matrix, Number, Numbers, Tensor, Vector};
+use crate::answers::{self, CtrlC};
+use crate::arrays::{ComplexNumbers, Count, Keyed, Matrix, Number, Numbers, Tensor, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
-use crate::names;
+use crate::request::{model, named, points, terms};
 use crate::waiting::interruptible;
-use funicular::cable::CableModel;
-use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
-use funicular::math::{CMat6, Vec3};
-use funicular::modes::damped::{DampedMode, DampedModes};
-use funicular::modes::{self, Modes};
-use funicular::ports::{Input, Output, Places};
+use funicular::math::CMat6;
 use funicular::response;
-use funicular::statics::{self, StaticModel};
-use funicular::validity;
+use funicular_study::analyses::{self, cable, frf};
+use funicular_study::at_rest;
+use funicular_study::request;
 use numpy::Complex64;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use std::convert::Infallible;
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Frequencies between two looks for Ctrl-C: some 10 ms. A multiple of every number of lanes, so that the numbers do not
 /// depend on it.
 const CHUNK: usize = 16_384;
-
-fn linearised(of: &PyEquilibrium, linearisation: Linearisation, up_to_hz: f64) -> Result<Dynamics, DynamicsError> {
-    Dynamics::about(&of.robot, &of.rest.equilibrium, linearisation, up_to_hz)
-}
 
 fn highest(frequencies: &[f64]) -> f64 {
     frequencies.iter().copied().fold(0.0, f64::max)
@@ -72,56 +63,20 @@ fn flat(matrices: &[CMat6]) -> Vec<Complex64> {
 pub(crate) fn stiffness(
     py: Python<'_>,
     of: &PyEquilibrium,
-    hz: Option<Numbers>,
+    at_hz: Option<Numbers>,
     cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
 ) -> PyResult<Stiffness> {
-    let (frequencies, one) = hz.map_or(Ok((vec![0.0], true)), Numbers::frequencies)?;
-    let linearisation = names::linearisation(cable_model, assembly, in_plane_only, of.rest.equilibrium.model)?;
-    let matrices = py.detach(|| -> Result<Vec<CMat6>, DynamicsError> {
-        let at_rest = |wanted: &[f64]| wanted.contains(&0.0);
-        // The tangent of the static model, which the exact model has at rest, whatever the static model is.
-        let still = if cable_model.is_none() {
-            Linearisation { cable_model: CableModel::CatenaryTangent, ..linearisation }
-        } else {
-            linearisation
-        };
-        let tangent = if at_rest(&frequencies) { Some(tangent(of, still, cable_model.is_none())?) } else { None };
-        let moving = if frequencies.iter().any(|hz| *hz > 0.0) {
-            Some(linearised(of, linearisation, highest(&frequencies))?)
-        } else {
-            None
-        };
-        let at = |hz: &f64| match (&tangent, &moving) {
-            (Some(tangent), _) if *hz == 0.0 => *tangent,
-            (_, Some(dynamics)) => dynamics.stiffness(hz * TAU),
-            (tangent, None) => tangent.unwrap_or_default(),
-        };
-        Ok(frequencies.iter().map(at).collect())
-    });
+    let (frequencies, one) = at_hz.map_or(Ok((vec![0.0], true)), |hz| hz.frequencies_of("at_hz"))?;
+    let model = model(cable_model, assembly, in_plane_only)?;
+    let matrices = py.detach(|| analyses::stiffness::matrices(&of.at_rest, model, &frequencies));
     let all = flat(&matrices.map_err(|error| errors::dynamics(&error))?);
     Ok(match (one, frequencies[..] == [0.0]) {
         (true, true) => Stiffness::Static(Matrix::of_rows(all.iter().map(|z| z.re).collect(), 6)),
         (true, false) => Stiffness::One(Matrix::of_rows(all, 6)),
         (false, _) => Stiffness::Many(Tensor::of_rows(all, 6, 6)),
     })
-}
-
-/// The stiffness at 0 Hz, as the program gives it; without a named cable model the drag of the wind turns with the cables.
-fn tangent(of: &PyEquilibrium, linearisation: Linearisation, drag_turns: bool) -> Result<CMat6, DynamicsError> {
-    let equilibrium = &of.rest.equilibrium;
-    if linearisation.cable_model == CableModel::CatenaryTangent && equilibrium.model == StaticModel::Ideal {
-        return Err(DynamicsError::Rigid);
-    }
-    let whole_tangent = Linearisation { cable_model: CableModel::CatenaryTangent, ..Linearisation::default() };
-    let of_statics = if drag_turns { statics::tangent_with_drag } else { statics::tangent_stiffness };
-    if linearisation == whole_tangent
-        && let Some(tangent) = of_statics(&of.robot, equilibrium)
-    {
-        return Ok(tangent.map(|k| Complex64::new(k, 0.0)));
-    }
-    Ok(linearised(of, linearisation, 0.0)?.stiffness(0.0))
 }
 
 /// `funicular.Modes`.
@@ -140,83 +95,77 @@ impl<'py> IntoPyObject<'py> for ModesObject {
     }
 }
 
-/// A list and its damped partners.
-struct Found {
-    modes: Modes,
-    damped: Option<DampedModes>,
-    warnings: Vec<String>,
+/// Keywords of `modes`.
+pub(crate) struct ModesKeywords<'a> {
+    pub(crate) below_hz: Number,
+    pub(crate) input: Option<String>,
+    pub(crate) output: Option<String>,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) stations: Option<Count>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+    pub(crate) damped: bool,
 }
 
-pub(crate) fn modes(
-    py: Python<'_>,
+pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
+    let stations = |count: Count| {
+        let most = request::MAX_STATIONS;
+        count.within("stations", 2..=most, &format!("give a whole number from 2 to {most}"))
+    };
+    let request = request::ModesRequest {
+        robot: of.of.get().source.clone(),
+        below_hz: keywords.below_hz.value("below_hz")?,
+        input: keywords.input,
+        output: keywords.output,
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        stations: keywords.stations.map(stations).transpose()?,
+        damped: keywords.damped,
+        state: of.state.clone(),
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::modes::about(&at_rest, &request))?;
+    let found = answers::plain(py, &found.map_err(|error| errors::study(&error))?)?;
+    let made = py.import("funicular._results")?.call_method1("modes", (found.0,))?;
+    Ok(ModesObject(made.unbind()))
+}
+
+pub(crate) fn compare<'py>(
+    py: Python<'py>,
     of: &PyEquilibrium,
     below_hz: Number,
-    cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
-    damped: bool,
-) -> PyResult<ModesObject> {
-    let below_hz = below_hz.positive("below_hz")?;
-    let linearisation = names::linearisation(cable_model, assembly, in_plane_only, of.rest.equilibrium.model)?;
-    let mut warnings = of.static_warnings();
-    let about = validity::of_dynamics(&of.robot, &of.rest.equilibrium, linearisation.cable_model, below_hz);
-    warnings.extend(about.iter().map(ToString::to_string));
-    let (robot, rest) = (Arc::clone(&of.robot), Arc::clone(&of.rest));
-    let found = interruptible(py, move || {
-        let dynamics = Dynamics::about(&robot, &rest.equilibrium, linearisation, below_hz);
-        let dynamics = dynamics.map_err(|error| errors::dynamics(&error))?;
-        modes::check_count(&dynamics, below_hz, modes::MOST).map_err(|error| errors::too_many(&error))?;
-        let modes = modes::below(&dynamics, below_hz);
-        warnings.extend(modes.doubt());
-        let (damped, doubt) = if damped { modes::damped_partners(&dynamics, &modes) } else { (None, None) };
-        warnings.extend(doubt);
-        Ok::<_, PyErr>(Found { modes, damped, warnings })
-    })??;
-    to_python(py, of, linearisation, &found).map(ModesObject)
+) -> PyResult<Keyed<'py>> {
+    let request = request::CompareRequest {
+        robot: of.of.get().source.clone(),
+        below_hz: below_hz.value("below_hz")?,
+        state: of.state.clone(),
+        terms: terms(assembly, in_plane_only)?,
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;
+    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
-fn to_python(py: Python<'_>, of: &PyEquilibrium, linearisation: Linearisation, found: &Found) -> PyResult<Py<PyAny>> {
-    let Found { modes: Modes { modes, below_hz, count_below, unstable_directions, certified }, damped, warnings } =
-        found;
-    let fields = PyDict::new(py);
-    let column = |of: fn(&modes::Mode) -> f64| modes.iter().map(of).collect::<Vector>();
-    fields.set_item("frequency_hz", column(|mode| mode.frequency_hz))?;
-    let multiplicity: Vector<i64> =
-        modes.iter().map(|mode| i64::try_from(mode.multiplicity).unwrap_or(i64::MAX)).collect();
-    fields.set_item("multiplicity", multiplicity)?;
-    if let Some(damped) = damped {
-        let ratios: Vector = damped.modes.iter().map(DampedMode::damping_ratio).collect();
-        let eigenvalues: Vector<Complex64> = damped.modes.iter().map(DampedMode::eigenvalue).collect();
-        fields.set_item("damping_ratio", ratios)?;
-        fields.set_item("eigenvalue_per_s", eigenvalues)?;
-    } else {
-        fields.set_item("damping_ratio", column(|mode| mode.damping_ratio))?;
-        fields.set_item("eigenvalue_per_s", py.None())?;
+pub(crate) fn cable<'py>(
+    py: Python<'py>,
+    of: &PyEquilibrium,
+    name: &str,
+    hz: Numbers,
+    cable_model: Option<&str>,
+    in_plane_only: bool,
+) -> PyResult<Keyed<'py>> {
+    let (frequency_hz, one) = hz.frequencies()?;
+    if one || frequency_hz.is_empty() {
+        return Err(errors::input("`hz` is no row of frequencies: give a list of at least one".to_owned()));
     }
-    let kinds: Vec<&str> = modes.iter().map(|mode| mode.kind.name()).collect();
-    fields.set_item("kind", py.import("numpy")?.call_method1("array", (kinds, "U8"))?)?;
-    fields.set_item("platform_energy_fraction", column(|mode| mode.platform_energy_fraction))?;
-    let cables = of.robot.cables.len();
-    let energies = modes.iter().flat_map(|mode| mode.cable_energy_fractions.iter().copied()).collect();
-    fields.set_item("cable_energy_fractions", Matrix::of_rows(energies, cables))?;
-    let shapes = modes.iter().flat_map(|mode| mode.shape.map(|x| x + 0.0)).collect();
-    fields.set_item("shape", Matrix::of_rows(shapes, 6))?;
-    fields.set_item("modal_mass_kg", column(|mode| mode.modal_mass))?;
-    fields.set_item("residual", column(|mode| mode.residual))?;
-    fields.set_item("below_hz", below_hz)?;
-    fields.set_item("count_below", count_below)?;
-    fields.set_item("certified", certified)?;
-    fields.set_item("unstable_directions", unstable_directions)?;
-    fields.set_item("damped_certified", damped.as_ref().map(|damped| damped.certified))?;
-    let names = of.robot.cables.iter().map(|cable| cable.name.as_str());
-    fields.set_item("cable_names", pyo3::types::PyTuple::new(py, names.collect::<Vec<_>>())?)?;
-    fields.set_item("robot", &of.robot.name)?;
-    fields.set_item("static_model", of.rest.equilibrium.model.name())?;
-    fields.set_item("cable_model", linearisation.cable_model.name())?;
-    fields.set_item("assembly", linearisation.assembly.name())?;
-    fields.set_item("in_plane_only", linearisation.in_plane_only)?;
-    fields.set_item("warnings", pyo3::types::PyTuple::new(py, warnings)?)?;
-    Ok(py.import("funicular._results")?.getattr("Modes")?.call((), Some(&fields))?.unbind())
+    let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
+    let found =
+        py.detach(|| cable::about(&of.at_rest, cable::Wanted { name, frequency_hz, cable_model, in_plane_only }));
+    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
 /// Input and output of a response, as Python gives them.
@@ -237,25 +186,19 @@ pub(crate) fn frf(
     in_plane_only: bool,
 ) -> PyResult<Vector<Complex64>> {
     let (frequencies, _) = hz.frequencies()?;
-    let equilibrium = &of.rest.equilibrium;
-    let linearisation = names::linearisation(cable_model, assembly, in_plane_only, equilibrium.model)?;
-    let input = Input::parse(pair.input).map_err(|error| errors::input(format!("input {}: {error}", pair.input)))?;
-    let output =
-        Output::parse(pair.output).map_err(|error| errors::input(format!("output {}: {error}", pair.output)))?;
-    let point = |numbers: Option<Numbers>, what| -> PyResult<Option<Vec3>> {
-        numbers.map(|numbers| numbers.three(what).map(Vec3::from)).transpose()
+    let pair = frf::Pair {
+        input: pair.input,
+        output: pair.output,
+        points: points(pair.input_point_m, pair.output_point_m)?,
+        model: model(cable_model, assembly, in_plane_only)?,
     };
-    let from = input.direction(&of.robot, point(pair.input_point_m, "input_point_m")?);
-    let to = output.direction(&of.robot, point(pair.output_point_m, "output_point_m")?);
-    let (from, to) = (from.map_err(|error| errors::port(&error))?, to.map_err(|error| errors::port(&error))?);
-    let dynamics = py.detach(|| linearised(of, linearisation, highest(&frequencies)));
-    let dynamics = dynamics.map_err(|error| errors::dynamics(&error))?;
-    let places = Places::new(&of.robot, equilibrium, &dynamics, input.on_cable.as_ref(), output.on_cable.as_ref())
-        .map_err(|error| errors::place(&error))?;
-    let from = places.port(places.input, from.vector(&equilibrium.pose), input.direction_w);
-    let to = places.port(places.output, to.vector(&equilibrium.pose), output.direction_w);
-    in_chunks(py, &frequencies, |chunk| response::between(&dynamics, chunk, &from, &to, output.quantity))
-        .map(|values| values.into_iter().collect())
+    py.detach(|| {
+        let mut watch = CtrlC::new();
+        match frf::response(&of.at_rest, &pair, &frequencies, &mut watch) {
+            Ok(response) => Ok(response.values.into_iter().collect()),
+            Err(error) => Err(watch.or(&error)),
+        }
+    })
 }
 
 /// Values of all frequencies, with looks for Ctrl-C.
@@ -284,9 +227,10 @@ pub(crate) fn receptance(
     in_plane_only: bool,
 ) -> PyResult<Tensor<Complex64>> {
     let (frequencies, _) = hz.frequencies()?;
-    let linearisation = names::linearisation(cable_model, assembly, in_plane_only, of.rest.equilibrium.model)?;
-    let dynamics = py.detach(|| linearised(of, linearisation, highest(&frequencies)));
-    let dynamics = dynamics.map_err(|error| errors::dynamics(&error))?;
+    let model = model(cable_model, assembly, in_plane_only)?;
+    let linearisation = at_rest::linearisation(&model, of.at_rest.equilibrium.model);
+    let dynamics = py.detach(|| of.at_rest.dynamics(linearisation, highest(&frequencies)));
+    let (dynamics, _) = dynamics.map_err(|error| errors::study(&error))?;
     let matrices = in_chunks(py, &frequencies, |chunk| response::receptances(&dynamics, chunk))?;
     // In place: a matrix of nalgebra is its columns.
     Ok(Tensor::of_six(matrices.into_iter().map(|matrix| matrix.data.0).collect()))

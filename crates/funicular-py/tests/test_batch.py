@@ -48,9 +48,9 @@ def test_so_is_one_of_a_robot_with_a_choice_of_tensions(cogiro: funicular.Robot)
 def test_so_is_one_of_lengths(robot: funicular.Robot) -> None:
     assert robot.lengths is not None
     rows = robot.lengths + np.random.default_rng(1).uniform(-0.05, 0.05, (80, 6))
-    many = robot.equilibria(lengths=rows)
+    many = robot.equilibria(lengths_m=rows)
     for i, row in enumerate(rows):
-        assert many.tensions[i].tobytes() == robot.equilibrium(lengths=row).tensions.tobytes()
+        assert many.tensions[i].tobytes() == robot.equilibrium(lengths_m=row).tensions.tobytes()
 
 
 def test_quaternions_are_the_angles(robot: funicular.Robot) -> None:
@@ -65,11 +65,11 @@ def test_what_is_no_state_is_a_row_with_its_reason(robot: funicular.Robot) -> No
     many = robot.equilibria(poses=[[0, 0, 0.5], [np.nan, 0, 0.5], [0, 0, 1e300], [0, 0, 50]])
     assert many.status.tolist() == ["ok", "input", "input", "would-push"]
     assert "finite" in many.reason[1] and "tension" in many.reason[3]
-    assert robot.equilibria(lengths=[[6.8] * 5]).status.tolist() == ["length-count"]
-    assert robot.equilibria(lengths=[[6.8] * 5 + [-1.0]]).status.tolist() == ["length"]
-    beyond = robot.equilibria(lengths=[[6.8] * 5 + [1e13], [6.8] * 5 + [np.inf]])
+    assert robot.equilibria(lengths_m=[[6.8] * 5]).status.tolist() == ["length-count"]
+    assert robot.equilibria(lengths_m=[[6.8] * 5 + [-1.0]]).status.tolist() == ["length"]
+    beyond = robot.equilibria(lengths_m=[[6.8] * 5 + [1e13], [6.8] * 5 + [np.inf]])
     assert beyond.status.tolist() == ["input", "input"]
-    assert "at most 1e12" in beyond.reason[0] and "finite" in beyond.reason[1]
+    assert "beyond 1e12" in beyond.reason[0] and "finite" in beyond.reason[1]
     assert len(robot.equilibria(poses=np.empty((0, 6)))) == 0
 
 
@@ -78,11 +78,11 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
         ({}, "one of them"),
         ({"poses": [[0, 0]]}, "rows of 2 numbers"),
         ({"poses": [0, 0, 0]}, "1 dimensions"),
-        ({"lengths": [7] * 6}, "give an array of rows, one a state"),
+        ({"lengths_m": [7] * 6}, "give an array of rows, one a state"),
         ({"poses": [[0, 0, 0.5]], "threads": 0}, "at least one"),
         ({"poses": [[0, 0, 0.5]], "threads": -1}, "at least one"),
         ({"poses": [[0, 0, 0.5]], "threads": 2**61}, "at most 1024"),
-        ({"poses": [[0, 0, 0.5]], "model": "springs"}, 'did you mean "spring"'),
+        ({"poses": [[0, 0, 0.5]], "static_model": "springs"}, 'did you mean `spring`'),
     ]:
         with pytest.raises(funicular.InputError, match=said):
             robot.equilibria(**keywords)  # type: ignore[arg-type]

@@ -35,7 +35,7 @@ def test_a_robot_comes_back_from_its_text_its_dictionary_and_its_pickle(name: st
         {},
         {"pose": [1, 2, 1.5, 0, 3, 10]},
         {"pose": funicular.Pose([1, 2, 1.5], quaternion_wxyz=[0.6, 0, 0, 0.8]), "tension_rule": "middle", "max_tension_n": 4000},
-        {"pose": [1, 2, 1.5], "wanted_tension_n": 900.0, "min_tension_n": 10, "model": "spring"},
+        {"pose": [1, 2, 1.5], "wanted_tension_n": 900.0, "min_tension_n": 10, "static_model": "spring"},
         {"pose": [1, 2, 1.5], "force_n": [10, 0, -20], "moment_n_m": [0, 1, 0], "load_point_m": [0, 0, 0.1]},
     ],
 )
@@ -93,7 +93,7 @@ def test_forces_of_the_cables_carry_the_platform(rest: funicular.Equilibrium) ->
 def test_stiffness_is_the_slope_of_the_force(robot: funicular.Robot, rest: funicular.Equilibrium) -> None:
     step, push = 1e-5, 1e-2
     stiffness = rest.stiffness()
-    moved = robot.equilibrium(lengths=rest.lengths, force_n=[0, 0, push])
+    moved = robot.equilibrium(lengths_m=rest.lengths, force_n=[0, 0, push])
     expected = np.linalg.solve(stiffness, [0, 0, push, 0, 0, 0])[:3]
     assert np.allclose(moved.pose.position_m - rest.pose.position_m, expected, rtol=1e-3, atol=step * 1e-4)
 
@@ -114,22 +114,22 @@ def test_the_hanging_cable_is_a_catenary() -> None:
     [
         ("equilibrium", (), {"pose": [0, 0]}, "2 numbers"),
         ("equilibrium", (), {"pose": [0, 0, np.nan]}, "finite"),
-        ("equilibrium", (), {"pose": [0, 0, 1, 2, 0, 0, 0]}, "length 2"),
-        ("equilibrium", (), {"pose": [0, 0, 1], "lengths": [1] * 6}, "not both"),
-        ("equilibrium", (), {"model": "katenary"}, 'did you mean "catenary"'),
+        ("equilibrium", (), {"pose": [0, 0, 1, 2, 0, 0, 0]}, "norm 2"),
+        ("equilibrium", (), {"pose": [0, 0, 1], "lengths_m": [1] * 6}, "not both"),
+        ("equilibrium", (), {"static_model": "katenary"}, "did you mean `catenary`"),
         ("equilibrium", (), {"pose": [0, 0, 1], "tension_rule": "closest"}, "wanted_tension_n"),
-        ("equilibrium", (), {"min_tension_n": 5, "max_tension_n": 4}, "below max_tension_n"),
+        ("equilibrium", (), {"min_tension_n": 5, "max_tension_n": 4}, "below `max_tension_n`"),
         ("equilibrium", (), {"load_point_m": [0, 0, 1]}, "force_n"),
         ("equilibrium", (), {"force_n": [0, 1]}, "x, y, z"),
         ("modes", (0,), {}, "positive"),
         ("modes", (1e9,), {"cable_model": "closed-form"}, "lower the limit"),
-        ("modes", (5,), {"cable_model": "exakt"}, 'did you mean "exact"'),
-        ("modes", (5,), {"assembly": "whole"}, "consistent, paper"),
+        ("modes", (5,), {"cable_model": "exakt"}, "did you mean `exact`"),
+        ("modes", (5,), {"assembly": "whole"}, "`consistent`, `paper`"),
         ("frf", ([1, 2], "fz", "fz"), {}, "not an output"),
         ("frf", ([1, 2], "z", "z"), {}, "not an input"),
         ("frf", ([1, 2], "cable:9@0.5:fz", "z"), {}, 'no cable "9"'),
         ("frf", ([1, 2], "mz", "z"), {"input_point_m": [0, 0, 1]}, "same at every point"),
-        ("frf", ([-1, 2], "fz", "z"), {}, "not be negative"),
+        ("frf", ([-1, 2], "fz", "z"), {}, "is negative"),
         ("frf", ([[1, 2]], "fz", "z"), {}, "2 dimensions"),
         ("stiffness", (np.inf,), {}, "finite"),
     ],
@@ -157,7 +157,7 @@ def test_what_has_no_answer_has_its_own_error(robot: funicular.Robot) -> None:
     with pytest.raises(funicular.StaticsError, match="nothing to choose"):
         robot.equilibrium(pose=[0, 0, 0.5], tension_rule="lowest")
     with pytest.raises(funicular.DynamicsError, match="rigid"):
-        robot.equilibrium(pose=[0, 0, 0.5], model="ideal").stiffness()
+        robot.equilibrium(pose=[0, 0, 0.5], static_model="ideal").stiffness()
     undamped = robot.with_({"materials.rope-4mm.damping_ratio": 0.0})
     with pytest.raises(funicular.DynamicsError, match="end of a cable only"):
         undamped.frf([1.0], "fz", "cable:1@0.5:z", cable_model="closed-form")
@@ -172,7 +172,7 @@ def test_what_has_no_answer_has_its_own_error(robot: funicular.Robot) -> None:
         ({"platform": 3}, "names a table"),
         ({"cables.9.anchor_m": [0, 0, 1]}, 'no cable "9"'),
         ({"platform.mass_kg": object()}, "of type object"),
-        ({"platform.mass_kg": float("nan")}, "nan"),
+        ({"platform.mass_kg": float("nan")}, "must be finite"),
         ({"platform.mass_kg": 1 << 80}, "so large"),
     ],
 )

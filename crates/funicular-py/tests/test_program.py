@@ -84,7 +84,7 @@ def test_what_is_not_given_is_as_in_the_program(name: str, below_hz: float, stat
     path = f"robots/{name}.toml"
     options = [] if static_model is None else ["--static-model", static_model]
     robot = funicular.Robot.from_file(ROBOTS / f"{name}.toml")
-    rest = robot.equilibrium() if static_model is None else robot.equilibrium(model=static_model)
+    rest = robot.equilibrium() if static_model is None else robot.equilibrium(static_model=static_model)
 
     theirs, ours = program("statics", path, *options), rest.to_dict()
     assert theirs["pose"] == ours["pose"] and theirs["warnings"] == ours["warnings"]

@@ -191,9 +191,9 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
     with pytest.raises(funicular.FileError, match="robot file, line"):
         robot.with_(mass_kg=20).map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, resume=True)
     Path(f"{path}.partial").write_text("no journal")
-    with pytest.raises(funicular.FileError, match="begin anew with `force=True`"):
+    with pytest.raises(funicular.FileError, match="begin anew with `discard=True`"):
         robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path)
-    assert len(robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, force=True)) == 2
+    assert len(robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, discard=True)) == 2
     os.mkfifo(tmp_path / "pipe.csv")
     with pytest.raises(funicular.FileError, match="leave out `file`") as error:
         robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=tmp_path / "pipe.csv")
@@ -215,12 +215,12 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
         ("map", {"grid": {"x": (-0.1, 0.1, 5.0)}}, r"`x\[2\]` is 5.0, of type float: give a whole number; .* give a list"),
         ("map", {"grid": {"x": (-0.1, 0.1, True)}}, r"`x\[2\]` is True, of type bool: give a whole number; .* give a list"),
         ("sweep", {"vary": {"platform.mass_kg": (10, 20, "3")}}, r"`platform.mass_kg\[2\]` is '3', of type str: give a whole number"),
-        ("map", {"grid": {"x": []}}, "`x` has no values"),
-        ("map", {"grid": {"x": [0, float("nan")]}}, "must be finite"),
+        ("map", {"grid": {"x": []}}, "x: it has no values"),
+        ("map", {"grid": {"x": [0, float("nan")]}}, "not a finite number"),
         ("map", {"poses": [[0, 0]]}, "give x, y, z"),
-        ("map", {"poses": [[0, 0, 0.5]], "pose": [0, 0, 1]}, "leave out `pose` and `lengths`"),
-        ("map", {"poses": [[0, 0, 0.5]], "lengths": [7] * 6}, "leave out `pose` and `lengths`"),
-        ("map", {"poses": np.zeros((0, 3))}, "no points"),
+        ("map", {"poses": [[0, 0, 0.5]], "pose": [0, 0, 1]}, "leave out `pose` and `lengths_m`"),
+        ("map", {"poses": [[0, 0, 0.5]], "lengths_m": [7] * 6}, "leave out `pose` and `lengths_m`"),
+        ("map", {"poses": np.zeros((0, 3))}, "has no poses"),
         ("map", {"grid": {"x": 0}, "quantities": ["tension-mx"]}, "did you mean `tension-max`"),
         ("map", {"grid": {"x": 0}, "quantities": []}, "no quantity"),
         ("map", {"grid": {"x": 0}, "tension_rule": "middle"}, "nothing to choose"),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 def first_frequency(robot: funicular.Robot, height_m: float) -> float:
     try:
-        rest: funicular.Equilibrium = robot.equilibrium(pose=[0.0, 0.0, height_m], model="catenary")
+        rest: funicular.Equilibrium = robot.equilibrium(pose=[0.0, 0.0, height_m], static_model="catenary")
     except funicular.StaticsError as error:
         code: str = error.code
         print(code, error)

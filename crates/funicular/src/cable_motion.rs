@@ -76,7 +76,7 @@ impl CableStations {
         let state = &equilibrium.cables[i];
         let arc_lengths: Vec<f64> = fractions.iter().map(|part| part * state.unstrained_length).collect();
         let term = dynamics.terms.iter().position(|term| term.cable == i);
-        let chord_w = state.anchor_w - state.attachment_w;
+        let chord_w = state.chord_w();
         let (kind, axes) = match term.map(|at| (at, &dynamics.terms[at].form)) {
             Some((_, DynamicCable::ClosedForm(_))) => return Err(CableMotionError::Model(CableModel::ClosedForm)),
             Some((term, DynamicCable::Exact(end))) => {

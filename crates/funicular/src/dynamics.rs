@@ -9,9 +9,10 @@ pub(crate) use pencil::NullVector;
 
 use crate::cable::exact::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
-use crate::math::{CMat6, Complex, Mat3, Mat6, Vec3, Vec6, skew};
+use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
+use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, Freedoms, Robot};
-use crate::statics::{CableState, Equilibrium, add_congruent, add_lever_term, add_load_terms, scaled, wrench_of};
+use crate::statics::{CableState, Equilibrium};
 use thiserror::Error;
 
 /// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown
@@ -149,8 +150,7 @@ impl Dynamics {
         up_to_hz: f64,
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
-        let ell = robot.platform_length();
-        let motions = robot.platform.freedoms;
+        let coordinates = Coordinates::of(robot);
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -159,7 +159,7 @@ impl Dynamics {
             match stiffness {
                 EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
                 EndStiffness::Dynamic(form) => {
-                    let vector = |u: &Vec3| motions.reduced(&wrench_of(u, &(state.lever_w / ell)));
+                    let vector = |u: &Vec3| coordinates.reduce_force(u, &state.lever_w);
                     let LocalAxes { e, n, b } = *form.axes();
                     let (along, normal, out) = (vector(&e), vector(&n), vector(&b));
                     terms.push(Term { cable: i, form, along, normal, out });
@@ -169,15 +169,14 @@ impl Dynamics {
         if assembly == Assembly::Consistent {
             constant += static_terms(robot, equilibrium);
         }
-        // Symmetric to rounding at an equilibrium; exactly so for what follows.
-        let coordinates = |matrix: &Mat6| motions.reduced_matrix(&scaled(matrix, ell));
         Ok(Self {
-            ell,
-            motions,
-            freedoms: motions.count(),
-            constant: coordinates(&((constant + constant.transpose()) * 0.5)),
-            mass: coordinates(&mass_matrix(robot, equilibrium)),
-            platform_damping: coordinates(&damping_matrix(robot, equilibrium)),
+            ell: coordinates.ell(),
+            motions: coordinates.freedoms(),
+            freedoms: coordinates.count(),
+            // Symmetric to rounding at an equilibrium; exactly so for what follows.
+            constant: coordinates.reduce_symmetric(&constant),
+            mass: coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose)),
+            platform_damping: coordinates.reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose)),
             terms,
             linearisation,
             cable_count: robot.cables.len(),
@@ -308,8 +307,8 @@ impl Dynamics {
 const RESOLUTION: f64 = 1e-9;
 
 /// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.
-fn add_local<T: Copy + std::ops::AddAssign + nalgebra::Scalar>(
-    total: &mut nalgebra::Matrix6<T>,
+fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
+    total: &mut Matrix6<T>,
     term: &Term,
     k: &LocalStiffness<T>,
     times: impl Fn(T, f64) -> T,
@@ -342,47 +341,20 @@ pub(crate) struct Still {
     pub(crate) constant: Mat6,
     /// Mass of the platform [kg].
     pub(crate) mass: Mat6,
-    pub(crate) ell: f64,
+    pub(crate) coordinates: Coordinates,
 }
 
 /// What a robot has at an equilibrium whatever its cables' stiffness.
 pub(crate) fn still(robot: &Robot, equilibrium: &Equilibrium) -> Still {
-    let ell = robot.platform_length();
-    let terms = static_terms(robot, equilibrium);
-    let coordinates = |matrix: &Mat6| robot.platform.freedoms.reduced_matrix(&scaled(matrix, ell));
-    let constant = coordinates(&((terms + terms.transpose()) * 0.5));
-    Still { constant, mass: coordinates(&mass_matrix(robot, equilibrium)), ell }
+    let coordinates = Coordinates::of(robot);
+    let constant = coordinates.reduce_symmetric(&static_terms(robot, equilibrium));
+    let mass = coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose));
+    Still { constant, mass, coordinates }
 }
 
 /// Stiffness of a cable whose end stiffness [N/m] does not depend on frequency; scaled, in the platform's coordinates.
 pub(crate) fn constant_cable(robot: &Robot, state: &CableState, stiffness: &Mat3) -> Mat6 {
     let mut total = Mat6::zeros();
     add_congruent(&mut total, stiffness, &state.lever_w);
-    robot.platform.freedoms.reduced_matrix(&scaled(&total, robot.platform_length()))
-}
-
-/// Mass matrix about the platform origin, world axes.
-fn mass_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
-    let platform = &robot.platform;
-    let rot = equilibrium.pose.rot_wp.to_rotation_matrix();
-    let com = skew(&(rot * platform.center_of_mass_p));
-    let mut mass = Mat6::zeros();
-    let mut put = |row, column, block: Mat3| mass.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
-    put(0, 0, Mat3::identity() * platform.mass);
-    let inertia_w = rot.matrix() * platform.inertia_p * rot.matrix().transpose();
-    put(0, 3, -com * platform.mass);
-    put(3, 0, com * platform.mass);
-    put(3, 3, inertia_w - com * com * platform.mass);
-    mass
-}
-
-/// Viscous damping of the platform about its origin, world axes; it acts in the platform's axes.
-fn damping_matrix(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
-    let rot = equilibrium.pose.rot_wp.to_rotation_matrix();
-    let mut damping = Mat6::zeros();
-    for (at, along_p) in [(0, robot.platform.translational_damping_p), (3, robot.platform.rotational_damping_p)] {
-        let block = rot.matrix() * Mat3::from_diagonal(&along_p) * rot.matrix().transpose();
-        damping.fixed_view_mut::<3, 3>(at, at).copy_from(&block);
-    }
-    damping
+    Coordinates::of(robot).reduce_matrix(&total)
 }

@@ -53,6 +53,7 @@ pub mod compare;
 pub mod dynamics;
 pub mod math;
 pub mod modes;
+mod platform;
 pub mod ports;
 pub mod pose_error;
 pub mod reduction;

@@ -1,7 +1,6 @@
 //! Small linear algebra under names of the field, and the numerical helpers every room uses.
 //!
-//! The types that functions exchange are nalgebra's under these names. Code for several scalars or sizes (`dynamics.rs`,
-//! `cable/exact/abreast/chain.rs`) uses nalgebra's generic types itself.
+//! The types are nalgebra's under these names, and no other file of the crate names nalgebra.
 
 pub mod inertia;
 pub mod legendre;
@@ -36,6 +35,21 @@ pub type Quaternion = nalgebra::Quaternion<f64>;
 pub fn skew(v: &Vec3) -> Mat3 {
     v.cross_matrix()
 }
+
+/// Symmetric part `(A + Aᵀ)/2` of a square matrix.
+#[inline]
+pub fn symmetric_part<D: nalgebra::Dim>(matrix: &nalgebra::OMatrix<f64, D, D>) -> nalgebra::OMatrix<f64, D, D>
+where
+    nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<D, D>,
+{
+    (matrix + matrix.transpose()) * 0.5
+}
+
+/// Matrix of a fixed size.
+pub(crate) type Matrix<const R: usize, const C: usize> = nalgebra::SMatrix<f64, R, C>;
+/// 6×6 matrix of any scalar.
+pub(crate) type Matrix6<T> = nalgebra::Matrix6<T>;
+pub(crate) use nalgebra::Scalar;
 
 /// Matrix of any size.
 pub type DMat = nalgebra::DMatrix<f64>;

@@ -9,7 +9,7 @@ use crate::cable::DynamicCable;
 use crate::cable::exact::Exact;
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::{Dynamics, Term};
-use crate::math::{CDMat, Complex, DMat, Vec3, Vec6};
+use crate::math::{CDMat, Complex, DMat, Vec3, Vec6, symmetric_part};
 use crate::modes;
 use crate::response::{self, Direction, Port, Quantity, ResponseError};
 use crate::robot::{Damping, Robot};
@@ -442,7 +442,7 @@ fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result
     }
     let back = factor * eigen.eigenvectors;
     let damping = &back * in_modes * back.transpose();
-    Ok((&damping + damping.transpose()) * 0.5)
+    Ok(symmetric_part(&damping))
 }
 
 /// Largest relative error of the responses by viscous damping in place of constant ratios, at natural frequencies.

@@ -165,6 +165,12 @@ pub struct Cable {
 }
 
 impl Cable {
+    /// Chord at a pose, attachment to anchor, world axes [m].
+    #[inline]
+    pub fn chord_w(&self, pose: &Pose) -> Vec3 {
+        self.anchor_w - pose.point_w(&self.attachment_p)
+    }
+
     /// The limits of its tension: its own, then those of its rope; nothing is above what the rope breaks at.
     pub fn limits(&self) -> TensionLimits {
         let breaking = TensionLimits { minimum: None, maximum: self.material.breaking_load };

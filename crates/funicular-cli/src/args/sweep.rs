@@ -3,7 +3,7 @@
 use super::{Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
 use clap::Args;
 use funicular::sweep::{Quantity, Steps};
-use funicular_files::{Part, Variation};
+use funicular_study::sweep::{Part, ValueAxis};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -34,7 +34,7 @@ pub(crate) struct SweepArgs {
 
     /// A number of the robot file, from A to B in N values, or the values (repeatable: all combinations, the first fastest)
     #[arg(long, value_name = "PATH=A:B:N|V,V,…", value_parser = values::variation, required = true)]
-    pub(crate) vary: Vec<Variation>,
+    pub(crate) vary: Vec<ValueAxis>,
 
     #[command(flatten)]
     pub(crate) point: EachArgs,

@@ -1,13 +1,13 @@
 //! Values on the command line: text in, checked numbers out, each error with the value and what it must be.
 
-use funicular::math::{Mat3, Vec3};
+use funicular::math::Vec3;
 use funicular::ports;
 use funicular::sweep::{self, Steps};
-use funicular_files::{Variation, edit};
+use funicular_study::analyses::pose_error::MAX_MASSES;
+use funicular_study::request::MAX_STATIONS;
+use funicular_study::sweep::ValueAxis;
+use funicular_study::{set_values, values};
 use std::num::NonZeroUsize;
-
-/// Smallest quantity that has to be positive, as in robot files.
-const SMALLEST: f64 = 1e-12;
 
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
@@ -16,19 +16,12 @@ pub(crate) fn finite(text: &str) -> Result<f64, String> {
 
 /// A positive number.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
-    match finite(text)? {
-        value if value >= SMALLEST => Ok(value),
-        value if value > 0.0 => Err(format!("{value:e} is too small, it must be at least {SMALLEST:e}")),
-        value => Err(format!("{value} is not positive")),
-    }
+    values::positive(finite(text)?)
 }
 
 /// A number that is not negative.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
-    match finite(text)? {
-        value if value >= 0.0 => Ok(value),
-        value => Err(format!("{value} is negative")),
-    }
+    values::not_negative(finite(text)?)
 }
 
 /// Numbers separated by commas.
@@ -54,34 +47,30 @@ pub(crate) fn tensions(text: &str) -> Result<Tensions, String> {
     Ok(Tensions(text.split(',').map(not_negative).collect::<Result<_, _>>()?))
 }
 
-/// Position [m] and roll, pitch, yaw [degrees].
+/// Position x, y, z [m] and roll, pitch, yaw [degrees].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PoseNumbers {
-    pub(crate) position: [f64; 3],
-    pub(crate) roll_pitch_yaw_deg: [f64; 3],
-}
+pub(crate) struct PoseNumbers(pub(crate) [f64; 6]);
 
 /// `x,y,z` or `x,y,z,roll,pitch,yaw`
 pub(crate) fn pose(text: &str) -> Result<PoseNumbers, String> {
     match list(text)?[..] {
-        [x, y, z] => Ok(PoseNumbers { position: [x, y, z], roll_pitch_yaw_deg: [0.0; 3] }),
-        [x, y, z, roll, pitch, yaw] => Ok(PoseNumbers { position: [x, y, z], roll_pitch_yaw_deg: [roll, pitch, yaw] }),
+        [x, y, z] => Ok(PoseNumbers([x, y, z, 0.0, 0.0, 0.0])),
+        [x, y, z, roll, pitch, yaw] => Ok(PoseNumbers([x, y, z, roll, pitch, yaw])),
         ref other => Err(format!("{} numbers where x,y,z or x,y,z,roll,pitch,yaw are needed", other.len())),
     }
 }
 
-/// An inertia tensor [kg m²].
+/// Entries xx, yy, zz, xy, xz, yz of an inertia tensor [kg m²].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Inertia(pub(crate) Mat3);
+pub(crate) struct Inertia(pub(crate) [f64; 6]);
 
 /// `xx,yy,zz` or `xx,yy,zz,xy,xz,yz`, the entries of the tensor
 pub(crate) fn inertia(text: &str) -> Result<Inertia, String> {
-    let [xx, yy, zz, xy, xz, yz] = match list(text)?[..] {
-        [xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],
-        [xx, yy, zz, xy, xz, yz] => [xx, yy, zz, xy, xz, yz],
-        ref other => return Err(format!("{} numbers where xx,yy,zz or xx,yy,zz,xy,xz,yz are needed", other.len())),
-    };
-    Ok(Inertia(Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)))
+    match list(text)?[..] {
+        [xx, yy, zz] => Ok(Inertia([xx, yy, zz, 0.0, 0.0, 0.0])),
+        [xx, yy, zz, xy, xz, yz] => Ok(Inertia([xx, yy, zz, xy, xz, yz])),
+        ref other => Err(format!("{} numbers where xx,yy,zz or xx,yy,zz,xy,xz,yz are needed", other.len())),
+    }
 }
 
 /// `x,y,z`
@@ -94,10 +83,9 @@ pub(crate) fn point(text: &str) -> Result<Vec3, String> {
 
 /// Points along a cable, both ends included.
 pub(crate) fn stations(text: &str) -> Result<usize, String> {
-    const MOST: usize = 1000;
     match text.trim().parse::<usize>() {
-        Ok(count @ 2..=MOST) => Ok(count),
-        _ => Err(format!("`{text}` is not a number of points: a whole number from 2 to {MOST}")),
+        Ok(count @ 2..=MAX_STATIONS) => Ok(count),
+        _ => Err(format!("`{text}` is not a number of points: a whole number from 2 to {MAX_STATIONS}")),
     }
 }
 
@@ -108,9 +96,6 @@ pub(crate) struct MassRange {
     pub(crate) to: f64,
     pub(crate) count: usize,
 }
-
-/// Most masses of a range.
-const MOST_MASSES: usize = 100_000;
 
 /// `from:to:count`
 pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
@@ -123,8 +108,8 @@ pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
         return Err(format!("the range ends at {to}, it must end above its start {from}"));
     }
     match count.trim().parse::<usize>() {
-        Ok(count @ 2..=MOST_MASSES) => Ok(MassRange { from, to, count }),
-        _ => Err(format!("`{count}` is not a count of masses: a whole number from 2 to {MOST_MASSES}")),
+        Ok(count @ 2..=MAX_MASSES) => Ok(MassRange { from, to, count }),
+        _ => Err(format!("`{count}` is not a count of masses: a whole number from 2 to {MAX_MASSES}")),
     }
 }
 
@@ -165,10 +150,10 @@ pub(crate) fn grid_axis(text: &str) -> Result<(String, Steps), String> {
 }
 
 /// `platform.mass_kg=10:90:81`
-pub(crate) fn variation(text: &str) -> Result<Variation, String> {
+pub(crate) fn variation(text: &str) -> Result<ValueAxis, String> {
     let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
-    let (path, values) = edit::split(text).ok_or(form)?;
-    Ok(Variation { path: edit::path(path)?, steps: steps(values)? })
+    let (path, values) = set_values::split(text).ok_or(form)?;
+    ValueAxis::new(path, steps(values)?)
 }
 
 /// The name of a quantity of a sweep.
@@ -202,8 +187,8 @@ mod tests {
     #[test]
     fn poses_have_three_or_six_numbers() {
         let written = |text| format!("{:?}", pose(text).unwrap());
-        assert!(written("-1,2,3").contains("[-1.0, 2.0, 3.0]"));
-        assert!(written("1,2,3,4,5,-6").contains("[4.0, 5.0, -6.0]"));
+        assert!(written("-1,2,3").contains("[-1.0, 2.0, 3.0, 0.0, 0.0, 0.0]"));
+        assert!(written("1,2,3,4,5,-6").contains("4.0, 5.0, -6.0]"));
         assert!(pose("1,2").is_err() && pose("1,2,3,4").is_err() && pose("1,,3").is_err());
     }
 

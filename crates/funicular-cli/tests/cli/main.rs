@@ -9,6 +9,7 @@ mod links;
 mod pages;
 mod plots;
 mod readme;
+mod request;
 mod results;
 mod sweeps;
 mod wind;

@@ -36,7 +36,7 @@ fn without_arguments_the_pages_are_written_here() {
 fn a_page_repeats_what_was_typed_quoted_for_a_shell() {
     let page = succeed(&["report", &robot("cogiro.toml"), "-o", "-", "--set", "name=\"a b\"", "--input", "f:1,0,1"]);
     assert!(page.contains("--set &#39;name=&#34;a b&#34;&#39; --input &#39;f:1,0,1&#39;</pre>"));
-    assert!(page.contains("<h1>a b</h1>") && page.contains("name = &#34;a b&#34; # from --set"));
+    assert!(page.contains("<h1>a b</h1>") && page.contains("name = &#34;a b&#34; # set: name"));
     assert!(page.contains("a force along (1.000, 0.000, 1.000) at the platform origin"));
 }
 
@@ -79,8 +79,8 @@ fn pages_that_cannot_be_are_refused() {
         ("report ROBOT -o ROBOT", 2, "refusing to write the page over the robot file"),
         ("report -o /", 2, "it is a directory"),
         ("report --input mz --input-point-m 0,0,1", 2, "has no effect"),
-        ("report --pose 30,0,1 -o -", 1, "no equilibrium"),
-        ("report --set platform.mass_kg=-1", 2, "robots/yuan2014-4mm.toml with --set:"),
+        ("report --pose 30,0,1 -o -", 1, "no tensions found"),
+        ("report --set platform.mass_kg=-1", 2, "robots/yuan2014-4mm.toml with changes:"),
         ("report --format json", 2, "unexpected argument"),
         ("paper ROBOT", 2, "unexpected argument"),
         ("paper -o /no/such/place.html", 2, "there is no directory /no/such"),

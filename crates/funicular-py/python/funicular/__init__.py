@@ -12,10 +12,21 @@ array([17.685, 36.926, 39.89 , 15.636, 50.443, 52.549])
 array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 """
 
-from funicular._errors import DynamicsError, Error, FileError, InputError, ResponseError, RobotFileError, StaticsError
+from funicular._errors import (
+    DynamicsError,
+    Error,
+    FileError,
+    InputError,
+    NoSolutionError,
+    ResponseError,
+    RobotFileError,
+    StaticsError,
+)
 from funicular._executors import ExecutorError
 from funicular._funicular import Catenary, Equilibrium, Pose, Robot, __version__, peaks
-from funicular._results import Equilibria, Modes
+from funicular._pages import Page
+from funicular._results import Equilibria, Modes, ReducedModel
+from funicular._study import Exported, Imported, import_robot, merge, paper, run, validate
 from funicular._sweeps import Sweep
 
 __all__ = [
@@ -25,15 +36,25 @@ __all__ = [
     "Equilibrium",
     "Error",
     "ExecutorError",
+    "Exported",
     "FileError",
+    "Imported",
     "InputError",
     "Modes",
+    "NoSolutionError",
+    "Page",
     "Pose",
+    "ReducedModel",
     "ResponseError",
     "Robot",
     "RobotFileError",
     "StaticsError",
     "Sweep",
     "__version__",
+    "import_robot",
+    "merge",
+    "paper",
     "peaks",
+    "run",
+    "validate",
 ]

@@ -62,7 +62,13 @@ class ResponseError(Error):
     __module__ = "funicular"
 
 
+class NoSolutionError(Error):
+    """Nothing is wrong with the request, and there is no such result."""
+
+    __module__ = "funicular"
+
+
 class FileError(Error):
-    """A file of a sweep that cannot be read or written, or that belongs to another sweep."""
+    """A file that cannot be written, or a file of a sweep that cannot be read or belongs to another sweep."""
 
     __module__ = "funicular"

@@ -176,7 +176,7 @@ class Shared:
                     _shut_down(pool, clean)
 
     def _error(self, cause: BaseException | None) -> ExecutorError:
-        rows = min(self.chunks_done * self.plan.chunk_rows, self.plan.rows)
+        rows = min((self.chunks_done - self.plan.first_chunk) * self.plan.chunk_rows, self.plan.rows)
         return ExecutorError(
             f"the executor's workers fail ({type(cause).__name__}: {cause}); {rows} of {self.plan.rows} rows are kept: "
             "`resume(executor)` of this exception goes on with another executor; a function that makes executors as "

@@ -5,7 +5,8 @@ The compiled half of `funicular`; import `funicular` instead.
 from _typeshed import SupportsGetItem
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from funicular._results import Equilibria, Modes
+from funicular._pages import Page
+from funicular._results import Equilibria, Modes, ReducedModel
 from funicular._sweeps import Sweep
 from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +14,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "complex_numbers", "peaks", "real_numbers"]
+__all__ = ["__version__", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "complete_request", "complex_numbers", "imported", "merge_parts", "peaks", "plot_page", "real_numbers", "source_file", "text_of", "write_file"]
 
 __version__: Final[str]
 
@@ -76,13 +77,40 @@ class Equilibrium:
     def __deepcopy__(self, /, memo: Any) -> Equilibrium: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Robot, dict[str, Any]]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Robot, str]]: ...
     def __repr__(self, /) -> str: ...
     def _repr_html_(self, /) -> Any: ...
+    def all_equilibria(self, /) -> dict[str, Any]:
+        """
+        Every equilibrium that a search finds with the lengths of this one: the program's `statics --all`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `equilibria` has them, the lowest first, each with `pose`, `stable`, `energy_j`,
+        `distance_m` and `tensions_platform_n`; `search` says what was searched. Lists of numbers are arrays.
+        """
     @property
     def anchor_tensions(self, /) -> NDArray[float64]:
         """
         Tensions at the anchors [N].
+        """
+    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: str | None = None, in_plane_only: bool = False) -> dict[str, Any]:
+        """
+        Dynamic stiffness of one cable's platform end, its anchor held, with the keys of the program's JSON.
+
+        Parameters
+        ----------
+        name
+            Name of the cable.
+        hz
+            Frequencies [Hz], a row of n.
+        cable_model, in_plane_only
+            As of `stiffness`.
+
+        Returns
+        -------
+        `local` has `k_a`, `k_b`, `k_c`, `k_o` (n, complex): along the chord, coupling, normal in plane, out of plane [N/m];
+        `world` is (n, 3, 3), complex, in world axes; `clamped_frequencies_hz` are those of the cable with both ends held.
         """
     def cable_points(self, /, points: SupportsIndex = ...) -> NDArray[float64]:
         """
@@ -98,6 +126,38 @@ class Equilibrium:
     def chords(self, /) -> NDArray[float64]:
         """
         Chord lengths, attachment to anchor [m].
+        """
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
+        """
+        Every cable model side by side, each against the exact one: which frequencies it has, misses and gets wrong, and
+        which model to take, with the keys of the program's JSON; lists of numbers are arrays.
+
+        Parameters
+        ----------
+        below_hz
+            Limit of the frequencies [Hz].
+        assembly, in_plane_only
+            As of `stiffness`.
+        """
+    def export(self, /, to: str, path: str | PathLike[str], *, segments: SupportsIndex = ..., modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+        """
+        Writes the robot at rest as a file of another program; returns what to know before trusting it.
+
+        Parameters
+        ----------
+        to
+            `opensees`, `moordyn` or `vtk`.
+        path
+            The file, written as a whole or not at all.
+        segments
+            Elements for each cable.
+        modes_below_hz
+            Limit of the modes in the file [Hz].
+
+        Raises
+        ------
+        FileError
+            The file cannot be written.
         """
     @property
     def forces(self, /) -> NDArray[float64]:
@@ -153,7 +213,7 @@ class Equilibrium:
         """
         How cables carry their load: `ideal`, `spring` or `catenary`.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
         """
         Every natural frequency below a limit, counted: none missed.
 
@@ -161,6 +221,12 @@ class Equilibrium:
         ----------
         below_hz
             The limit [Hz].
+        input, output
+            Signals of a response, as of `frf`: every mode then has its residue and the height of its own peak.
+        input_point_m, output_point_m
+            As of `frf`.
+        stations
+            Number of points along every cable, ends included, whose displacements are wanted.
         cable_model, assembly, in_plane_only
             As of `stiffness`.
         damped
@@ -183,6 +249,43 @@ class Equilibrium:
 
         The parameters are those of `frf`.
         """
+    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex = ..., damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> ReducedModel:
+        """
+        A second-order model M x'' + C x' + K x = B f, y = L x for control design, as `funicular.ReducedModel`.
+
+        Parameters
+        ----------
+        below_hz
+            Highest frequency that the model is for [Hz].
+        input, output
+            Lists of signals, as of `frf`; all forces and moments on the platform and all its displacements and rotations if
+            not given.
+        input_point_m, output_point_m
+            As of `frf`.
+        tolerance
+            Maximum relative error of the responses by modes left out.
+        damping_at_hz
+            Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if not
+            given.
+        cable_model, assembly, in_plane_only
+            As of `stiffness`.
+        """
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex = ..., input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> Page:
+        """
+        A page in HTML with everything about the robot at rest, as `funicular.Page`, which notebooks show.
+
+        Parameters
+        ----------
+        path
+            Write the page there, too.
+        below_hz
+            Limit of the frequencies [Hz].
+        input, output
+            Signals of the response on the page, as of `frf`; `fz` and `az` if not given, or `fx` and `ax` of a platform that
+            cannot move along z.
+        input_point_m, output_point_m, cable_model, assembly, in_plane_only
+            As of `frf`.
+        """
     @property
     def residual(self, /) -> float:
         """
@@ -203,14 +306,14 @@ class Equilibrium:
         """
         Whether every small motion is opposed; None for ideal cables, which are rigid.
         """
-    def stiffness(self, /, hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
+    def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
         """
         Stiffness about the platform origin, world axes [N/m, N, N m].
 
         Parameters
         ----------
-        hz
-            Frequency [Hz], or a row of n of them.
+        at_hz
+            Frequency [Hz], or a row of n of them; 0 if not given.
         cable_model
             How cables answer motion: `exact`, `closed-form`, `static-sag`, `catenary-tangent`, `spring`. If not given,
             `exact` for cables that hang, else `closed-form`; at 0 Hz the exact tangent of the static model, in wind
@@ -319,6 +422,10 @@ class Robot:
     def __reduce__(self, /) -> tuple[Any, tuple[str]]: ...
     def __repr__(self, /) -> str: ...
     def _repr_html_(self, /) -> Any: ...
+    def all_equilibria(self, /) -> dict[str, Any]:
+        """
+        `Equilibrium.all_equilibria` in the state of the robot file.
+        """
     @property
     def anchors_m(self, /) -> NDArray[float64]:
         """
@@ -329,12 +436,24 @@ class Robot:
         """
         Attachments in the platform frame [m], one row a cable.
         """
+    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: str | None = None, in_plane_only: bool = False) -> dict[str, Any]:
+        """
+        `Equilibrium.cable` in the state of the robot file.
+        """
     @property
     def cable_names(self, /) -> list[str]:
         """
         Names of the cables, in file order: the order of every array with one entry a cable.
         """
-    def equilibria(self, /, poses: ArrayLike | None = None, lengths: ArrayLike | None = None, model: str = "catenary", tension_rule: str | None = None, *, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, threads: SupportsIndex | None = None) -> Equilibria:
+    def check(self, /) -> dict[str, Any]:
+        """
+        The robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
+        """
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
+        """
+        `Equilibrium.compare` in the state of the robot file.
+        """
+    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, threads: SupportsIndex | None = None) -> Equilibria:
         """
         The robot at rest in many states, computed side by side without Python's lock.
 
@@ -345,14 +464,14 @@ class Robot:
         ----------
         poses
             (n, 3), (n, 6) or (n, 7): x, y, z [m], roll, pitch, yaw [degrees] or a quaternion w, x, y, z.
-        lengths
+        lengths_m
             (n, m): unstrained lengths [m] of m cables.
         threads
             How many threads compute; all processors if not given.
 
         The other parameters are those of `equilibrium`.
         """
-    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths: ArrayLike | None = None, model: str = "catenary", tension_rule: str | None = None, *, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None) -> Equilibrium:
+    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Equilibrium:
         """
         The robot at rest.
 
@@ -361,10 +480,10 @@ class Robot:
         pose
             A `Pose`, or x, y, z, or these and roll, pitch, yaw [m, degrees], or these and a quaternion w, x, y, z. The
             lengths follow; of fewer cables than freedoms the nearest pose that they hold.
-        lengths
+        lengths_m
             Unstrained lengths [m], one a cable, in file order. The pose follows.
             Without pose and lengths: the state of the robot file.
-        model
+        static_model
             How cables carry their load: `ideal`, `spring` or `catenary`.
         tension_rule
             Which of the tensions that hold a pose, where more cables than freedoms leave a choice: `lowest` (the default),
@@ -373,9 +492,15 @@ class Robot:
             Tensions for the rule `closest` [N], one for all or one a cable.
         min_tension_n, max_tension_n
             Limits of the tension anywhere in a cable [N], instead of those of the robot file.
+        mass_kg
+            Mass of the platform [kg] instead of that of the robot file.
         force_n, moment_n_m, load_point_m
             A dead load on the platform instead of that of the robot file: force and moment in world axes [N, N m], and the
             point where the force acts, in the platform frame [m].
+        wind_m_s
+            Velocity of the wind instead of that of the robot file, world axes [m/s].
+        cable_load_n_per_m
+            Load per metre of every cable besides its weight, world axes [N/m].
 
         Raises
         ------
@@ -388,6 +513,10 @@ class Robot:
     def example(cls, /) -> Robot:
         """
         The robot that the package carries: six cables of 4 mm (Yuan, Courteille and Deblaise 2014).
+        """
+    def export(self, /, to: str, path: str | PathLike[str], *, segments: SupportsIndex = ..., modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+        """
+        `Equilibrium.export` in the state of the robot file.
         """
     @property
     def freedoms(self, /) -> str:
@@ -435,7 +564,7 @@ class Robot:
         """
         Unstrained lengths that the file gives [m], one a cable; None where it gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: ArrayLike | None = None, lengths: ArrayLike | None = None, model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, force: bool = False, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Quantities over poses, one row a pose.
 
@@ -451,7 +580,7 @@ class Robot:
             What to compute, docs/sweeps.md has the list; tension-min and tension-max if not given.
         poses
             Instead of a grid (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
-        pose, lengths
+        pose, lengths_m
             Where axes stay that the grid does not have: x, y, z [m] and roll, pitch, yaw [degrees], or unstrained lengths
             [m]. As the robot file says if not given.
         up_to_hz
@@ -459,8 +588,10 @@ class Robot:
         file
             Write the rows to .parquet, .csv or .vti, as a whole; until then they are in FILE.partial and survive whatever
             ends the program. Of a Parquet file nothing is in memory before it is asked for.
-        resume, force
+        resume, discard
             Go on with what FILE.partial holds of the same sweep, or forget it.
+        part
+            The k-th of n parts, as "3/8", each with a Parquet `file` of its own; `funicular.merge` joins them.
         threads
             How many threads compute here; all processors if not given.
         executor
@@ -487,7 +618,7 @@ class Robot:
         """
         Mass of the platform [kg].
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
         """
         `Equilibrium.modes` in the state of the robot file.
         """
@@ -496,20 +627,58 @@ class Robot:
         """
         What the robot is called.
         """
+    def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> dict[str, Any]:
+        """
+        How far the poses of spring and catenary cables are from those of ideal ones, over the mass of the platform.
+
+        Parameters
+        ----------
+        mass_kg
+            First mass, last mass [kg] and number of masses.
+        lengths_m
+            Unstrained lengths [m], which fix the comparison; those of the robot file if not given.
+        tolerance_mm
+            Distance between spring and catenary pose from which on the spring is good enough [mm]; `threshold` then says
+            from which mass on.
+
+        Returns
+        -------
+        The keys of the program's JSON: `points` with one entry for each mass.
+        """
     def receptance(self, /, hz: ArrayLike, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128]:
         """
         `Equilibrium.receptance` in the state of the robot file.
+        """
+    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex = ..., damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> ReducedModel:
+        """
+        `Equilibrium.reduce` in the state of the robot file.
+        """
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex = ..., input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> Page:
+        """
+        `Equilibrium.report` in the state of the robot file.
+        """
+    def request(self, /, command: "str", **keywords: "object") -> dict[str, Any]:
+        """
+        The request of a command of the program for this robot: what `funicular COMMAND --print-request` prints, as
+        `funicular.run` takes it.
+
+        Parameters
+        ----------
+        command
+            Name of the command, as `statics`.
+        keywords
+            The command's options by their names with _ for -, as `tension_rule="middle"`.
         """
     @property
     def source(self, /) -> str:
         """
         Where its numbers come from.
         """
-    def stiffness(self, /, hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
+    def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
         """
         `Equilibrium.stiffness` in the state of the robot file.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: ArrayLike | None = None, lengths: ArrayLike | None = None, model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, force: bool = False, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Quantities over values of the robot file, one row a combination, as of the program's `sweep`.
 
@@ -550,14 +719,14 @@ class Robot:
 @final
 class SweepPlan:
     """
-    What is asked of which points; a pickle of it is the text of the robot file and the request.
+    A map or sweep; a pickle of it is its request as JSON.
     """
-    def __new__(cls, /, robot: Robot, request: str) -> SweepPlan:
+    def __new__(cls, /, request: str, part: str | None = None) -> SweepPlan:
         """
-        Of a robot and a request as JSON.
+        Of a request as JSON, or one of its parts, as "3/8".
         """
-    def __reduce__(self, /) -> tuple[Any, tuple[Robot, str]]: ...
-    def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, force: bool = False) -> SweepWork | None:
+    def __reduce__(self, /) -> tuple[Any, tuple[str, str | None]]: ...
+    def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False) -> SweepWork | None:
         """
         Begins to collect rows, in memory or in a file; None if the file has them all.
         """
@@ -569,11 +738,16 @@ class SweepPlan:
     @property
     def chunks(self, /) -> int:
         """
-        Number of chunks of rows; each is computed by itself.
+        The chunk behind the last.
         """
     def compute(self, /, first: SupportsIndex, end: SupportsIndex, threads: SupportsIndex = ...) -> bytes:
         """
         Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
+        """
+    @property
+    def first_chunk(self, /) -> int:
+        """
+        The first chunk of rows; each is computed by itself.
         """
     @property
     def rows(self, /) -> int:
@@ -666,9 +840,29 @@ class SweepWork:
         Computes all chunks that are missing here, side by side; `progress` is called with the rows there and all rows.
         """
 
+def answer(request: str) -> str:
+    """
+    Results of a request, both as JSON; of any command that computes them from the request alone.
+    """
+
+def complete_request(request: str) -> str:
+    """
+    A request as JSON with every key that it has, defaults among them.
+    """
+
 def complex_numbers(name: str, values: ArrayLike) -> NDArray[complex128]:
     """
     Complex numbers of any shape as an array; `name` is what errors call them. For the package's own functions in Python.
+    """
+
+def imported(request: str) -> tuple[str, list[str], list[str]]:
+    """
+    Robot file, assumptions and losses of a request of `import`.
+    """
+
+def merge_parts(parts: SupportsGetItem[int, str | PathLike[str]], path: str | PathLike[str]) -> int:
+    """
+    Joins the parts of a map or sweep; the number of rows.
     """
 
 def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex = ...) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
@@ -685,7 +879,27 @@ def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | 
         Least height of a peak above the valleys beside it [dB]; 1 if not given.
     """
 
+def plot_page(path: str | PathLike[str], label: str, call: str) -> tuple[str, list[str]]:
+    """
+    Page and notes of the Parquet file of a map or sweep; `label` says where the rows are, `call` writes the page again.
+    """
+
 def real_numbers(name: str, values: ArrayLike) -> NDArray[float64]:
     """
     Real numbers of any shape as an array; `name` is what errors call them. For the package's own functions in Python.
+    """
+
+def source_file(path: str | PathLike[str]) -> str:
+    """
+    A file of another program as a request has it: path and text, and the encoding if it had to be guessed, as JSON.
+    """
+
+def text_of(request: str, call: str) -> tuple[str, list[str]]:
+    """
+    Text and warnings of a request of `report`, `paper` or `export`; `call` is what writes a page again.
+    """
+
+def write_file(path: str | PathLike[str], text: str) -> None:
+    """
+    Writes a file as a whole or not at all.
     """

@@ -1,8 +1,8 @@
 """What pickles are made of: results are computed again from what they were asked with, which is less and exact."""
 
+import json
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,12 @@ def pose(position_m: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) 
     return Pose(position_m, quaternion_wxyz=quaternion_wxyz)
 
 
-def equilibrium(robot: Robot, arguments: dict[str, Any]) -> Equilibrium:
-    return robot.equilibrium(**arguments)
+def equilibrium(robot: Robot, keywords: str) -> Equilibrium:
+    given = json.loads(keywords)
+    match given.get("pose"):
+        case {"position_m": position, "quaternion_wxyz": quaternion}:
+            given["pose"] = [*position, *quaternion]
+    return robot.equilibrium(**given)
 
 
 def catenary(span: float, rise: float, length: float, weight: float, stiffness: float) -> Catenary:

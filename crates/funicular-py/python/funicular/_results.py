@@ -1,11 +1,34 @@
-"""Results that are columns: plain NumPy arrays with one row a mode or a state."""
+"""Results as plain NumPy arrays, made of the keys of the program's JSON."""
 
+import copy
 import dataclasses
 from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+
+def with_arrays(found: Any) -> Any:
+    """Results with arrays for lists of numbers, and complex arrays for pairs of `real` and `imag`."""
+    if isinstance(found, dict):
+        if found.keys() == {"real", "imag"}:
+            return np.array(found["real"]) + 1j * np.array(found["imag"])
+        return {key: with_arrays(value) for key, value in found.items()}
+    if isinstance(found, list):
+        if found and _are_numbers(found):
+            return np.array(found)
+        return [with_arrays(value) for value in found]
+    return found
+
+
+def _are_numbers(values: list[Any]) -> bool:
+    """Whether these are numbers, or rows of numbers of one length."""
+    if all(isinstance(value, list) for value in values):
+        return len({len(value) for value in values}) == 1 and all(value and _are_numbers(value) for value in values)
+    return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
 
 
 class _Columns:
@@ -69,8 +92,27 @@ class Modes(_Columns):
     cable_model: str
     assembly: str
     in_plane_only: bool
+    input: str | None
+    """Input of the response in which the modes take part; None if none was given."""
+    output: str | None
+    """Output of that response."""
+    residue_per_kg: NDArray[np.float64] | None
+    """Residue of every mode in that response."""
+    peak: NDArray[np.float64] | None
+    """Height of every mode's own peak; NaN for a mode without damping."""
+    peak_unit: str | None
+    station_arc_length_m: NDArray[np.float64] | None
+    """Where along the unstrained cables displacements are known [m], (cables, stations); None without `stations`."""
+    station_position_m: NDArray[np.float64] | None
+    """Where these points are at rest, world axes [m], (cables, stations, 3)."""
+    cable_axes: NDArray[np.float64] | None
+    """Unit vectors along the chord, in plane and out of plane of every cable, world axes, (cables, 3, 3)."""
+    cable_shapes: NDArray[np.float64] | None
+    """Displacements of these points along `cable_axes` in the scale of `shape`, (modes, cables, stations, 3)."""
     warnings: tuple[str, ...]
     """What to know before trusting the result."""
+    found: dict[str, Any]
+    """The result with the keys of the program's JSON."""
 
     def __len__(self) -> int:
         return len(self.frequency_hz)
@@ -86,15 +128,173 @@ class Modes(_Columns):
 
     def to_dict(self) -> dict[str, Any]:
         """The result with the keys of the program's JSON."""
-        from funicular import _tables
-
-        return _tables.modes(self)
+        return copy.deepcopy(self.found)
 
     def to_pandas(self) -> Any:
         """One row a mode, as a table of pandas, which has to be installed."""
         from funicular import _tables
 
         return _tables.modes_table(self)
+
+
+def modes(found: dict[str, Any]) -> Modes:
+    """The columns of a list of modes."""
+    rows, stations = found["modes"], found.get("stations")
+    cables = found["cable_names"]
+
+    def column(key: str) -> NDArray[np.float64]:
+        return np.array([row.get(key, np.nan) for row in rows], dtype=float)
+
+    def table(key: str, width: int) -> NDArray[np.float64]:
+        return np.array([row[key] for row in rows], dtype=float).reshape(len(rows), width)
+
+    def of_stations(key: str) -> NDArray[np.float64] | None:
+        return np.array([of[key] for of in stations], dtype=float) if stations else None
+
+    eigenvalues, shapes, axes = None, None, None
+    if "damped_certified" in found:
+        pairs = table("eigenvalue_per_s", 2)
+        eigenvalues = np.empty(len(rows), dtype=complex)
+        eigenvalues.real, eigenvalues.imag = pairs[:, 0], pairs[:, 1]
+    if stations:
+        count = len(stations[0]["arc_length_m"])
+        shapes = np.array([row["cable_shapes"] for row in rows], dtype=float).reshape(len(rows), len(cables), count, 3)
+        axes = np.array([[of["axes"][axis] for axis in "enb"] for of in stations], dtype=float)
+    takes_part = "peak_unit" in found
+    return Modes(
+        frequency_hz=column("frequency_hz"),
+        multiplicity=np.array([row["multiplicity"] for row in rows], dtype=np.int64),
+        damping_ratio=column("damping_ratio"),
+        eigenvalue_per_s=eigenvalues,
+        kind=np.array([row["kind"] for row in rows], dtype="U8"),
+        platform_energy_fraction=column("platform_energy_fraction"),
+        cable_energy_fractions=table("cable_energy_fractions", len(cables)),
+        shape=table("shape", 6),
+        modal_mass_kg=column("modal_mass_kg"),
+        residual=column("residual"),
+        damped_certified=found.get("damped_certified"),
+        cable_names=tuple(cables),
+        input=found.get("input"),
+        output=found.get("output"),
+        residue_per_kg=column("residue_per_kg") if takes_part else None,
+        peak=column("peak") if takes_part else None,
+        peak_unit=found.get("peak_unit"),
+        station_arc_length_m=of_stations("arc_length_m"),
+        station_position_m=of_stations("position_m"),
+        cable_axes=axes,
+        cable_shapes=shapes,
+        warnings=tuple(found["warnings"]),
+        found=found,
+        **{key: found[key] for key in _SAME},
+    )
+
+
+# Keys of the results that are attributes of `Modes` as they are.
+_SAME = (
+    *("below_hz", "count_below", "certified", "unstable_directions"),
+    *("robot", "static_model", "cable_model", "assembly", "in_plane_only"),
+)
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ReducedModel(_Columns):
+    """A second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`."""
+
+    mass: NDArray[np.float64]
+    """M, (n, n)."""
+    damping: NDArray[np.float64]
+    """C, (n, n)."""
+    stiffness: NDArray[np.float64]
+    """K, (n, n)."""
+    input: NDArray[np.float64]
+    """B, (n, inputs)."""
+    output: NDArray[np.float64]
+    """L, (outputs, n): displacements and rotations, whatever an output measures of its motion."""
+    a: NDArray[np.float64]
+    b: NDArray[np.float64]
+    c: NDArray[np.float64]
+    d: NDArray[np.float64]
+    """Matrices of x' = A x + B f, y = C x + D f, the state being motion and velocity."""
+    inputs: tuple[str, ...]
+    """Names of the inputs."""
+    outputs: tuple[str, ...]
+    """Names of the outputs."""
+    below_hz: float
+    """Highest frequency that it is for [Hz]."""
+    frequency_error: float
+    """Largest relative error of a natural frequency below the limit."""
+    truncation_error: float | None
+    """Largest relative error of the responses by modes left out; None where an undamped robot has none."""
+    damping_error: float | None
+    """Largest relative error of the responses by viscous damping; None where an undamped robot has none."""
+    found: dict[str, Any]
+    """Its description with the keys of the program's JSON: units, coordinates, models."""
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know before trusting the model."""
+        return tuple(self.found["warnings"])
+
+    def state_space(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """A, B, C, D of x' = A x + B f, y = C x + D f."""
+        return self.a, self.b, self.c, self.d
+
+    def to_scipy(self) -> Any:
+        """The model as `scipy.signal.StateSpace`; SciPy has to be installed."""
+        try:
+            from scipy import signal
+        except ImportError as error:
+            raise ImportError("this model needs SciPy: pip install 'funicular[scipy]'") from error
+        return signal.StateSpace(*self.state_space())
+
+    def to_control(self) -> Any:
+        """The model as `control.StateSpace` with named inputs and outputs; python-control has to be installed."""
+        try:
+            import control
+        except ImportError as error:
+            raise ImportError("this model needs python-control: pip install 'funicular[control]'") from error
+        return control.StateSpace(*self.state_space(), inputs=list(self.inputs), outputs=list(self.outputs))
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the matrices to a NumPy archive (.npz) with the names of the program's `--model`."""
+        from funicular._errors import InputError
+
+        if Path(path).suffix.lower() != ".npz":
+            raise InputError(f"`path` is {path}: it must end in .npz")
+        np.savez(
+            path,
+            M=self.mass,
+            C=self.damping,
+            K=self.stiffness,
+            B=self.input,
+            L=self.output,
+            ss_A=self.a,
+            ss_B=self.b,
+            ss_C=self.c,
+            ss_D=self.d,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The description with the keys of the program's JSON."""
+        return copy.deepcopy(self.found)
+
+    def __repr__(self) -> str:
+        size = f"{len(self.mass)} coordinates, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
+        return f"<ReducedModel: {size}, below {self.below_hz:g} Hz>"
+
+
+def reduced(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]]) -> ReducedModel:
+    """A model of its description and its matrices."""
+    return ReducedModel(
+        inputs=tuple(of["name"] for of in found["inputs"]),
+        outputs=tuple(of["name"] for of in found["outputs"]),
+        below_hz=found["below_hz"],
+        frequency_error=found["frequency_error"],
+        truncation_error=found.get("truncation_error"),
+        damping_error=found.get("damping_error"),
+        found=found,
+        **matrices,
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

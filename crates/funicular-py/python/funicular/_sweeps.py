@@ -7,13 +7,16 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from os import PathLike
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from funicular._errors import InputError
-from funicular._funicular import Robot, SweepPlan, SweepTable
+from funicular._funicular import Robot, SweepPlan, SweepTable, plot_page
+
+if TYPE_CHECKING:
+    from funicular._pages import Page
 
 Progress = Callable[[int, int], object]
 
@@ -141,7 +144,7 @@ class Sweep:
         if len(self) != math.prod(shape):
             raise InputError(
                 f"this is a part of a grid: {len(self)} of {math.prod(shape)} rows are there; merge the parts "
-                "(`funicular merge`)"
+                "(`funicular.merge`)"
             )
         return self.columns[name].reshape(shape)
 
@@ -174,6 +177,18 @@ class Sweep:
     def write(self, path: str | PathLike[str]) -> None:
         """Writes .parquet, .csv or .vti (for ParaView), as a whole or not at all."""
         self._table.write(Path(path))
+
+    def plot(self, path: str | PathLike[str] | None = None) -> "Page":
+        """A page in HTML with pictures of the rows, which notebooks show: the program's `plot`; `path` writes it, too."""
+        from funicular import _pages
+
+        call = f"funicular.Sweep.read({str(self.file or 'rows.parquet')!r}).plot({str(path)!r})"
+        if self.file is not None and self.file.suffix.lower() == ".parquet":
+            return _pages.page(*plot_page(self.file, str(self.file), call), path)
+        with tempfile.TemporaryDirectory() as folder:
+            rows = Path(folder) / "rows.parquet"
+            self._table.write(rows)
+            return _pages.page(*plot_page(rows, "rows in memory", call), path)
 
     def __len__(self) -> int:
         return self._table.rows
@@ -213,7 +228,7 @@ def run(
     *,
     file: Path | None,
     resume: bool,
-    force: bool,
+    discard: bool,
     threads: int | None,
     executor: Executor | Callable[[], Executor] | None,
     chunks_per_task: int | None,
@@ -228,7 +243,7 @@ def run(
         raise InputError("`chunks_per_task` goes with `executor`")
     if chunks_per_task is not None and chunks_per_task < 1:
         raise InputError(f"`chunks_per_task` is {chunks_per_task}: give at least one")
-    work = plan.begin(file, resume, force)
+    work = plan.begin(file, resume, discard)
     if work is None:
         return Sweep(None, file)
     if executor is not None:

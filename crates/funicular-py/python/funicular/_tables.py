@@ -1,4 +1,4 @@
-"""Results as dictionaries with the keys of the program's JSON, and as tables of pandas."""
+"""Results as tables of pandas."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -20,80 +20,12 @@ def _pandas() -> Any:
     return pandas
 
 
-def _present(values: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in values.items() if value is not None}
-
-
-def statics(of: "Equilibrium") -> dict[str, Any]:
-    pose = of.pose
-    return _present(
-        {
-            "static_model": of.model,
-            "mass_kg": of.robot.mass_kg,
-            "pose": {
-                "position_m": pose.position_m.tolist(),
-                "quaternion_wxyz": pose.quaternion_wxyz.tolist(),
-                "roll_pitch_yaw_deg": pose.roll_pitch_yaw_deg.tolist(),
-            },
-            "nearest_pose_distance_m": of.nearest_pose_distance_m,
-            "tension_rule": of.tension_rule,
-            "cables": of.cables,
-            "residual": of.residual,
-            "iterations": of.iterations,
-            "stable": of.stable,
-            "least_stiffness_n_per_m": of.least_stiffness_n_per_m,
-            "warnings": of.warnings,
-        }
-    )
-
-
 def cables(of: "Equilibrium") -> Any:
     rows = []
     for cable in of.cables:
         force = cable.pop("force_on_platform_n")
         rows.append(cable | {f"force_on_platform_{axis}_n": part for axis, part in zip("xyz", force, strict=True)})
     return _pandas().DataFrame(rows).set_index("name")
-
-
-def modes(of: "Modes") -> dict[str, Any]:
-    rows = []
-    for i in range(len(of)):
-        row: dict[str, Any] = {
-            "frequency_hz": float(of.frequency_hz[i]),
-            "multiplicity": int(of.multiplicity[i]),
-            "damping_ratio": float(of.damping_ratio[i]),
-        }
-        if of.eigenvalue_per_s is not None:
-            eigenvalue = complex(of.eigenvalue_per_s[i])
-            row["eigenvalue_per_s"] = [eigenvalue.real, eigenvalue.imag]
-        rows.append(
-            row
-            | {
-                "kind": str(of.kind[i]),
-                "platform_energy_fraction": float(of.platform_energy_fraction[i]),
-                "cable_energy_fractions": of.cable_energy_fractions[i].tolist(),
-                "shape": of.shape[i].tolist(),
-                "modal_mass_kg": float(of.modal_mass_kg[i]),
-                "residual": float(of.residual[i]),
-            }
-        )
-    return _present(
-        {
-            "robot": of.robot,
-            "below_hz": of.below_hz,
-            "static_model": of.static_model,
-            "cable_model": of.cable_model,
-            "assembly": of.assembly,
-            "in_plane_only": of.in_plane_only,
-            "count_below": of.count_below,
-            "certified": of.certified,
-            "unstable_directions": of.unstable_directions,
-            "damped_certified": of.damped_certified,
-            "cable_names": list(of.cable_names),
-            "modes": rows,
-            "warnings": list(of.warnings),
-        }
-    )
 
 
 def modes_table(of: "Modes") -> Any:
@@ -107,6 +39,8 @@ def modes_table(of: "Modes") -> Any:
     columns |= {"kind": of.kind, "platform_energy_fraction": of.platform_energy_fraction}
     columns |= {f"shape_{motion}": of.shape[:, i] for i, motion in enumerate(_MOTIONS)}
     columns |= {"modal_mass_kg": of.modal_mass_kg, "residual": of.residual}
+    if of.peak is not None:
+        columns |= {"residue_per_kg": of.residue_per_kg, "peak": of.peak}
     columns |= {
         f"energy_fraction_cable_{name}": of.cable_energy_fractions[:, i] for i, name in enumerate(of.cable_names)
     }

@@ -74,7 +74,7 @@ impl PyWork {
     #[getter]
     fn done(&mut self) -> PyResult<usize> {
         let next = self.open()?.next();
-        Ok(self.whole.record.rows_of(0..next))
+        Ok(self.whole.done(next))
     }
 
     /// The file that holds the rows until the end; None in memory.
@@ -111,13 +111,13 @@ impl PyWork {
         let threads = Threads::of(threads);
         let whole = Arc::clone(&self.whole);
         let into = self.open()?;
-        let chunks = into.next()..whole.record.chunks();
+        let chunks = into.next()..whole.record.range().end;
         let done = AtomicUsize::new(chunks.start);
         let mut told = Instant::now();
         let tell = || match &progress {
             None => Ok(()),
             Some(progress) => Python::attach(|py| {
-                progress.call1(py, (whole.record.rows_of(0..done.load(Ordering::Relaxed)), whole.record.rows)).map(drop)
+                progress.call1(py, (whole.done(done.load(Ordering::Relaxed)), whole.rows())).map(drop)
             }),
         };
         py.detach(|| {
@@ -142,7 +142,7 @@ impl PyWork {
 
     /// Ends it: writes the file, as a whole. The table of rows; None where that would be read from a Parquet file.
     fn finish(&mut self, py: Python<'_>) -> PyResult<Option<PyTable>> {
-        if self.open()?.next() < self.whole.record.chunks() {
+        if self.open()?.next() < self.whole.record.range().end {
             return Err(PyValueError::new_err("chunks are missing"));
         }
         let into = self.into.take().ok_or_else(ended)?;

@@ -7,9 +7,14 @@
 //! space, whatever the robot (theory, section 16). A list with another sum lacks an equilibrium; one with this sum may
 //! still lack a pair.
 
-use super::forward::{Search, elastic};
-use super::{Equilibrium, StaticModel, StaticsError, check_lengths, distance, forward};
+use super::equilibrium::Equilibrium;
+use super::error::StaticsError;
+use super::forward::{AT_REST, Search, elastic, forward};
+use super::model::StaticModel;
+use super::nearest::distance;
+use super::residual::check_lengths;
 use crate::math::{Vec3, inertia};
+use crate::platform::load_size;
 use crate::robot::{Freedoms, Pose, Robot};
 use std::f64::consts::TAU;
 
@@ -220,8 +225,8 @@ impl<'a> Hunt<'a> {
         let search = Search::new(self.robot, self.lengths, self.model, &start);
         let mut here = search.at(start);
         let mut steps = 0;
-        while here.residual > 1e-13 {
-            let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.freedoms.count());
+        while here.residual > AT_REST {
+            let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.coordinates.count());
             let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {
                 return None;
@@ -234,7 +239,7 @@ impl<'a> Hunt<'a> {
                     vector * (vector.dot(&here.wrench) / curvature)
                 })
                 .sum();
-            let next = search.at(search.moved(&here.pose, &search.limited(&here, &step).0));
+            let next = search.at(search.coordinates.moved(&here.pose, &search.limited(&here, &step).0));
             let near = here.residual < here.limit;
             if near && next.residual >= here.residual {
                 break;
@@ -252,7 +257,7 @@ impl<'a> Hunt<'a> {
     fn take(&mut self, equilibrium: &Equilibrium) -> bool {
         let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
         let trial = search.at(equilibrium.pose);
-        let (values, _) = inertia::eigen(&search.stiffness(&trial), search.freedoms.count());
+        let (values, _) = inertia::eigen(&search.stiffness(&trial), search.coordinates.count());
         let zero = INDIFFERENT * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let falling = values.iter().filter(|value| **value < -zero).count();
         let indifferent = values.iter().filter(|value| value.abs() <= zero).count();
@@ -277,7 +282,7 @@ impl<'a> Hunt<'a> {
 
     /// Two energies are one but for rounding [J].
     fn level(&self, a: f64, b: f64) -> bool {
-        let scale = super::load_size(self.robot) * self.size;
+        let scale = load_size(self.robot) * self.size;
         (a - b).abs() <= 1e-9 * (a.abs() + b.abs() + scale)
     }
 

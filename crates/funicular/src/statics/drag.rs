@@ -1,7 +1,10 @@
 //! The stiffness that the drag of the wind adds because it turns with the cables.
 
-use super::{Equilibrium, StaticModel, add_congruent, scaled, tangent_stiffness};
+use super::equilibrium::Equilibrium;
+use super::model::StaticModel;
+use super::stiffness::tangent_stiffness;
 use crate::math::Mat6;
+use crate::platform::{Coordinates, add_congruent};
 use crate::robot::Robot;
 
 /// Derivative `−∂wrench/∂(δp, δθ)` at an equilibrium with a drag of the wind that turns with the cables: what a small slow
@@ -49,14 +52,13 @@ pub fn drag_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> 
             add_congruent(&mut total, &(hanging.force_by_load_w() * turn), &cable.lever_w);
         }
     }
-    let freedoms = &robot.platform.freedoms;
-    Some(freedoms.expanded_matrix(&freedoms.reduced_matrix(&total)))
+    Some(Coordinates::of(robot).allowed_matrix(&total))
 }
 
 /// Size of the antisymmetric part of a stiffness over the size of the whole: Frobenius norms of the scaled matrices
 /// (theory (3)), moments over ℓ and rotations times ℓ.
 pub fn antisymmetric_part(robot: &Robot, stiffness: &Mat6) -> f64 {
-    let matrix = scaled(stiffness, robot.platform_length());
+    let matrix = Coordinates::of(robot).scale_matrix(stiffness);
     let size = matrix.norm();
     if size > 0.0 { 0.5 * (matrix - matrix.transpose()).norm() / size } else { 0.0 }
 }
@@ -70,9 +72,9 @@ pub fn antisymmetric_part(robot: &Robot, stiffness: &Mat6) -> f64 {
 pub fn drag_effect(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
     let turn = drag_stiffness(robot, equilibrium)?;
     let whole = tangent_stiffness(robot, equilibrium)? + turn;
-    let freedoms = &robot.platform.freedoms;
-    let [turn, mut whole] = [turn, whole].map(|k| freedoms.reduced_matrix(&scaled(&k, robot.platform_length())));
-    (freedoms.count()..6).for_each(|k| whole[(k, k)] = 1.0);
+    let coordinates = Coordinates::of(robot);
+    let [turn, mut whole] = [turn, whole].map(|k| coordinates.reduce_matrix(&k));
+    (coordinates.count()..6).for_each(|k| whole[(k, k)] = 1.0);
     let effect = (whole.try_inverse()? * turn).singular_values().max();
     effect.is_finite().then_some(effect)
 }

@@ -1,6 +1,6 @@
 //! Potential energy of a robot at a pose.
 
-use super::Equilibrium;
+use super::equilibrium::Equilibrium;
 use crate::catenary::space::HangingCable;
 use crate::robot::{Pose, Robot};
 

@@ -1,13 +1,17 @@
 //! Unstrained lengths to pose.
 
-use super::{
-    CableState, Equilibrium, LoadedCable, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability, StaticModel,
-    StaticsError, assembled, balance, check_lengths, collect, elastic_rounding, energy, load_size, load_wrench,
-    residual_of, scaled, scaled_residual, scaled_wrench, start, wrench_of,
-};
+use super::collect::collect;
+use super::equilibrium::{Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT};
+use super::error::StaticsError;
+use super::loaded_cable::LoadedCable;
+use super::model::StaticModel;
+use super::residual::{check_lengths, elastic_rounding, scaled_residual};
+use super::stiffness::assembled;
+use super::{energy, ideal, start};
 use crate::catenary::space::HangingCable;
-use crate::math::{Mat6, Vec3, Vec6, inertia};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::math::{Mat6, Vec6, inertia};
+use crate::platform::{Coordinates, balance, load_size};
+use crate::robot::{Pose, Robot};
 
 /// Limit of iterations. Robots of the library take 4 to 12; random ones whose platform slides down a narrow valley of
 /// stiff ropes, some of them slack, up to 450.
@@ -50,7 +54,7 @@ pub fn forward(
     }
     let pose = start.copied().unwrap_or_else(|| start::pose_from_lengths(robot, lengths));
     match model {
-        StaticModel::Ideal => ideal(robot, lengths, pose),
+        StaticModel::Ideal => ideal::forward(robot, lengths, pose),
         StaticModel::Spring | StaticModel::Catenary => elastic(robot, lengths, model, pose),
     }
 }
@@ -73,11 +77,10 @@ pub(super) struct Search<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
     /// The cables; the drag of the wind is that of one pose, so that all loads have a potential.
-    loaded: Vec<LoadedCable>,
-    ell: f64,
+    loaded: Vec<LoadedCable<'a>>,
     /// Force that rounding of chords leaves [N].
     rounding: f64,
-    pub(super) freedoms: Freedoms,
+    pub(super) coordinates: Coordinates,
     /// The platform may turn; else its orientation is held.
     pub(super) turns: bool,
 }
@@ -86,8 +89,8 @@ impl<'a> Search<'a> {
     /// With the drag that the cables have at `pose`.
     pub(super) fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, pose: &Pose) -> Self {
         let loaded = LoadedCable::all(robot, pose, model);
-        let (ell, freedoms) = (robot.platform_length(), robot.platform.freedoms);
-        Self { robot, lengths, loaded, ell, rounding: elastic_rounding(robot), freedoms, turns: true }
+        let (coordinates, rounding) = (Coordinates::of(robot), elastic_rounding(robot));
+        Self { robot, lengths, loaded, rounding, coordinates, turns: true }
     }
 
     pub(super) fn at(&self, pose: Pose) -> Trial {
@@ -97,9 +100,9 @@ impl<'a> Search<'a> {
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
         let energy = energy::of_parts(self.robot, &pose, cables.iter());
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
-        let residual = scaled_residual(self.robot, &wrench, force_scale);
+        let residual = scaled_residual(&self.coordinates, &wrench, force_scale);
         let limit = if force_scale > 0.0 { RESIDUAL_LIMIT.max(self.rounding / force_scale) } else { RESIDUAL_LIMIT };
-        let wrench = self.freedoms.reduced(&scaled_wrench(&wrench, self.ell));
+        let wrench = self.coordinates.reduce(&wrench);
         Trial { pose, cables, wrench, residual, limit, energy }
     }
 
@@ -141,8 +144,9 @@ impl<'a> Search<'a> {
         let parts =
             trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
-        let mut total = self.freedoms.reduced_matrix(&scaled(&((total + total.transpose()) * 0.5), self.ell));
-        for row in (0..6).filter(|&k| k >= self.freedoms.count() || !self.turns && self.freedoms.is_rotation(k)) {
+        let mut total = self.coordinates.reduce_symmetric(&total);
+        let freedoms = self.coordinates.freedoms();
+        for row in (0..6).filter(|&k| k >= freedoms.count() || !self.turns && freedoms.is_rotation(k)) {
             total.row_mut(row).fill(0.0);
             total.column_mut(row).fill(0.0);
             total[(row, row)] = 1.0;
@@ -152,15 +156,14 @@ impl<'a> Search<'a> {
 
     /// Work of the load's moment along a step; a moment that stays fixed in the world has no energy.
     fn work(&self, step: &Vec6) -> f64 {
-        let step = self.freedoms.expanded(step);
-        self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.ell
-    }
-
-    pub(super) fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
-        let step = self.freedoms.expanded(step);
-        pose.moved(&Vec3::new(step[0], step[1], step[2]), &(Vec3::new(step[3], step[4], step[5]) / self.ell))
+        let step = self.coordinates.expand(step);
+        self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.coordinates.ell()
     }
 }
+
+/// Scaled residual at which a search ends at once. Rounding leaves 1e-15 to 1e-12: where it leaves more than this, the
+/// search ends when no step betters the residual.
+pub(super) const AT_REST: f64 = 1e-13;
 
 /// Limit of rounds in which the drag of the wind follows the cables; each gains a factor, see theory, section 15.
 const MOST_ROUNDS: usize = 100;
@@ -181,7 +184,7 @@ pub(super) fn elastic(
         for _ in 0..MOST_ROUNDS {
             search = Search::new(robot, lengths, model, &here.pose);
             here = search.at(here.pose);
-            if here.residual < 1e-13 || (here.residual < here.limit && here.residual > 0.5 * last) {
+            if here.residual < AT_REST || (here.residual < here.limit && here.residual > 0.5 * last) {
                 break;
             }
             last = here.residual;
@@ -204,6 +207,17 @@ const REACH: f64 = 0.2;
 /// twice as long as unstrained for it, so that it changes no search of a robot near its place.
 const FAR_REACH: f64 = 0.1;
 
+/// Angle that the platform may turn by in one step [rad]. Large turns are taken in several: at a whole radian a rotation
+/// differs from its first order by half of itself.
+const MAX_TURN: f64 = 0.5;
+
+/// Part of the work expected of a step, to first order, that the energy has to fall by (Armijo's condition). Of a quadratic
+/// energy a full step of Newton's method gains one half, a step at the edge of divergence nothing.
+const ARMIJO: f64 = 1e-4;
+
+/// Saddles that one search leaves; each time the energy falls, so that none is met twice.
+const MAX_ESCAPES: usize = 3;
+
 impl Search<'_> {
     /// A step from a place cut to what may be taken at once, and how many times that it was: half a radian, a fifth of
     /// the mean cable or a tenth of the mean distance.
@@ -211,21 +225,22 @@ impl Search<'_> {
         let lengths: f64 = self.lengths.iter().sum();
         let chords: f64 = from.cables.iter().map(|cable| cable.chord_w().norm()).sum();
         let reach = (REACH * lengths).max(FAR_REACH * chords) / self.lengths.len() as f64;
-        let motion = self.freedoms.expanded(step);
-        let length =
-            (motion.fixed_rows::<3>(0).norm() / reach).max(motion.fixed_rows::<3>(3).norm() / (0.5 * self.ell));
+        let motion = self.coordinates.expand(step);
+        let length = (motion.fixed_rows::<3>(0).norm() / reach)
+            .max(motion.fixed_rows::<3>(3).norm() / (MAX_TURN * self.coordinates.ell()));
         (if length > 1.0 { step / length } else { *step }, length)
     }
 
     /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
     pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
-        let stiffest: f64 = self.loaded.iter().map(|cable| cable.axial_stiffness).sum();
+        let stiffest: f64 = self.loaded.iter().map(LoadedCable::axial_stiffness).sum();
         let least_diagonal = 1e-9 * stiffest / self.lengths.iter().copied().fold(0.0, f64::max);
         let mut here = self.at(start);
         let mut shift = 0.0;
         let (mut refused, mut exhausted) = (false, false);
         let mut escapes = 0;
         let mut iterations = 0;
+
         while iterations < MOST_ITERATIONS {
             iterations += 1;
             let stiffness = self.stiffness(&here);
@@ -234,10 +249,12 @@ impl Search<'_> {
                 // The last digits are those of Newton's method alone.
                 shift = 0.0;
             }
-            if here.residual < 1e-13 || (near && exhausted) {
-                // A rest point. If it is a saddle, leave it along its weakest direction: the energy falls both ways.
-                if escapes < 3
-                    && inertia::negative_eigenvalues(&stiffness, self.freedoms.count()) > 0
+
+            // The end, unless the place is a saddle.
+            if here.residual < AT_REST || (near && exhausted) {
+                // A saddle is left along its weakest direction: the energy falls both ways.
+                if escapes < MAX_ESCAPES
+                    && inertia::negative_eigenvalues(&stiffness, self.coordinates.count()) > 0
                     && let Some(lower) = descend_from_saddle(self, &here, &stiffness)
                 {
                     escapes += 1;
@@ -246,15 +263,19 @@ impl Search<'_> {
                 }
                 break;
             }
-            // Where all cables are slack there is no stiffness to compare with.
+
+            // The step. Where all cables are slack there is no stiffness to compare with.
             let diagonal = stiffness.diagonal().amax().max(least_diagonal);
             let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
             let (step, length) = self.limited(&here, &step);
-            let next = self.at(self.moved(&here.pose, &step));
-            // Near rest the energy drowns in rounding; there the residual decides.
+            let next = self.at(self.coordinates.moved(&here.pose, &step));
+
+            // Whether it is a gain. Near rest the energy drowns in rounding; there the residual decides.
             let expected = step.dot(&here.wrench);
-            let lower = next.energy - self.work(&step) < here.energy - 1e-4 * expected;
+            let lower = next.energy - self.work(&step) < here.energy - ARMIJO * expected;
             let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
+
+            // Taken, or tried again with a larger shift.
             if next.residual.is_finite() && (lower || quieter) {
                 // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
                 // necessary still is.
@@ -281,6 +302,7 @@ impl Search<'_> {
                 }
             }
         }
+
         (here, iterations)
     }
 }
@@ -298,141 +320,17 @@ fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64)
 
 /// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
 fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
-    let (values, vectors) = inertia::eigen(stiffness, search.freedoms.count());
+    let (values, vectors) = inertia::eigen(stiffness, search.coordinates.count());
     let noise = 1e-10 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
         return None;
     }
     [0.3, -0.3, 0.1, -0.1, 0.01, -0.01]
         .into_iter()
-        .map(|part| vectors[0] * (part * search.ell))
-        .map(|step| (search.at(search.moved(&here.pose, &step)), search.work(&step)))
+        .map(|part| vectors[0] * (part * search.coordinates.ell()))
+        .map(|step| (search.at(search.coordinates.moved(&here.pose, &step)), search.work(&step)))
         .map(|(trial, work)| (trial.energy - work, trial))
         .filter(|(energy, trial)| *energy < here.energy && trial.residual.is_finite())
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, trial)| trial)
-}
-
-/// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
-fn ideal(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, StaticsError> {
-    let ell = robot.platform_length();
-    let mut pose = start;
-    let mut iterations = 0;
-    let gap_of = |pose: &Pose| {
-        robot.cables.iter().zip(lengths).fold(0.0_f64, |worst, (cable, length)| {
-            worst.max(((cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() - length).abs())
-        })
-    };
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
-    let mut gap = gap_of(&pose);
-    while gap > 1e-14 * longest && iterations < 100 {
-        iterations += 1;
-        let columns = unit_wrenches(robot, &pose, ell);
-        let rows = columns.transpose();
-        let gaps = Vec6::from_fn(|i, _| match (robot.cables.get(i), lengths.get(i)) {
-            (Some(cable), Some(length)) => (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() - length,
-            _ => 0.0,
-        });
-        let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
-        let step = robot.platform.freedoms.expanded(&step);
-        // Halve the step until the gap falls.
-        let mut part = 1.0;
-        let next = loop {
-            let translation = Vec3::new(step[0], step[1], step[2]) * part;
-            let turn = Vec3::new(step[3], step[4], step[5]) * (part / ell);
-            let next = pose.moved(&translation, &turn);
-            if gap_of(&next) < gap {
-                break Some(next);
-            }
-            part *= 0.5;
-            if part < 1e-6 {
-                break None;
-            }
-        };
-        let Some(next) = next else { break };
-        pose = next;
-        gap = gap_of(&pose);
-    }
-    if gap > 1e-10 * longest {
-        let p = pose.position_w;
-        let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
-        return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
-    }
-    let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
-    if let Some((i, tension)) = pushing(&tensions) {
-        let (cable, p) = (robot.cables[i].name.clone(), pose.position_w);
-        return Err(StaticsError::LengthsPush { cable, tension, x: p.x, y: p.y, z: p.z });
-    }
-    Ok(collect_ideal(robot, pose, &tensions, iterations))
-}
-
-/// Part of the largest tension that is rounding of the balance: of a cable with a tension of zero it has the wrong sign
-/// as often as not. The condition of the balance, which is up to 1e10, may take more; then the pose is nearly singular.
-const ZERO_TENSION: f64 = 1e-12;
-
-/// The straight cable that would have to push hardest, and its tension [N], if there is one.
-pub(super) fn pushing(tensions: &[f64]) -> Option<(usize, f64)> {
-    let largest = tensions.iter().fold(0.0, |most: f64, tension| most.max(tension.abs()));
-    let least = tensions.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-    least.filter(|(_, tension)| *tension < -ZERO_TENSION * largest)
-}
-
-/// Unit tension wrenches (e, r × e/ℓ) of straight cables in the platform's coordinates as columns; the identity beyond
-/// them.
-fn unit_wrenches(robot: &Robot, pose: &Pose, ell: f64) -> Mat6 {
-    let mut columns = Mat6::identity();
-    for (i, cable) in robot.cables.iter().enumerate().take(6) {
-        let lever = pose.rot_wp * cable.attachment_p;
-        let e = (cable.anchor_w - pose.position_w - lever).normalize();
-        columns.set_column(i, &robot.platform.freedoms.reduced(&wrench_of(&e, &(lever / ell))));
-    }
-    columns
-}
-
-/// Tensions of straight cables, as many as freedoms, that balance a wrench about the platform origin.
-pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Result<Vec<f64>, StaticsError> {
-    for cable in &robot.cables {
-        if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
-            return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
-        }
-    }
-    let ell = robot.platform_length();
-    let right = -robot.platform.freedoms.reduced(&scaled_wrench(load, ell));
-    let columns = unit_wrenches(robot, pose, ell);
-    let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
-    // Frobenius' norms bound the condition from above, and cost a tenth of the singular values.
-    let bound = columns.norm() * inverse.norm();
-    if bound.is_nan() || bound > 1e9 {
-        let singular = columns.svd(false, false).singular_values;
-        if singular.min() < 1e-10 * singular.max() {
-            return Err(StaticsError::Singular);
-        }
-    }
-    let tensions = columns.lu().solve(&right).ok_or(StaticsError::Singular)?;
-    Ok(tensions.iter().copied().take(robot.cables.len()).collect())
-}
-
-/// The equilibrium of ideal cables.
-pub(super) fn collect_ideal(robot: &Robot, pose: Pose, tensions: &[f64], iterations: usize) -> Equilibrium {
-    let cables: Vec<CableState> = robot
-        .cables
-        .iter()
-        .zip(tensions)
-        .map(|(cable, &tension)| {
-            let attachment_w = pose.point_w(&cable.attachment_p);
-            let chord = cable.anchor_w - attachment_w;
-            CableState {
-                attachment_w,
-                lever_w: attachment_w - pose.position_w,
-                anchor_w: cable.anchor_w,
-                unstrained_length: chord.norm(),
-                force_on_platform_w: chord.normalize() * tension,
-                tension_platform: tension,
-                tension_anchor: tension,
-                hanging: None,
-            }
-        })
-        .collect();
-    let residual = residual_of(robot, &pose, &cables);
-    Equilibrium { pose, model: StaticModel::Ideal, cables, residual, iterations, stability: Stability::Rigid }
 }

@@ -2,13 +2,17 @@
 
 mod starts;
 
-use super::forward::{collect_ideal, pushing, straight_tensions};
-use super::{
-    Equilibrium, LoadedCable, RESIDUAL_LIMIT, StaticModel, StaticsError, TensionRule, balance, collect, distribute,
-    load_size, load_wrench, scaled_residual, scaled_wrench, wrench_of,
-};
+use super::collect::collect;
+use super::equilibrium::{Equilibrium, RESIDUAL_LIMIT};
+use super::error::StaticsError;
+use super::ideal::{self, pushing, straight_tensions};
+use super::loaded_cable::{LONGEST, LoadedCable};
+use super::model::StaticModel;
+use super::residual::scaled_residual;
+use super::tension::{TensionRule, distribute};
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
+use crate::platform::{Coordinates, StraightCable, balance, load_size, load_wrench, wrench_of};
 use crate::robot::{Pose, Robot};
 
 /// The unstrained lengths and tensions that hold the platform at a pose.
@@ -45,9 +49,9 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     let mut load = load_wrench(robot, pose);
     let loaded = LoadedCable::all(robot, pose, model);
     for cable in &loaded {
-        let lever = pose.rot_wp * cable.attachment_p;
-        let chord = (cable.anchor_w - pose.position_w - lever).norm();
-        load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &lever);
+        let StraightCable { lever_w, chord_w } = StraightCable::at(cable.cable, pose);
+        let chord = chord_w.norm();
+        load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &lever_w);
     }
     let tensions = match straight_tensions(robot, pose, &load) {
         Err(StaticsError::Singular) if model == StaticModel::Catenary => return slack(robot, pose, &loaded),
@@ -56,7 +60,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     match model {
         StaticModel::Ideal => match pushing(&tensions) {
             Some((i, tension)) => Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension }),
-            None => Ok(collect_ideal(robot, *pose, &tensions, 0)),
+            None => Ok(ideal::collect(robot, *pose, &tensions, 0)),
         },
         StaticModel::Spring => {
             if let Some(i) = weakest(&tensions).filter(|&i| tensions[i] <= 0.0) {
@@ -65,7 +69,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
             let lengths: Vec<f64> = (0..cables)
                 .map(|i| {
                     let cable = &robot.cables[i];
-                    let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+                    let chord = cable.chord_w(pose).norm();
                     chord / (1.0 + tensions[i] / cable.material.axial_stiffness)
                 })
                 .collect();
@@ -81,25 +85,25 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
 /// beside singular poses.
 const OUT_OF_PROPORTION: f64 = 100.0;
 
-/// Unstrained length over chord up to which the search looks for slack cables where straight ones would push. 30,000
-/// random robots that rest with cables up to 1.25 times as long as their chords are all found with 2; poses that only
-/// longer ropes hold are held by their weight alone.
-pub(super) const LONGEST: f64 = 2.0;
-
 fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
 }
 
-fn hang_all(loaded: &[LoadedCable], pose: &Pose, lengths: &[f64]) -> Vec<HangingCable> {
+fn hang_all(loaded: &[LoadedCable<'_>], pose: &Pose, lengths: &[f64]) -> Vec<HangingCable> {
     loaded.iter().zip(lengths).map(|(cable, &length)| cable.hang(pose, length)).collect()
 }
 
-fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64]) -> Result<Equilibrium, StaticsError> {
+fn sagging(
+    robot: &Robot,
+    pose: &Pose,
+    loaded: &[LoadedCable<'_>],
+    straight: &[f64],
+) -> Result<Equilibrium, StaticsError> {
     let start: Vec<HangingCable> = (loaded.iter().zip(straight))
         .map(|(cable, tension)| {
-            let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+            let chord = cable.chord_w(pose).norm();
             // A cable that straight statics finds pushing starts as a deeply sagging one.
-            let least = (0.25 * cable.load.size * chord).max(1e-9 * cable.axial_stiffness);
+            let least = (0.25 * cable.load.size * chord).max(1e-9 * cable.axial_stiffness());
             cable.hang_with_tension(pose, tension.max(least))
         })
         .collect();
@@ -157,13 +161,18 @@ fn sagging(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64])
 ///
 /// A sagging cable pulls as a straight one does, less at most its whole weight. So the straight tensions without the
 /// cables' weights, changed by what the weights can do at most, have to be positive.
-fn is_out_of_reach(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight: &[f64]) -> Result<bool, StaticsError> {
+fn is_out_of_reach(
+    robot: &Robot,
+    pose: &Pose,
+    loaded: &[LoadedCable<'_>],
+    straight: &[f64],
+) -> Result<bool, StaticsError> {
     let mut reach = straight.to_vec();
     let mut sizes: Vec<f64> = straight.iter().map(|tension| tension.abs()).collect();
     for cable in loaded {
-        let lever = pose.rot_wp * cable.attachment_p;
-        let chord = (cable.anchor_w - pose.position_w - lever).norm();
-        let by_weight = straight_tensions(robot, pose, &wrench_of(&-cable.load.up_w, &lever))?;
+        let StraightCable { lever_w, chord_w } = StraightCable::at(cable.cable, pose);
+        let chord = chord_w.norm();
+        let by_weight = straight_tensions(robot, pose, &wrench_of(&-cable.load.up_w, &lever_w))?;
         for ((reach, size), rate) in reach.iter_mut().zip(&mut sizes).zip(by_weight) {
             // The straight tensions have half of the weight of a cable as long as its chord.
             let change = (LONGEST * rate.max(0.0) - 0.5 * rate) * cable.load.size * chord;
@@ -175,7 +184,7 @@ fn is_out_of_reach(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], straight:
 }
 
 /// Cables whose chords do not span the freedoms: sagging ones may, since they do not pull along their chords.
-fn slack(robot: &Robot, pose: &Pose, loaded: &[LoadedCable]) -> Result<Equilibrium, StaticsError> {
+fn slack(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>]) -> Result<Equilibrium, StaticsError> {
     let limit = OUT_OF_PROPORTION * load_size(robot);
     let accept = |found: &Balanced| found.residual <= RESIDUAL_LIMIT && found.strongest() <= limit;
     match starts::search(robot, pose, loaded, accept) {
@@ -209,22 +218,22 @@ fn balanced(
     mut hanging: Vec<HangingCable>,
     step: fn(&HangingCable, f64) -> HangingCable,
 ) -> Balanced {
-    let ell = robot.platform_length();
-    let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
+    let coordinates = Coordinates::of(robot);
+    let (mut wrench, mut residual) = unbalanced(robot, &coordinates, pose, &hanging);
     let mut iterations = 0;
     let mut damping = 1.0;
     while iterations < 100 && residual > 1e-14 {
         iterations += 1;
         let mut columns = Mat6::identity();
         for (i, cable) in hanging.iter().enumerate() {
-            let column = wrench_of(&cable.force_by_length_w(), &((cable.start_w - pose.position_w) / ell));
-            columns.set_column(i, &robot.platform.freedoms.reduced(&column));
+            let lever_w = cable.start_w - pose.position_w;
+            columns.set_column(i, &coordinates.reduce_force(&cable.force_by_length_w(), &lever_w));
         }
-        let right = -robot.platform.freedoms.reduced(&scaled_wrench(&wrench, ell));
+        let right = -coordinates.reduce(&wrench);
         let Some(change) = columns.lu().solve(&right) else { break };
         let next: Vec<HangingCable> =
             (hanging.iter().zip(&change)).map(|(cable, change)| step(cable, damping * change)).collect();
-        let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
+        let (next_wrench, next_residual) = unbalanced(robot, &coordinates, pose, &next);
         if next_residual < residual {
             (hanging, wrench, residual) = (next, next_wrench, next_residual);
             damping = (2.0 * damping).min(1.0);
@@ -241,10 +250,10 @@ fn balanced(
 }
 
 /// Wrench that is left, and its scaled size.
-fn unbalanced(robot: &Robot, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f64) {
+fn unbalanced(robot: &Robot, coordinates: &Coordinates, pose: &Pose, hanging: &[HangingCable]) -> (Vec6, f64) {
     let forces = hanging.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
     let (wrench, scale) = balance(robot, pose, forces);
-    (wrench, scaled_residual(robot, &wrench, scale))
+    (wrench, scaled_residual(coordinates, &wrench, scale))
 }
 
 /// A cable some length longer [m], to first order: forces are nearly linear in the parallel tension where it is taut, but

@@ -1,8 +1,9 @@
 //! Limits of a cable's tension: what they are where the file says nothing, and how far a state is from them.
 
-use super::CableState;
+use super::equilibrium::CableState;
 use crate::math::Vec3;
 use crate::robot::Robot;
+use std::fmt;
 
 /// Part of its weight by which a cable has to be taut where the file has no minimum: a level cable then sags by a
 /// twentieth of its chord, which is where shallow-sag models end ([`crate::cable::SHALLOW_SAG_LIMIT`]).
@@ -100,5 +101,37 @@ impl TensionMargin {
         } else {
             None
         }
+    }
+}
+
+/// Most cables that a message names.
+const MAX_NAMES: usize = 8;
+
+/// How far the best tensions miss the limits, and which they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Miss {
+    /// The least force [N] by which all limits would have to give way for tensions within them to exist.
+    pub by: f64,
+    /// Cables whose minimum is in the way.
+    pub minimum_of: Vec<String>,
+    /// Cables whose maximum is in the way.
+    pub maximum_of: Vec<String>,
+}
+
+impl fmt::Display for Miss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |what: &str, names: &[String]| {
+            let first: Vec<String> = names.iter().take(MAX_NAMES).map(|name| format!("\"{name}\"")).collect();
+            let more = match names.len().saturating_sub(MAX_NAMES) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let plural = if names.len() == 1 { "" } else { "s" };
+            (!names.is_empty()).then(|| format!("the {what} of cable{plural} {}{more}", first.join(", ")))
+        };
+        let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
+        let limits: Vec<String> = limits.into_iter().flatten().collect();
+        write!(f, "by {:.4} N", self.by)?;
+        if limits.is_empty() { Ok(()) } else { write!(f, ", held by {}", limits.join(" and ")) }
     }
 }

@@ -5,12 +5,15 @@
 //! forward statics brings the platform back to the surface, to a stable equilibrium of the new lengths. How the surface
 //! bends is learnt from the steps (Broyden, Fletcher, Goldfarb, Shanno), which start as those of a flat one.
 
+use super::drag::tangent_with_drag;
+use super::equilibrium::{CableState, Equilibrium};
+use super::error::StaticsError;
+use super::forward::forward;
 use super::limits::TensionRange;
-use super::{
-    CableState, Equilibrium, LoadedCable, StaticModel, StaticsError, forward, load_wrench, scaled, scaled_wrench,
-    tangent_with_drag, wrench_of,
-};
-use crate::math::{DMat, Mat6, Vec3, Vec6};
+use super::loaded_cable::LoadedCable;
+use super::model::StaticModel;
+use crate::math::{DMat, Mat6, Vec6};
+use crate::platform::{Coordinates, StraightCable, load_wrench, wrench_of};
 use crate::robot::{Cable, Pose, Robot};
 
 /// An equilibrium near a pose that was asked for.
@@ -84,10 +87,11 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
         return Err(StaticsError::InverseCableCount { cables, freedoms });
     }
     robot.platform.freedoms.check(asked)?;
+    let coordinates = Coordinates::of(robot);
     let mut lengths = first_lengths(robot, asked, model)?;
     let mut here = forward(robot, &lengths, model, Some(asked))?;
     let mut iterations = here.iterations;
-    let size = robot.platform_length() + lengths.iter().copied().fold(0.0, f64::max);
+    let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
     let mut surface = Surface::at(robot, &here);
     let mut missing = gap(robot, &here.pose, asked);
     let (mut bend, mut damping) = (Mat6::identity(), 0.0);
@@ -98,9 +102,7 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
         }
         let (motion, by_length) = surface.step(&missing, &bend, damping);
         let trial: Vec<f64> = lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(0.2 * l)).collect();
-        let motion_w = robot.platform.freedoms.expanded(&motion);
-        let turn = Vec3::new(motion_w[3], motion_w[4], motion_w[5]) / robot.platform_length();
-        let start = here.pose.moved(&Vec3::new(motion_w[0], motion_w[1], motion_w[2]), &turn);
+        let start = coordinates.moved(&here.pose, &motion);
         if let Ok(next) = forward(robot, &trial, model, Some(&start)) {
             iterations += next.iterations;
             let next_missing = gap(robot, &next.pose, asked);
@@ -142,25 +144,23 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
 
 /// Lengths of cables whose tensions balance the platform's load as well as straight cables can, none below its least.
 fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f64>, StaticsError> {
-    let ell = robot.platform_length();
-    let freedoms = &robot.platform.freedoms;
+    let coordinates = Coordinates::of(robot);
     let n = robot.cables.len();
     let mut load = load_wrench(robot, pose);
     let mut columns = DMat::zeros(6, n);
     let mut lines = Vec::with_capacity(n);
     for (i, cable) in robot.cables.iter().enumerate() {
-        let lever = pose.rot_wp * cable.attachment_p;
-        let chord_w = cable.anchor_w - pose.position_w - lever;
-        let chord = chord_w.norm();
+        let straight = StraightCable::at(cable, pose);
+        let chord = straight.chord_w.norm();
         if chord == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
         let line = LoadedCable::at(robot, i, pose, model);
-        load += wrench_of(&(line.load.vector_w() * (0.5 * chord)), &lever);
-        columns.set_column(i, &freedoms.reduced(&wrench_of(&(chord_w / chord), &(lever / ell))));
-        lines.push((line, chord_w));
+        load += wrench_of(&(line.load.vector_w() * (0.5 * chord)), &straight.lever_w);
+        columns.set_column(i, &straight.unit_wrench(&coordinates));
+        lines.push((line, straight.chord_w));
     }
-    let right = -freedoms.reduced(&scaled_wrench(&load, ell));
+    let right = -coordinates.reduce(&load);
     let balanced = columns.svd(true, true).solve(&right, 1e-9).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
     let lengths = (0..n).map(|i| {
         let (line, chord_w) = &lines[i];
@@ -191,17 +191,16 @@ struct Surface {
 
 impl Surface {
     fn at(robot: &Robot, equilibrium: &Equilibrium) -> Self {
-        let ell = robot.platform_length();
-        let freedoms = &robot.platform.freedoms;
-        let (n, m) = (freedoms.count(), equilibrium.cables.len());
+        let coordinates = Coordinates::of(robot);
+        let (n, m) = (coordinates.count(), equilibrium.cables.len());
         let stiffness = tangent_with_drag(robot, equilibrium).expect("the cables are elastic");
-        let stiffness = freedoms.reduced_matrix(&scaled(&stiffness, ell));
+        let stiffness = coordinates.reduce_matrix(&stiffness);
         // Zero rows make it square, so that its right singular vectors are all there are.
         let mut equations = DMat::zeros(n + m, n + m);
         equations.view_mut((0, 0), (n, n)).copy_from(&stiffness.view((0, 0), (n, n)));
         for (i, cable) in equilibrium.cables.iter().enumerate() {
             let hanging = cable.hanging.as_ref().expect("an elastic cable hangs");
-            let column = freedoms.reduced(&wrench_of(&hanging.force_by_length_w(), &(cable.lever_w / ell)));
+            let column = coordinates.reduce_force(&hanging.force_by_length_w(), &cable.lever_w);
             equations.view_mut((0, n + i), (n, 1)).copy_from(&-column.rows(0, n));
         }
         let svd = equations.svd(false, true);

@@ -1,6 +1,12 @@
 //! The equilibrium of a robot at its state, whichever way the state is given.
 
-use super::{Equilibrium, StaticModel, StaticsError, TensionRule, distribute, forward, inverse, nearest};
+use super::equilibrium::Equilibrium;
+use super::error::StaticsError;
+use super::forward::forward;
+use super::inverse::inverse;
+use super::model::StaticModel;
+use super::nearest::nearest;
+use super::tension::{TensionRule, distribute};
 use crate::robot::{Pose, Robot, State};
 
 /// A robot's equilibrium, and how it came about.

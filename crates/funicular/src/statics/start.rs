@@ -1,7 +1,7 @@
 //! A start pose from the lengths alone.
 
-use super::wrench_of;
 use crate::math::{Mat6, Vec3, Vec6};
+use crate::platform::{Coordinates, StraightCable};
 use crate::robot::{Freedoms, Pose, Robot};
 
 /// The pose at which straight cables of the given lengths [m] come closest to closing, in least squares.
@@ -19,21 +19,18 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
         position_w: anchors - up_w * reach.max(0.0).sqrt() - attachments,
         rot_wp: crate::math::Rotation::identity(),
     };
-    let ell = robot.platform_length();
-    let freedoms = robot.platform.freedoms;
-    if let Freedoms::Planar(plane) = freedoms {
+    let coordinates = Coordinates::of(robot);
+    if let Freedoms::Planar(plane) = coordinates.freedoms() {
         pose.position_w -= plane.normal_w() * plane.distance(&pose.position_w);
     }
     let mut damping = 1e-3;
-    let mut gaps = closure(robot, lengths, &pose, freedoms, ell);
+    let mut gaps = closure(robot, lengths, &pose, &coordinates);
     // Only a start is wanted: the gaps need not vanish, sagging cables are longer than the chord.
     for _ in 0..20 {
         let (normal, gradient, cost) = gaps;
         let Some(factor) = (normal + Mat6::identity() * damping).cholesky() else { break };
-        let step = freedoms.expanded(&factor.solve(&gradient));
-        let turn = Vec3::new(step[3], step[4], step[5]) / ell;
-        let next = pose.moved(&Vec3::new(step[0], step[1], step[2]), &turn);
-        let next_gaps = closure(robot, lengths, &next, freedoms, ell);
+        let next = coordinates.moved(&pose, &factor.solve(&gradient));
+        let next_gaps = closure(robot, lengths, &next, &coordinates);
         if next_gaps.2 < cost {
             let gained = cost - next_gaps.2;
             (pose, gaps) = (next, next_gaps);
@@ -52,14 +49,12 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
 }
 
 /// Normal matrix, gradient and cost of the closure gaps `|B − A| − L`, rotations scaled by ℓ.
-fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, freedoms: Freedoms, ell: f64) -> (Mat6, Vec6, f64) {
+fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, coordinates: &Coordinates) -> (Mat6, Vec6, f64) {
     let (mut normal, mut gradient, mut cost) = (Mat6::zeros(), Vec6::zeros(), 0.0);
     for (cable, length) in robot.cables.iter().zip(lengths) {
-        let lever = pose.rot_wp * cable.attachment_p;
-        let chord = cable.anchor_w - pose.position_w - lever;
-        let distance = chord.norm().max(1e-12);
-        let e = chord / distance;
-        let row = freedoms.reduced(&wrench_of(&e, &(lever / ell)));
+        let StraightCable { lever_w, chord_w } = StraightCable::at(cable, pose);
+        let distance = chord_w.norm().max(1e-12);
+        let row = coordinates.reduce_force(&(chord_w / distance), &lever_w);
         let gap = distance - length;
         normal += row * row.transpose();
         gradient += row * gap;

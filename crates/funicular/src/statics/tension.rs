@@ -16,12 +16,15 @@ mod room;
 mod search;
 mod stiffest;
 
-use super::forward::collect_ideal;
-use super::{Equilibrium, StaticModel, StaticsError, collect};
+use super::collect::collect;
+use super::equilibrium::Equilibrium;
+use super::error::StaticsError;
+use super::ideal;
+use super::model::StaticModel;
+use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use line::Line;
 use search::Search;
-use std::fmt;
 
 /// Which of all possible tensions a robot with more cables than freedoms shall have.
 ///
@@ -51,35 +54,6 @@ impl TensionRule {
             Self::Middle => "middle",
             Self::Stiffest => "stiffest",
         }
-    }
-}
-
-/// How far the best tensions miss the limits, and which they are.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Miss {
-    /// The least force [N] by which all limits would have to give way for tensions within them to exist.
-    pub by: f64,
-    /// Cables whose minimum is in the way.
-    pub minimum_of: Vec<String>,
-    /// Cables whose maximum is in the way.
-    pub maximum_of: Vec<String>,
-}
-
-impl fmt::Display for Miss {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let list = |what: &str, names: &[String]| {
-            let first: Vec<String> = names.iter().take(MAX_NAMES).map(|name| format!("\"{name}\"")).collect();
-            let more = match names.len().saturating_sub(MAX_NAMES) {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            let plural = if names.len() == 1 { "" } else { "s" };
-            (!names.is_empty()).then(|| format!("the {what} of cable{plural} {}{more}", first.join(", ")))
-        };
-        let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
-        let limits: Vec<String> = limits.into_iter().flatten().collect();
-        write!(f, "by {:.4} N", self.by)?;
-        if limits.is_empty() { Ok(()) } else { write!(f, ", held by {}", limits.join(" and ")) }
     }
 }
 
@@ -120,12 +94,12 @@ pub fn distribute(
     }
     robot.platform.freedoms.check(pose)?;
     for cable in &robot.cables {
-        if (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm() == 0.0 {
+        if cable.chord_w(pose).norm() == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
     }
-    let ell = robot.platform_length();
-    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, ell)).collect();
+    let coordinates = Coordinates::of(robot);
+    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, coordinates)).collect();
     check(robot, model, rule, &lines)?;
     let mut search = Search::new(robot, pose, lines);
     match rule {
@@ -144,7 +118,7 @@ pub fn distribute(
     let lines = search.into_lines();
     if model == StaticModel::Ideal {
         let tensions: Vec<f64> = lines.iter().map(Line::tau).collect();
-        return Ok(collect_ideal(robot, *pose, &tensions, iterations));
+        return Ok(ideal::collect(robot, *pose, &tensions, iterations));
     }
     let lengths: Vec<f64> = lines.iter().map(|line| line.hanging.catenary.rope().unstrained_length).collect();
     let hanging = lines.into_iter().map(|line| line.hanging).collect();
@@ -154,9 +128,6 @@ pub fn distribute(
 /// Most cables of the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred cables take a third
 /// of a second, two hundred some seconds.
 const MAX_CABLES_TO_STIFFEN: usize = 200;
-
-/// Most cables that a message names.
-const MAX_NAMES: usize = 8;
 
 /// Refuses what no tension can satisfy and what a rule does not know enough for.
 fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) -> Result<(), StaticsError> {

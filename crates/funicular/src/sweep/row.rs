@@ -8,8 +8,9 @@ use super::quantity::{Quantity, has_ideal_pose};
 use super::status::Status;
 use crate::cable::{CableModel, Sag};
 use crate::dynamics::{Dynamics, Linearisation};
-use crate::math::{DMat, Mat6, Vec6, inertia, rotation};
+use crate::math::{DMat, Mat6, Vec6, inertia, rotation, symmetric_part};
 use crate::modes::Kind;
+use crate::platform::Coordinates;
 use crate::pose_error::PoseDifference;
 use crate::robot::{Robot, State};
 use crate::statics::{self, Equilibrium, Stability, StaticModel, StaticsError, TensionRange};
@@ -213,7 +214,7 @@ impl Row<'_> {
         let n = freedoms.count();
         let inverse = statics::tangent_stiffness(self.robot, self.rest).and_then(|stiffness| {
             // Symmetric to rounding; what the turn of the drag adds in wind is not symmetric.
-            let mut whole = (stiffness + stiffness.transpose()) * 0.5;
+            let mut whole = symmetric_part(&stiffness);
             if let Some(turn) = statics::drag_stiffness(self.robot, self.rest) {
                 whole += turn;
             }
@@ -312,17 +313,13 @@ fn not_certified() -> Status {
 /// Least over largest singular value of the matrix of the cables' directions, moments over ℓ, in the platform's
 /// coordinates: 0 at a singular pose, 1 where all freedoms are held alike.
 fn inverse_condition(robot: &Robot, rest: &Equilibrium) -> f64 {
-    let ell = robot.platform_length();
-    let freedoms = &robot.platform.freedoms;
+    let coordinates = Coordinates::of(robot);
     let columns: Vec<Vec6> = rest
         .cables
         .iter()
-        .map(|cable| {
-            let along = (cable.anchor_w - cable.attachment_w).normalize();
-            freedoms.reduced(&statics::wrench_of(&along, &(cable.lever_w / ell)))
-        })
+        .map(|cable| coordinates.reduce_force(&cable.chord_w().normalize(), &cable.lever_w))
         .collect();
-    let matrix = DMat::from_fn(freedoms.count(), columns.len(), |i, j| columns[j][i]);
+    let matrix = DMat::from_fn(coordinates.count(), columns.len(), |i, j| columns[j][i]);
     let values = matrix.singular_values();
     let (least, most) = (values.min(), values.max());
     if most > 0.0 { least / most } else { 0.0 }

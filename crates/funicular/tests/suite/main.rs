@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 #![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)] // published values keep their digits
 
+mod architecture;
 mod cable;
 mod campaign;
 mod catenary;

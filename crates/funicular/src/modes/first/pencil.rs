@@ -9,7 +9,7 @@ use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, Still};
 use crate::math::{Mat6, Vec6};
 use crate::robot::{Freedoms, Robot};
-use crate::statics::{Equilibrium, wrench_of};
+use crate::statics::Equilibrium;
 use pulp::Simd;
 use std::array::from_fn;
 
@@ -38,8 +38,7 @@ const CLOSE_ENOUGH: f64 = 0.2;
 impl Pencil {
     /// None if a cable is none that this way knows.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        let Still { mut constant, mass, ell } = dynamics::still(robot, equilibrium);
-        let motions = robot.platform.freedoms;
+        let Still { mut constant, mass, coordinates } = dynamics::still(robot, equilibrium);
         let mut massive = Vec::with_capacity(equilibrium.cables.len());
         let mut curves = Vec::with_capacity(equilibrium.cables.len());
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -64,14 +63,15 @@ impl Pencil {
                 let (level_w, up_w) = hanging.axes_w();
                 let [cos, sin] = group.axis(lane);
                 let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
-                let lever = equilibrium.cables[cable].lever_w / ell;
-                axes.set(lane, [n, e, e.cross(&n)].map(|u| motions.reduced(&wrench_of(&u, &lever))));
+                let lever = &equilibrium.cables[cable].lever_w;
+                axes.set(lane, [n, e, e.cross(&n)].map(|u| coordinates.reduce_force(&u, lever)));
             }
             arms.push(axes);
             members.push(group.members().iter().map(|at| massive[*at].0).collect());
         }
         let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
-        let (freedoms, cable_count) = (motions.count(), robot.cables.len());
+        let (freedoms, cable_count) = (coordinates.count(), robot.cables.len());
+        let (motions, ell) = (coordinates.freedoms(), coordinates.ell());
         Some(Self { freedoms, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
     }
 

@@ -5,7 +5,7 @@ use super::cables::{Cables, Ends};
 use super::factor::Factor;
 use super::pencil::Pencil;
 use crate::cable::exact::abreast::{Kept, LANES, Lane, place};
-use crate::math::DMat;
+use crate::math::{DMat, symmetric_part};
 use pulp::Simd;
 
 /// How far a search goes.
@@ -260,7 +260,7 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec
     let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
         return Found { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
     };
-    let symmetric = (work + work.transpose()) * 0.5;
+    let symmetric = symmetric_part(work);
     let eigen = (&inverse * symmetric * inverse.transpose()).symmetric_eigen();
     let vectors = inverse.transpose() * &eigen.eigenvectors;
     let mut order: Vec<usize> = (0..count).collect();

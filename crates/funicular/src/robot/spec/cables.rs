@@ -190,7 +190,7 @@ pub(super) fn lengths(reader: &mut Reader, cables: &[CableEntry]) -> Option<Vec<
 pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry], pose: &Pose) {
     for entry in cables {
         let Some(cable) = &entry.cable else { continue };
-        let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+        let chord = cable.chord_w(pose).norm();
         let size = cable.anchor_w.norm() + pose.position_w.norm() + cable.attachment_p.norm();
         if chord <= COINCIDENT * size {
             reader

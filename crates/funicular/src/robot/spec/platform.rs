@@ -1,7 +1,7 @@
 //! `[platform]`: mass, freedoms, and an inertia tensor that a body can have.
 
 use super::read::{Key, Reader, SMALLEST, Section, Sign, Value, is_zero, nearest, shortened};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, symmetric_part};
 use crate::robot::{Freedoms, Plane, Platform};
 use toml::de::DeValue;
 
@@ -224,7 +224,7 @@ fn symmetric(reader: &mut Reader, tensor: &Mat3, elements: &[[&Value; 3]; 3]) ->
             return None;
         }
     }
-    Some((tensor + tensor.transpose()) * 0.5)
+    Some(symmetric_part(tensor))
 }
 
 /// Whether a body can have this tensor: principal moments positive, none larger than the sum of the others.

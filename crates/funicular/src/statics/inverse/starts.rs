@@ -5,9 +5,11 @@
 
 use super::{Balanced, at_tension, balanced, lengthened, tightened, unbalanced};
 use crate::catenary::space::HangingCable;
-use crate::math::{Mat6, Vec6};
+use crate::math::Mat6;
+use crate::platform::{Coordinates, load_size};
 use crate::robot::{Pose, Robot};
-use crate::statics::{LoadedCable, RESIDUAL_LIMIT, load_size, scaled_wrench, wrench_of};
+use crate::statics::equilibrium::RESIDUAL_LIMIT;
+use crate::statics::loaded_cable::LoadedCable;
 
 /// Limit of starts. Of 60,000 random robots that rest with slack cables, 190 needed this search: 150 of them found
 /// tensions from the first two starts, all from 31.
@@ -58,7 +60,7 @@ pub(super) struct Searched {
 pub(super) fn search(
     robot: &Robot,
     pose: &Pose,
-    loaded: &[LoadedCable],
+    loaded: &[LoadedCable<'_>],
     accept: impl Fn(&Balanced) -> bool,
 ) -> Option<Searched> {
     // Straight cables decide where no cable sags.
@@ -102,11 +104,11 @@ pub(super) fn search(
 }
 
 /// Cables of the `k`-th start: tensions from a fifth of their weight, a deep sag, to all that the platform weighs.
-fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], k: usize) -> Vec<HangingCable> {
+fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Vec<HangingCable> {
     let cables = loaded.iter().zip(SPREAD);
     let hung = cables.map(|(cable, spread)| {
-        let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
-        let weight = (cable.load.size * chord).max(1e-9 * cable.axial_stiffness);
+        let chord = cable.chord_w(pose).norm();
+        let weight = (cable.load.size * chord).max(1e-9 * cable.axial_stiffness());
         let (low, high) = (0.2 * weight, load_size(robot).max(2.0 * weight));
         let part = ((k as f64 + 1.0) * spread).fract();
         cable.hang_with_tension(pose, low * (high / low).powf(part))
@@ -118,10 +120,8 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable], k: usize) -> Vec<Ha
 ///
 /// The unknowns are logarithms, see [`Unit`]: damping then means the same for a taut cable and for a slack one.
 fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balanced {
-    let ell = robot.platform_length();
-    let freedoms = &robot.platform.freedoms;
-    let reduced = |wrench: &Vec6| freedoms.reduced(&scaled_wrench(wrench, ell));
-    let (mut wrench, mut residual) = unbalanced(robot, pose, &hanging);
+    let coordinates = Coordinates::of(robot);
+    let (mut wrench, mut residual) = unbalanced(robot, &coordinates, pose, &hanging);
     let mut damping = 1e-2;
     let mut iterations = 0;
     while iterations < MAX_STEPS && residual > 0.01 * HANDED_OVER {
@@ -130,13 +130,12 @@ fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balance
         // Derivatives of the wrench by the logarithms.
         let mut columns = Mat6::zeros();
         for (i, cable) in hanging.iter().enumerate() {
-            let lever = (cable.start_w - pose.position_w) / ell;
-            let column = wrench_of(&(cable.force_by_length_w() * Unit::of(cable).length()), &lever);
-            columns.set_column(i, &freedoms.reduced(&column));
+            let force = cable.force_by_length_w() * Unit::of(cable).length();
+            columns.set_column(i, &coordinates.reduce_force(&force, &(cable.start_w - pose.position_w)));
         }
 
         // The damped step, limited.
-        let left = reduced(&wrench);
+        let left = coordinates.reduce(&wrench);
         let mut normal = columns.transpose() * columns;
         let shift = damping * normal.trace().max(f64::MIN_POSITIVE) / hanging.len() as f64;
         (0..6).for_each(|k| normal[(k, k)] += shift);
@@ -147,8 +146,8 @@ fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balance
             (hanging.iter().zip(&change)).map(|(cable, change)| Unit::of(cable).moved(cable, *change)).collect();
 
         // Taken if it is a gain.
-        let (next_wrench, next_residual) = unbalanced(robot, pose, &next);
-        let (before, after) = (left.norm(), reduced(&next_wrench).norm());
+        let (next_wrench, next_residual) = unbalanced(robot, &coordinates, pose, &next);
+        let (before, after) = (left.norm(), coordinates.reduce(&next_wrench).norm());
         if after < before {
             (hanging, wrench, residual) = (next, next_wrench, next_residual);
             damping = (0.2 * damping).max(MIN_DAMPING);

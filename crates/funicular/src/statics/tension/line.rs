@@ -3,9 +3,11 @@
 use crate::catenary::space::HangingCable;
 use crate::catenary::{Catenary, Rope};
 use crate::math::{Mat3, Mat6, Vec3, Vec6};
+use crate::platform::{Coordinates, add_congruent, add_lever_term, wrench_of};
 use crate::robot::{Pose, Robot};
 use crate::statics::limits::TensionRange;
-use crate::statics::{LoadedCable, StaticModel, add_congruent, add_lever_term, scaled, wrench_of};
+use crate::statics::loaded_cable::LoadedCable;
+use crate::statics::model::StaticModel;
 
 /// A cable at the pose.
 ///
@@ -16,7 +18,7 @@ use crate::statics::{LoadedCable, StaticModel, add_congruent, add_lever_term, sc
 pub(super) struct Line {
     pub hanging: HangingCable,
     lever_w: Vec3,
-    ell: f64,
+    coordinates: Coordinates,
     span: f64,
     rise: f64,
     /// Limits of its tension.
@@ -37,17 +39,17 @@ pub(super) struct Tension {
 
 impl Line {
     /// Cable `i`, taut enough for its slope to be that of a taut cable; its ends must not coincide.
-    pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, ell: f64) -> Self {
+    pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, coordinates: Coordinates) -> Self {
         let cable = LoadedCable::at(robot, i, pose, model);
-        let attachment_w = pose.point_w(&cable.attachment_p);
-        let chord_w = cable.anchor_w - attachment_w;
+        let attachment_w = pose.point_w(&cable.cable.attachment_p);
+        let chord_w = cable.chord_w(pose);
         let range = TensionRange::of(robot, i, &chord_w);
         let slackest = Catenary::SLACKEST * cable.load.size * chord_w.norm();
         let tau = range.minimum.max(6.0 * slackest);
         let hanging = cable.hang_with_tension(pose, tau);
         Self {
             lever_w: attachment_w - pose.position_w,
-            ell,
+            coordinates,
             span: hanging.catenary.span(),
             rise: chord_w.dot(&cable.load.up_w),
             range,
@@ -133,7 +135,7 @@ impl Line {
 
     /// Derivative of its wrench by τ; moments over ℓ.
     pub(super) fn column(&self) -> Vec6 {
-        wrench_of(&(self.hanging.force_by_length_w() * self.length_rate), &(self.lever_w / self.ell))
+        wrench_of(&(self.hanging.force_by_length_w() * self.length_rate), &(self.lever_w / self.coordinates.ell()))
     }
 
     /// The least tension anywhere in the cable.
@@ -173,17 +175,18 @@ impl Line {
 
     /// Wrench of a force on the platform at its attachment; moments over ℓ.
     pub(super) fn wrench(&self, force_w: &Vec3) -> Vec6 {
-        wrench_of(force_w, &(self.lever_w / self.ell))
+        wrench_of(force_w, &(self.lever_w / self.coordinates.ell()))
     }
 
     /// What a share of the stiffness makes of a scaled motion of the platform: the wrench, scaled, of its symmetric part.
     pub(super) fn applied(&self, share: &Share, motion: &Vec6) -> Vec6 {
-        let lever = self.lever_w / self.ell;
+        let lever = self.lever_w / self.coordinates.ell();
         let turn: Vec3 = motion.fixed_rows::<3>(3).into();
         let moved = motion.fixed_rows::<3>(0) + turn.cross(&lever);
         let mut wrench = self.wrench(&(share.stiffness_w * moved));
         let force = share.force_w;
-        let moment = (force.cross(&lever.cross(&turn)) + lever.cross(&force.cross(&turn))) * (0.5 / self.ell);
+        let moment =
+            (force.cross(&lever.cross(&turn)) + lever.cross(&force.cross(&turn))) * (0.5 / self.coordinates.ell());
         let mut view = wrench.fixed_rows_mut::<3>(3);
         view -= moment;
         wrench
@@ -213,7 +216,7 @@ impl Line {
         let mut total = Mat6::zeros();
         add_congruent(&mut total, &stiffness_w, &self.lever_w);
         add_lever_term(&mut total, &force_w, &self.lever_w);
-        scaled(&total, self.ell)
+        self.coordinates.scale_matrix(&total)
     }
 }
 

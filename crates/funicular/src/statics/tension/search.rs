@@ -1,15 +1,16 @@
 //! The iteration: linearise the balance and the limits, solve the linear problem exactly, repeat.
 
-use super::Miss;
 use super::balance::Solutions;
 use super::line::{Line, Tension};
 use super::polyhedron::Active;
 use super::proof::{Claim, Reach};
 use super::room::{Found, MANY, Room};
 use crate::math::Vec6;
+use crate::platform::{Coordinates, balance, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
-use crate::statics::limits::Limit;
-use crate::statics::{StaticsError, balance, load_size, load_wrench, scaled_residual, scaled_wrench};
+use crate::statics::error::StaticsError;
+use crate::statics::limits::{Limit, Miss};
+use crate::statics::residual::scaled_residual;
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
 const MOST_ITERATIONS: usize = 100;
@@ -182,11 +183,11 @@ impl<'a> Search<'a> {
     }
 
     pub(super) fn linearise(&self) -> Linear {
-        let ell = self.robot.platform_length();
+        let coordinates = Coordinates::of(self.robot);
         let (wrench, scale) = balance(self.robot, self.pose, self.lines.iter().map(Line::force));
-        let residual = scaled_residual(self.robot, &wrench, scale);
+        let residual = scaled_residual(&coordinates, &wrench, scale);
         let freedoms = &self.robot.platform.freedoms;
-        let mut right = -freedoms.reduced(&scaled_wrench(&wrench, ell));
+        let mut right = -coordinates.reduce(&wrench);
         let columns: Vec<Vec6> = self.lines.iter().map(|line| freedoms.reduced(&line.column())).collect();
         for (column, line) in columns.iter().zip(&self.lines) {
             right += column * line.tau();
@@ -384,8 +385,8 @@ impl<'a> Search<'a> {
         // The direction of the limits' multipliers proves it nearly always.
         let reaches: Vec<Reach> = self.lines.iter().zip(&minima).map(|(line, tau)| Reach::of(line, *tau)).collect();
         let freedoms = self.robot.platform.freedoms;
-        let load = scaled_wrench(&load_wrench(self.robot, self.pose), self.robot.platform_length());
-        let claim = Claim { reaches: &reaches, load: freedoms.reduced(&load), freedoms };
+        let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
+        let claim = Claim { reaches: &reaches, load, freedoms };
         let verdict = claim.refuted(&level.prices);
         if verdict.proved {
             return Err(StaticsError::BeyondLimits(self.miss(&level)));

@@ -7,8 +7,10 @@ mod cuts;
 mod model;
 
 use super::search::Search;
-use crate::math::{Mat6, inertia};
-use crate::statics::{StaticsError, assembled, scaled};
+use crate::math::{Mat6, inertia, symmetric_part};
+use crate::platform::Coordinates;
+use crate::statics::error::StaticsError;
+use crate::statics::stiffness::assembled;
 use model::{Model, Step};
 
 /// Gain of stiffness, relative, that is not worth a step.
@@ -110,8 +112,8 @@ fn present(search: &Search<'_>) -> Mat6 {
         let (force, lever) = line.force();
         (line.hanging.tangent_w(), force, lever)
     });
-    let total = scaled(&assembled(search.robot(), search.pose(), cables), search.robot().platform_length());
-    search.robot().platform.freedoms.reduced_matrix(&((total + total.transpose()) * 0.5))
+    let total = Coordinates::of(search.robot()).scale_matrix(&assembled(search.robot(), search.pose(), cables));
+    search.robot().platform.freedoms.reduced_matrix(&symmetric_part(&total))
 }
 
 fn least_eigenvalue(search: &Search<'_>) -> f64 {
@@ -164,8 +166,8 @@ mod tests {
     }
 
     fn begun<'a>(robot: &'a Robot, pose: &'a Pose) -> Option<Search<'a>> {
-        let ell = robot.platform_length();
-        let line = |i| Line::new(robot, i, pose, StaticModel::Catenary, ell);
+        let coordinates = Coordinates::of(robot);
+        let line = |i| Line::new(robot, i, pose, StaticModel::Catenary, coordinates);
         let mut search = Search::new(robot, pose, (0..robot.cables.len()).map(line).collect());
         search.middle().ok()?;
         Some(search)

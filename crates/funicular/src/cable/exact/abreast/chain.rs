@@ -4,7 +4,7 @@ use super::cuts::Mesh;
 use super::element::{Element, place};
 use super::lanes::{Lane, Lanes};
 use super::{ACROSS, IN_PLANE, Kept, LANES};
-use nalgebra::SMatrix;
+use crate::math::Matrix;
 
 /// One cable's elements, and its nodes at the last frequency.
 #[derive(Debug, Clone)]
@@ -105,8 +105,8 @@ struct Nodes<const D: usize> {
     end: Vec<Block<D>>,
 }
 
-type Block<const D: usize> = SMatrix<f64, D, D>;
-type Column<const D: usize> = SMatrix<f64, D, 1>;
+type Block<const D: usize> = Matrix<D, D>;
+type Column<const D: usize> = Matrix<D, 1>;
 
 impl<const D: usize> Nodes<D> {
     /// From the stiffness `entry(element, row, column)` of condensed elements: what is left of the platform end, of it

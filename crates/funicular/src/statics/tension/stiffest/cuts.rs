@@ -8,8 +8,8 @@
 use super::super::polyhedron::Polyhedron;
 use super::super::search::{Linear, Search};
 use super::{GAIN, least_eigenvalue, present};
-use crate::math::{Mat6, Vec6, inertia};
-use crate::statics::StaticsError;
+use crate::math::{Mat6, Vec6, inertia, symmetric_part};
+use crate::statics::error::StaticsError;
 
 /// Most linearisations; straight cables need two, sagging ones many more.
 const MOST_LINEARISATIONS: usize = 60;
@@ -63,7 +63,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         .iter()
         .map(|line| {
             let rate = line.stiffness_by_tension();
-            search.robot().platform.freedoms.reduced_matrix(&((rate + rate.transpose()) * 0.5))
+            search.robot().platform.freedoms.reduced_matrix(&(symmetric_part(&rate)))
         })
         .collect();
     // The height in the unit of tensions.

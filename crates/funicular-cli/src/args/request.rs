@@ -1,0 +1,292 @@
+//! Arguments become requests: names and values as the command line has them, and nothing is decided here.
+
+use super::{
+    AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
+    ImportArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs,
+    ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs,
+};
+use funicular_study::import::SourceFile;
+use funicular_study::names::TensionRuleName as Rule;
+use funicular_study::request::{
+    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Points, Pose, RobotText, State,
+    Tensions, Terms,
+};
+use std::path::Path;
+
+impl ChangeArgs {
+    /// The text of a robot file with the changes of `--set`.
+    pub(crate) fn robot(&self, name: String, text: String) -> RobotText {
+        RobotText { name, text, set: self.set.clone() }
+    }
+}
+
+impl StateArgs {
+    pub(crate) fn request(&self) -> State {
+        State {
+            lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
+            pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            mass_kg: self.mass_kg,
+            static_model: self.static_model.into(),
+            load: self.load.request(),
+        }
+    }
+}
+
+impl LoadArgs {
+    fn request(&self) -> Load {
+        let Self { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = *self;
+        Load {
+            force_n: force_n.map(Into::into),
+            moment_n_m: moment_n_m.map(Into::into),
+            load_point_m: load_point_m.map(Into::into),
+            wind_m_s: wind_m_s.map(Into::into),
+            cable_load_n_per_m: cable_load_n_per_m.map(Into::into),
+        }
+    }
+}
+
+impl TensionArgs {
+    pub(crate) fn request(&self) -> Tensions {
+        Tensions {
+            tension_rule: self.tension_rule.map(Rule::from),
+            wanted_tension_n: self.wanted_tension_n.as_ref().map(|wanted| wanted.0.clone()),
+            min_tension_n: self.min_tension_n,
+            max_tension_n: self.max_tension_n,
+        }
+    }
+}
+
+impl From<TensionRuleName> for Rule {
+    fn from(name: TensionRuleName) -> Self {
+        match name {
+            TensionRuleName::Lowest => Self::Lowest,
+            TensionRuleName::Closest => Self::Closest,
+            TensionRuleName::Middle => Self::Middle,
+            TensionRuleName::Stiffest => Self::Stiffest,
+        }
+    }
+}
+
+impl ModelArgs {
+    pub(crate) fn request(&self) -> Model {
+        Model { cable_model: self.cable_model.map(CableModelName::into), terms: self.terms.request() }
+    }
+}
+
+impl TermArgs {
+    fn request(&self) -> Terms {
+        Terms { assembly: AssemblyName::into(self.assembly), in_plane_only: self.in_plane_only }
+    }
+}
+
+impl PointArgs {
+    fn request(&self) -> Points {
+        Points {
+            input_point_m: self.input_point_m.map(Into::into),
+            output_point_m: self.output_point_m.map(Into::into),
+        }
+    }
+}
+
+impl RangeArgs {
+    fn request(&self) -> FrequencyRange {
+        FrequencyRange { from_hz: self.from_hz, to_hz: self.to_hz, points: self.points as usize, log: self.log }
+    }
+}
+
+impl StaticsArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::StaticsRequest {
+        request::StaticsRequest { robot, state: self.state.request(), tensions: self.tensions.request(), all: self.all }
+    }
+}
+
+impl StiffnessArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::StiffnessRequest {
+        request::StiffnessRequest { robot, at_hz: self.at_hz, state: self.state.request(), model: self.model.request() }
+    }
+}
+
+impl ModesArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ModesRequest {
+        request::ModesRequest {
+            robot,
+            below_hz: self.below_hz,
+            input: self.input.as_ref().map(|input| input.name.clone()),
+            output: self.output.as_ref().map(|output| output.name.clone()),
+            points: self.points.request(),
+            stations: self.stations,
+            damped: true,
+            state: self.state.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl FrfArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
+        request::FrfRequest {
+            robot,
+            range: self.range.request(),
+            input: self.input.name.clone(),
+            output: self.output.name.clone(),
+            signal_points: self.points.request(),
+            prominence_db: self.prominence_db,
+            state: self.state.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl CompareArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::CompareRequest {
+        request::CompareRequest {
+            robot,
+            below_hz: self.below_hz,
+            state: self.state.request(),
+            terms: self.terms.request(),
+        }
+    }
+}
+
+impl PoseErrorArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::PoseErrorRequest {
+        let range = self.mass_kg;
+        request::PoseErrorRequest {
+            robot,
+            mass_kg: (range.from, range.to, range.count),
+            lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
+            tolerance_mm: self.tolerance_mm,
+        }
+    }
+}
+
+impl CableArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::CableRequest {
+        request::CableRequest {
+            robot,
+            name: self.name.clone(),
+            range: self.range.request(),
+            state: self.state.request(),
+            cable_model: self.cable_model.map(CableModelName::into),
+            in_plane_only: self.in_plane_only,
+        }
+    }
+}
+
+impl ReduceArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ReduceRequest {
+        request::ReduceRequest {
+            robot,
+            below_hz: self.below_hz,
+            input: self.input.iter().map(|input| input.name.clone()).collect(),
+            output: self.output.iter().map(|output| output.name.clone()).collect(),
+            points: self.points.request(),
+            tolerance: self.tolerance,
+            damping_at_hz: self.damping_at_hz,
+            state: self.state.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl EachArgs {
+    fn request(&self) -> EachPoint {
+        EachPoint {
+            quantities: self.what.quantity.iter().map(funicular::sweep::Quantity::name).collect(),
+            up_to_hz: self.what.up_to_hz,
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl MapArgs {
+    /// `poses` are those of the file of `--poses`.
+    pub(crate) fn request(&self, robot: RobotText, poses: Option<Vec<[f64; 6]>>) -> request::MapRequest {
+        let grid = self.grid.iter().map(|(axis, steps)| Axis::new(axis.clone(), steps)).collect();
+        request::MapRequest { robot, grid, poses, point: self.point.request() }
+    }
+}
+
+impl SweepArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::SweepRequest {
+        let vary = self.vary.iter().map(|axis| Axis::new(axis.path.text.clone(), &axis.steps)).collect();
+        request::SweepRequest { robot, vary, point: self.point.request() }
+    }
+}
+
+impl ReportArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ReportRequest {
+        request::ReportRequest {
+            robot,
+            below_hz: self.below_hz,
+            input: self.input.as_ref().map(|input| input.name.clone()),
+            output: self.output.as_ref().map(|output| output.name.clone()),
+            points: self.points.request(),
+            state: self.state.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl ImportArgs {
+    pub(crate) fn request(&self, files: Vec<SourceFile>) -> request::ImportRequest {
+        let (ropes, platform) = (&self.ropes, &self.platform);
+        request::ImportRequest {
+            files,
+            cable_set: self.cable_set.clone(),
+            ropes: ImportRopes {
+                mass_kg_per_m: ropes.mass_kg_per_m,
+                axial_stiffness_n: ropes.axial_stiffness_n,
+                youngs_modulus_pa: ropes.youngs_modulus_pa,
+                diameter_m: ropes.diameter_m,
+            },
+            platform: ImportPlatform {
+                mass_kg: platform.mass_kg,
+                inertia_kg_m2: platform.inertia_kg_m2.map(|inertia| inertia.0),
+                center_of_mass_m: platform.center_of_mass_m.map(Into::into),
+                pose: platform.pose.map(|pose| Pose::Angles(pose.0)),
+            },
+        }
+    }
+}
+
+impl ExportArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::ExportRequest {
+        request::ExportRequest {
+            robot,
+            to: ExportFormat::into(self.to),
+            segments: self.segments as usize,
+            modes_below_hz: self.modes_below_hz,
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+        }
+    }
+}
+
+impl From<ExportFormat> for funicular_study::export::ExportFormat {
+    fn from(format: ExportFormat) -> Self {
+        match format {
+            ExportFormat::Opensees => Self::Opensees,
+            ExportFormat::Moordyn => Self::Moordyn,
+            ExportFormat::Vtk => Self::Vtk,
+        }
+    }
+}
+
+impl MergeArgs {
+    pub(crate) fn request(&self) -> request::MergeRequest {
+        request::MergeRequest { parts: self.parts.iter().map(|part| shown(part)).collect() }
+    }
+}
+
+impl PlotArgs {
+    pub(crate) fn request(&self) -> request::PlotRequest {
+        request::PlotRequest { file: shown(&self.file) }
+    }
+}
+
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}

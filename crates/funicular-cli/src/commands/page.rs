@@ -1,0 +1,67 @@
+//! Pages: `report`, `paper`, `plot`.
+
+use crate::args::PlotArgs;
+use crate::errors;
+use crate::output::{Content, Target};
+use crate::progress::{Shown, Waiting};
+use crate::robot_file;
+use anyhow::{Context, Result, bail};
+use funicular_files::{Guard, SweepFile};
+use funicular_study::Request;
+use funicular_study::pages;
+use funicular_study::wording::{Words, worded};
+use std::path::Path;
+
+/// The page of one robot.
+pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path) -> Result<()> {
+    let Request::Report(of) = request else { bail!("this is no request of `report`") };
+    let file = of.robot.read()?;
+    let target = Target::open(Some(output), Content::PAGE, &mut robot_file::guard(robot_path))?;
+    let waiting = Waiting::for_("the robot's figures and tables");
+    let page = pages::report::of_request(of, file, command_line()?)?;
+    drop(waiting);
+    write(&target, output, &page.html)?;
+    page.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}
+
+/// The page of the starting paper.
+pub(crate) fn paper(output: &Path) -> Result<()> {
+    let target = Target::open(Some(output), Content::PAGE, &mut Guard::default())?;
+    let waiting = Waiting::for_("the paper's figures and tables");
+    let page = pages::paper::paper(command_line()?)?;
+    drop(waiting);
+    write(&target, output, &page)
+}
+
+/// The page of a map or sweep.
+pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
+    let file = SweepFile::open(&args.file)?;
+    let to = args.output_file.clone().unwrap_or_else(|| args.file.with_extension("html"));
+    let mut guard = Guard::default();
+    guard.reads("the rows in", &args.file);
+    let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
+    let waiting = Waiting::for_("the pictures");
+    let page = pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut Shown::default())?;
+    drop(waiting);
+    write(&target, &to, &page.html)?;
+    page.notes.iter().for_each(|note| errors::warn(note));
+    Ok(())
+}
+
+/// Writes a page and says so, where it is a file.
+fn write(target: &Target, path: &Path, page: &str) -> Result<()> {
+    let page = worded(page, Words::Program);
+    target.write(page.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {} ({:.1} MB)", path.display(), page.len() as f64 / 1e6));
+    }
+    Ok(())
+}
+
+/// What was typed, quoted for the shell.
+fn command_line() -> Result<String> {
+    let arguments: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let words = std::iter::once("funicular").chain(arguments.iter().map(String::as_str));
+    shlex::try_join(words).context("the command line cannot be quoted for the page")
+}

@@ -1,0 +1,59 @@
+//! `request`: runs a request that is written as JSON; and prints the request of any command.
+
+use super::{analyse, page, write_export, write_import};
+use crate::args::{OutputArgs, RequestArgs};
+use crate::output;
+use crate::sweep_run;
+use anyhow::{Context, Result, bail};
+use funicular_files::Guard;
+use funicular_study::request::Request;
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// Maximum size of a request [bytes]: a list of a million poses takes some 100 MB.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Reads a request; `-` is standard input.
+pub(crate) fn read(path: &Path) -> Result<Request> {
+    let shown = if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() };
+    let mut text = String::new();
+    if path.as_os_str() == "-" {
+        io::stdin().lock().take(MAX_BYTES).read_to_string(&mut text).context("cannot read the request")?;
+    } else {
+        text = fs::read_to_string(path).with_context(|| format!("cannot read the request {shown}"))?;
+    }
+    Request::from_json(&text).context(shown)
+}
+
+/// Prints a request as JSON.
+pub(crate) fn print(request: &Request) -> Result<()> {
+    let mut out = io::stdout().lock();
+    let text = serde_json::to_string_pretty(&request.to_value())?;
+    writeln!(out, "{text}").and_then(|()| out.flush()).map_err(output::of_stdout)
+}
+
+/// Runs the request of a file.
+pub(crate) fn run(args: &RequestArgs) -> Result<()> {
+    let request = read(&args.file)?;
+    let mut guard = Guard::default();
+    if args.file.as_os_str() != "-" {
+        guard.reads("the request", &args.file);
+    }
+    let output = || OutputArgs { format: args.run.format, output_file: args.run.output_file.clone() };
+    let place = || args.run.output_file.clone().unwrap_or_else(|| "-".into());
+    match &request {
+        Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
+        Request::Report(_) => page::report(&request, Some(&args.file), &place()),
+        Request::Paper(_) => page::paper(&place()),
+        Request::Import(of) => write_import(of, &mut guard, &place()),
+        Request::Export(of) => {
+            let robot = of.robot.read()?.robot;
+            write_export(of, robot, &mut guard, &place())
+        }
+        Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
+            bail!("`funicular {}` writes files of its own: give its options", request.command())
+        }
+        _ => analyse(&request, &output(), guard),
+    }
+}

@@ -1,0 +1,159 @@
+//! Runs `map` and `sweep`: rows go to a file or to standard output, a summary is given.
+
+mod summary;
+
+use crate::args::{Format, OutputArgs, RunArgs};
+use crate::errors::{self, Interrupted};
+use crate::output::{self, Sink};
+use crate::progress::Progress;
+use crate::table::counted;
+use anyhow::{Context, Result, bail};
+use funicular::sweep::{Outcome, Plan};
+use funicular_files::{Begin, CsvRows, Guard, Opened, SweepFile};
+use funicular_study::Request;
+use funicular_study::sweep::{PreparedSweep, Record};
+use std::io::{self, BufWriter};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use summary::Summary;
+
+/// A sweep to run.
+struct Job<'a> {
+    sweep: &'a PreparedSweep,
+    run: &'a RunArgs,
+}
+
+/// Raised by Ctrl-C or by the system that ends a job.
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
+/// Stops at the next point when asked; at once when asked again.
+fn listen() -> Result<()> {
+    ctrlc::set_handler(|| {
+        if STOPPED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    })
+    .context("cannot listen for Ctrl-C")
+}
+
+/// Computes all of it. The guard knows the files that are read, which the rows are not to be written over.
+pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result<()> {
+    let sweep = PreparedSweep::new(request)?;
+    let job = &Job { sweep: &sweep, run };
+    let plan = sweep.plan()?;
+    let record = sweep.record(&plan, run.part);
+    let threads = match run.threads {
+        Some(threads) => threads,
+        None => std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
+    };
+    match &run.output_file {
+        Some(path) => {
+            refuse_output(job, guard, path)?;
+            to_file(job, &plan, record, path, threads)
+        }
+        None if run.format == Some(Format::Csv) => to_stdout(&plan, threads),
+        None => to_summary(job, &plan, threads),
+    }
+}
+
+/// Rows counted, and forgotten.
+fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
+    listen()?;
+    let mut summary = Summary::new(job, plan.columns());
+    let mut progress = Progress::with_rate(plan.rows(), "rows");
+    let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| {
+        progress.advance(chunk.rows());
+        summary.add(&chunk);
+        anyhow::Ok(())
+    })?;
+    drop(progress);
+    refuse_stopped(plan, outcome)?;
+    summary.print(job.run.format)
+}
+
+/// Rows that were kept nowhere, and are not all there.
+fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
+    match outcome {
+        Outcome::Complete => Ok(()),
+        Outcome::Cancelled { next } => {
+            let (done, rows) = ((next * plan.chunk_rows()).min(plan.rows()), plan.rows());
+            Err(Interrupted(format!(
+                "stopped after {done} of {rows} rows, which no file keeps: give -o to go on later"
+            ))
+            .into())
+        }
+    }
+}
+
+/// Rows as CSV, as they come.
+fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
+    listen()?;
+    let write = || {
+        let mut out = CsvRows::new(BufWriter::new(io::stdout().lock()), plan.columns())?;
+        let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
+        out.finish()?;
+        Ok(outcome)
+    };
+    refuse_stopped(plan, write().map_err(output::of_stdout)?)
+}
+
+fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZeroUsize) -> Result<()> {
+    let run = job.run;
+    let begin = match (run.resume, run.discard) {
+        (true, _) => Begin::Resume,
+        (_, true) => Begin::Discard,
+        _ => Begin::Anew,
+    };
+    let range = record.range();
+    let rows = record.rows_of(range.clone());
+    let mut work = match funicular_files::Job::open(path, record, begin)? {
+        Opened::Done => {
+            errors::note(&format!("{} holds all of {} already", path.display(), counted(rows, "row")));
+            if run.format.is_none() {
+                return Ok(());
+            }
+            let mut summary = Summary::new(job, plan.columns());
+            SweepFile::open(path)?.each(|chunk| summary.add(chunk))?;
+            return summary.print(run.format);
+        }
+        Opened::Work(work) => work,
+    };
+    listen()?;
+    let mut summary = Summary::new(job, plan.columns());
+    if work.done() > 0 {
+        errors::note(&format!("going on behind {} of {rows} rows", work.done()));
+        work.each(&mut |chunk| summary.add(&chunk))?;
+    }
+    let mut progress = Progress::with_rate(rows - work.done(), "rows");
+    let outcome = plan.run(work.next()..range.end, threads, &STOPPED, |chunk| {
+        work.add(&chunk)?;
+        progress.advance(chunk.rows());
+        summary.add(&chunk);
+        anyhow::Ok(())
+    })?;
+    drop(progress);
+    if outcome != Outcome::Complete {
+        let safe = work.interrupt()?;
+        return Err(Interrupted(format!("stopped: {safe}; the same command with --resume goes on")).into());
+    }
+    work.finish()?;
+    errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
+    if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
+}
+
+/// Refuses what is no place for rows, whatever its ending.
+fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
+    if path.as_os_str() == "-" {
+        bail!("rows go to standard output with --format csv and without -o");
+    }
+    if job.run.format == Some(Format::Csv) {
+        bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
+    }
+    Ok(guard.writes_rows("-o", path, true)?)
+}
+
+/// The sink of a summary.
+fn sink(format: Option<Format>) -> Result<Sink> {
+    Sink::open(&OutputArgs { format, output_file: None }, &mut Guard::default())
+}

@@ -1,0 +1,200 @@
+//! What a sweep found, in a few numbers.
+
+use super::{Job, sink};
+use crate::args::Format;
+use crate::output::Printed;
+use crate::table::{Table, counted, short, significant};
+use anyhow::Result;
+use funicular::sweep::{CODES, Chunk, Column, Kind, Values};
+use funicular_study::analyses::Found;
+use serde::Serialize;
+
+/// Counts and ranges of the rows seen so far.
+#[derive(Serialize)]
+pub(crate) struct Summary {
+    #[serde(skip)]
+    robot: String,
+    #[serde(skip)]
+    command: &'static str,
+    pub(crate) rows: usize,
+    feasible: usize,
+    /// Names of what `least_at` and `greatest_at` give.
+    coordinates: Vec<String>,
+    /// Rows of each status, those that occur, in the order of the codes.
+    status: Vec<StatusCount>,
+    ranges: Vec<Range>,
+    #[serde(skip)]
+    warnings: Vec<String>,
+    #[serde(skip)]
+    columns: Vec<Column>,
+    /// The coordinates of the first row, and which of them are others elsewhere.
+    #[serde(skip)]
+    first: Vec<f64>,
+    #[serde(skip)]
+    varies: Vec<bool>,
+}
+
+#[derive(Serialize)]
+struct StatusCount {
+    code: &'static str,
+    rows: usize,
+    /// Of the first such row.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    first_reason: String,
+}
+
+/// Least and greatest value of a column, and where they are.
+#[derive(Serialize)]
+struct Range {
+    column: String,
+    least: f64,
+    least_at: Vec<f64>,
+    greatest: f64,
+    greatest_at: Vec<f64>,
+}
+
+impl Summary {
+    pub(super) fn new(job: &Job, columns: &[Column]) -> Self {
+        let in_front = columns.iter().take_while(|column| column.kind == Kind::Real);
+        let coordinates: Vec<String> = in_front.map(|column| column.name.clone()).collect();
+        Self {
+            robot: job.sweep.robot().name.clone(),
+            command: job.sweep.request().command(),
+            rows: 0,
+            feasible: 0,
+            status: Vec::new(),
+            ranges: Vec::new(),
+            warnings: Vec::new(),
+            columns: columns.to_vec(),
+            first: Vec::new(),
+            varies: vec![false; coordinates.len()],
+            coordinates,
+        }
+    }
+
+    /// Counts the rows of a chunk in.
+    pub(super) fn add(&mut self, chunk: &Chunk) {
+        self.rows += chunk.rows();
+        let head = self.coordinates.len();
+        let at = |row: usize| -> Vec<f64> {
+            chunk.columns[..head]
+                .iter()
+                .filter_map(|column| if let Values::Real(values) = column { values[row] } else { None })
+                .collect()
+        };
+        if self.first.is_empty() {
+            self.first = at(0);
+        }
+        for row in 0..chunk.rows() {
+            for ((varies, first), value) in self.varies.iter_mut().zip(&self.first).zip(at(row)) {
+                *varies |= first.to_bits() != value.to_bits();
+            }
+        }
+        let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3]
+        else {
+            unreachable!("feasible, status and reason follow the coordinates")
+        };
+        self.feasible += feasible.iter().filter(|feasible| **feasible).count();
+        for (row, code) in status.iter().enumerate() {
+            let Some((code, _)) = CODES.iter().find(|known| Some(known.0) == code.as_deref()) else { continue };
+            if let Some(count) = self.status.iter_mut().find(|count| count.code == *code) {
+                count.rows += 1;
+            } else {
+                let first_reason = reasons[row].as_deref().unwrap_or_default().to_owned();
+                self.status.push(StatusCount { code, rows: 1, first_reason });
+            }
+        }
+        for (column, values) in self.columns.iter().zip(&chunk.columns).skip(head + 3) {
+            let Values::Real(values) = values else { continue };
+            for (row, value) in values.iter().enumerate() {
+                let Some(value) = *value else { continue };
+                match self.ranges.iter_mut().find(|range| range.column == column.name) {
+                    None => self.ranges.push(Range {
+                        column: column.name.clone(),
+                        least: value,
+                        least_at: at(row),
+                        greatest: value,
+                        greatest_at: at(row),
+                    }),
+                    Some(range) if value < range.least => (range.least, range.least_at) = (value, at(row)),
+                    Some(range) if value > range.greatest => (range.greatest, range.greatest_at) = (value, at(row)),
+                    Some(_) => {}
+                }
+            }
+        }
+    }
+
+    /// Of coordinates in order, those that vary.
+    fn chosen(&self, coordinates: impl Iterator<Item = String>) -> String {
+        let chosen: Vec<String> =
+            coordinates.zip(&self.varies).filter_map(|(text, varies)| varies.then_some(text)).collect();
+        if chosen.len() == 1 { chosen.concat() } else { format!("({})", chosen.join(", ")) }
+    }
+
+    /// To standard output.
+    pub(super) fn print(mut self, format: Option<Format>) -> Result<()> {
+        let place = |code: &str| CODES.iter().position(|known| known.0 == code);
+        self.status.sort_by_key(|count| place(count.code));
+        sink(format)?.write(&self)
+    }
+}
+
+impl Found for Summary {
+    const COMMAND: &'static str = "map";
+
+    fn robot(&self) -> &str {
+        &self.robot
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+}
+
+impl Printed for Summary {
+    fn command(&self) -> &'static str {
+        self.command
+    }
+
+    fn text(&self) -> String {
+        let share = 100.0 * self.feasible as f64 / self.rows.max(1) as f64;
+        let rows = counted(self.rows, "row");
+        let mut text = format!("{}: {rows}, {} feasible ({} %)\n", self.robot, self.feasible, short(share, 4));
+        if !self.ranges.is_empty() && !self.varies.contains(&true) {
+            let mut table = Table::new(&["", "value"]);
+            self.ranges.iter().for_each(|range| table.row(vec![range.column.clone(), significant(range.least, 5)]));
+            text += "\n";
+            text += &table.to_string();
+        } else if !self.ranges.is_empty() {
+            let place = format!("at {}", self.chosen(self.coordinates.iter().cloned()));
+            let mut table = Table::new(&["", "least", &place, "greatest", &place]);
+            for range in &self.ranges {
+                let at = |place: &[f64]| self.chosen(place.iter().map(|value| short(*value, 5)));
+                table.row(vec![
+                    range.column.clone(),
+                    significant(range.least, 5),
+                    at(&range.least_at),
+                    significant(range.greatest, 5),
+                    at(&range.greatest_at),
+                ]);
+            }
+            text += "\n";
+            text += &table.to_string();
+        }
+        let others: Vec<&StatusCount> = self.status.iter().filter(|count| count.code != "ok").collect();
+        if !others.is_empty() {
+            let mut table = Table::new(&["status", "rows", "first reason"]).text_columns(&[2]);
+            for count in others {
+                table.row(vec![count.code.to_owned(), count.rows.to_string(), count.first_reason.clone()]);
+            }
+            text += "\n";
+            text += &table.to_string();
+        }
+        text
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        out.write_record(["column", "least", "greatest"])?;
+        self.ranges.iter().try_for_each(|range| out.serialize((&range.column, range.least, range.greatest)))
+    }
+}

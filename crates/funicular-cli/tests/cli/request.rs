@@ -1,0 +1,106 @@
+//! Requests as JSON: every command prints its own, and the program runs it with the same result.
+
+use super::{robot, run, run_with, stderr, stdout, succeed};
+
+/// Command lines that print their result.
+fn command_lines() -> Vec<Vec<String>> {
+    let cogiro = robot("cogiro.toml");
+    let lines: [&[&str]; 13] = [
+        &["check", &cogiro],
+        &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
+        &["statics", "ROBOT", "--set", "platform.mass_kg=20", "--force-n", "1,-2,0", "--load-point-m", "0.1,0,0"],
+        &["statics", "ROBOT", "--all"],
+        &["stiffness", "ROBOT", "--at-hz", "3.5", "--cable-model", "closed-form", "--in-plane-only"],
+        &["modes", "ROBOT", "--below-hz", "2", "--input", "fz", "--output", "cable:3@0.5:az", "--stations", "5"],
+        &[
+            "frf",
+            "ROBOT",
+            "--from-hz",
+            "0.1",
+            "--to-hz",
+            "5",
+            "--points",
+            "40",
+            "--log",
+            "--input",
+            "f:1,0,1",
+            "--output",
+            "x",
+        ],
+        &["compare", &cogiro, "--below-hz", "3", "--assembly", "paper"],
+        &["pose-error", "ROBOT", "--mass-kg", "10.55:86.35:4", "--tolerance-mm", "5"],
+        &["cable", "ROBOT", "--name", "1", "--from-hz", "0.1", "--to-hz", "5", "--points", "9"],
+        &[
+            "map",
+            &cogiro,
+            "--grid",
+            "x=-1:1:3",
+            "--grid",
+            "y=0,0.5",
+            "--grid",
+            "z=1",
+            "--quantity",
+            "tensions,stiffness-min",
+        ],
+        &["sweep", "ROBOT", "--vary", "platform.mass_kg=10,20", "--quantity", "pose,frequencies:2"],
+        &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
+    ];
+    lines.iter().map(|line| line.iter().map(|word| (*word).to_owned()).collect()).collect()
+}
+
+#[test]
+fn the_request_of_a_command_gives_its_result() {
+    for line in command_lines() {
+        let words: Vec<&str> = line.iter().map(String::as_str).collect();
+        // Rows, not their summary, where there are rows; a file of another program has one format.
+        let format: &[&str] = if words[0] == "export" { &[] } else { &["--format", "csv"] };
+        let direct = succeed(&[&words[..], format].concat());
+        let request = succeed(&[&words[..], &["--print-request"]].concat());
+        let again = run_with(&[&["request", "-"][..], format].concat(), &request);
+        assert_eq!(again.status.code(), Some(0), "{line:?}: {}", stderr(&again));
+        assert_eq!(stdout(&again), direct, "{line:?}");
+    }
+}
+
+#[test]
+fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
+    let text = serde_json::to_string(&super::yuan()).unwrap();
+    for (request, says) in [
+        (String::new(), "the request is no JSON"),
+        ("[]".to_owned(), "a request is a JSON object"),
+        (r#"{"robot": {"text": ""}}"#.to_owned(), "it has no `command`"),
+        (r#"{"command": "static"}"#.to_owned(), "expected one of `check`, `statics`"),
+        (r#"{"command": "statics"}"#.to_owned(), "missing field `robot`"),
+        (
+            format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "poze": [0, 0, 1]}}"#),
+            "no key `poze`; did you mean `pose`?",
+        ),
+        (
+            format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "below_hz": 3}}"#),
+            "`statics` has no key `below_hz`",
+        ),
+        (format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "pose": [0, 0]}}"#), "a pose is [x, y, z]"),
+        (
+            format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "mass_kg": -1}}"#),
+            "--mass-kg: -1 is not positive",
+        ),
+        (
+            format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "static_model": "catenery"}}"#),
+            "did you mean `catenary`?",
+        ),
+        (format!(r#"{{"command": "modes", "robot": {{"text": {text}}}}}"#), "missing field `below_hz`"),
+        (
+            r#"{"command": "paper", "schema": "funicular-request/9"}"#.to_owned(),
+            "this program reads funicular-request/1",
+        ),
+        (r#"{"command": "statics", "robot": {"text": "a = 1"}}"#.to_owned(), "unknown key `a`"),
+    ] {
+        let output = run_with(&["request", "-"], &request);
+        assert_eq!(output.status.code(), Some(2), "{request}");
+        assert!(stderr(&output).contains(says), "{request}\n{}", stderr(&output));
+        assert!(stdout(&output).is_empty());
+    }
+    let missing = run(&["request", "no-such-file.json"]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(stderr(&missing).contains("cannot read the request no-such-file.json"), "{}", stderr(&missing));
+}

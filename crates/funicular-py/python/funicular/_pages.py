@@ -1,0 +1,49 @@
+"""Pages in HTML, which are one file that opens offline."""
+
+import json
+from dataclasses import dataclass
+from html import escape
+from os import PathLike
+from pathlib import Path
+
+from funicular._funicular import write_file
+
+
+@dataclass(frozen=True, repr=False)
+class Page:
+    """A page in HTML; notebooks show it."""
+
+    html: str
+    """The page: one file with its figures, its numbers and the library that draws them."""
+    warnings: tuple[str, ...]
+    """What to know before trusting it; it stands on the page, too."""
+
+    def write(self, path: str | PathLike[str]) -> None:
+        """Writes the page, as a whole or not at all."""
+        write_file(Path(path), self.html)
+
+    def __repr__(self) -> str:
+        return f"<Page: {len(self.html) / 1e6:.1f} MB of HTML>"
+
+    def _repr_html_(self) -> str:
+        frame = "width: 100%; height: 800px; border: 0"
+        return f'<iframe srcdoc="{escape(self.html)}" style="{frame}"></iframe>'
+
+
+def page(html: str, warnings: list[str], path: str | PathLike[str] | None = None) -> Page:
+    """A page, which is written if there is a path."""
+    made = Page(html, tuple(warnings))
+    if path is not None:
+        made.write(path)
+    return made
+
+
+def report_call(state: str, request: str) -> str:
+    """What makes a report again; state and request are JSON."""
+    given = json.loads(state)
+    own = {key: value for key, value in json.loads(request).items() if key != "robot" and key not in given}
+    return f"robot.equilibrium({_keywords(given)}).report({_keywords(own)})"
+
+
+def _keywords(given: dict[str, object]) -> str:
+    return ", ".join(f"{key}={value!r}" for key, value in given.items())

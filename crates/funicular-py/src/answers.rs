@@ -1,0 +1,201 @@
+//! Results of requests: JSON of the study as Python's dictionaries, pages, and requests as JSON.
+
+use crate::arrays::Keyed;
+use crate::errors;
+use crate::waiting::{interruptible, look};
+use funicular_files::whole::{Temporary, is_regular_or_new};
+use funicular_files::{SweepFile, merge};
+use funicular_study::analyses::Found;
+use funicular_study::import::{self, SourceFile};
+use funicular_study::pages;
+use funicular_study::request::Request;
+use funicular_study::wording::{Words, worded};
+use funicular_study::{NoSolution, Results, Watch, analyses, at_rest, export, json, run};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::fs;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Ends long work at Ctrl-C.
+pub(crate) struct CtrlC {
+    looked: Instant,
+    raised: Option<PyErr>,
+}
+
+impl CtrlC {
+    /// Time between two looks.
+    const LOOK: Duration = Duration::from_millis(50);
+
+    pub(crate) fn new() -> Self {
+        Self { looked: Instant::now(), raised: None }
+    }
+
+    /// The exception that ended the work, or its own error.
+    pub(crate) fn or(self, error: &anyhow::Error) -> PyErr {
+        self.raised.unwrap_or_else(|| errors::study(error))
+    }
+}
+
+impl Watch for CtrlC {
+    fn progress(&mut self, _done: usize, _total: usize, _what: &'static str) {
+        if self.looked.elapsed() >= Self::LOOK && self.raised.is_none() {
+            self.looked = Instant::now();
+            self.raised = look().err();
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.raised.is_some()
+    }
+}
+
+/// Results as JSON, with the texts of their warnings in the words of Python.
+fn json_of<R: Found>(results: &R, command: &'static str) -> PyResult<Vec<u8>> {
+    let warnings: Vec<String> = results.warnings().iter().map(|text| worded(text, Words::Python)).collect();
+    let mut bytes = Vec::new();
+    json::write(&mut bytes, command, results.robot(), results, &warnings).map_err(|error| {
+        errors::study(
+            &NoSolution(format!(
+                "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; \
+                 change the frequency or check the units"
+            ))
+            .into(),
+        )
+    })?;
+    Ok(bytes)
+}
+
+/// A dictionary of JSON.
+fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<Keyed<'py>> {
+    let dictionary = py.import("json")?.call_method1("loads", (PyBytes::new(py, bytes),))?;
+    Ok(Keyed(dictionary.cast_into()?))
+}
+
+/// Results with the keys of the program's JSON.
+pub(crate) fn plain<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Keyed<'py>> {
+    loaded(py, &json_of(results, R::COMMAND)?)
+}
+
+/// [`plain`] results with arrays for lists of numbers.
+pub(crate) fn with_arrays<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Keyed<'py>> {
+    let plain = plain(py, results)?;
+    Ok(Keyed(py.import("funicular._results")?.call_method1("with_arrays", (plain.0,))?.cast_into()?))
+}
+
+fn request(text: &str) -> PyResult<Request> {
+    Request::from_json(text).map_err(|error| errors::study(&error.into()))
+}
+
+/// A request as JSON with every key that it has, defaults among them.
+#[pyfunction]
+pub(crate) fn complete_request(request: &str) -> PyResult<String> {
+    Ok(self::request(request)?.to_value().to_string())
+}
+
+/// Results of a request, both as JSON; of any command that computes them from the request alone.
+#[pyfunction]
+pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
+    let request = self::request(request)?;
+    let bytes = interruptible(py, move || {
+        let mut watch = CtrlC::new();
+        let results = run(&request, &mut watch).map_err(|error| watch.or(&error.into()))?;
+        match &results {
+            Results::Check(found) => json_of(found, analyses::check::Checked::COMMAND),
+            Results::Statics(found) => json_of(found, analyses::statics::Statics::COMMAND),
+            Results::Stiffness(found) => json_of(found, analyses::stiffness::Stiffness::COMMAND),
+            Results::Modes(found) => json_of(found, analyses::modes::Modes::COMMAND),
+            Results::Frf(found) => json_of(found, analyses::frf::Frf::COMMAND),
+            Results::Compare(found) => json_of(found, analyses::compare::Compared::COMMAND),
+            Results::PoseError(found) => json_of(found, analyses::pose_error::PoseErrors::COMMAND),
+            Results::Cable(found) => json_of(found, analyses::cable::CableResult::COMMAND),
+            Results::Reduce(found) => json_of(found, analyses::reduce::Reduced::COMMAND),
+            Results::Validate(found) => json_of(found, analyses::validate::Validated::COMMAND),
+        }
+    })??;
+    String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
+}
+
+/// Text and warnings of a request of `report`, `paper` or `export`; `call` is what writes a page again.
+#[pyfunction]
+pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
+    let request = self::request(request)?;
+    let (text, warnings) = interruptible(py, move || {
+        Ok(match &request {
+            Request::Report(of) => {
+                let page = pages::report::of_request(of, of.robot.read()?, call)?;
+                (page.html, page.warnings)
+            }
+            Request::Paper(_) => (pages::paper::paper(call)?, Vec::new()),
+            Request::Export(of) => {
+                export::refuse(of)?;
+                let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.state, &of.tensions)?;
+                let exported = export::run(&at_rest, of)?;
+                (exported.text, exported.warnings)
+            }
+            other => anyhow::bail!("`{}` makes no text", other.command()),
+        })
+    })?
+    .map_err(|error: anyhow::Error| errors::study(&error))?;
+    Ok((worded(&text, Words::Python), in_words(&warnings)))
+}
+
+/// Texts in the words of Python.
+pub(crate) fn in_words(texts: &[String]) -> Vec<String> {
+    texts.iter().map(|text| worded(text, Words::Python)).collect()
+}
+
+/// A file of another program as a request has it: path and text, and the encoding if it had to be guessed, as JSON.
+#[pyfunction]
+pub(crate) fn source_file(path: PathBuf) -> PyResult<String> {
+    let name = path.display().to_string();
+    let bytes =
+        fs::read(&path).map_err(|error| io::Error::new(error.kind(), format!("cannot read {name}: {error}")))?;
+    let file = SourceFile::decode(name, &bytes).map_err(|error| errors::study(&error))?;
+    serde_json::to_string(&file).map_err(|error| errors::input(error.to_string()))
+}
+
+/// Robot file, assumptions and losses of a request of `import`.
+#[pyfunction]
+pub(crate) fn imported(request: &str) -> PyResult<(String, Vec<String>, Vec<String>)> {
+    let Request::Import(of) = self::request(request)? else {
+        return Err(errors::input("this is no request of `import`".to_owned()));
+    };
+    let import::Imported { text, assumed, lost } =
+        import::run(&of, Words::Python).map_err(|error| errors::study(&error))?;
+    Ok((text, assumed, lost))
+}
+
+/// Page and notes of the Parquet file of a map or sweep; `label` says where the rows are, `call` writes the page again.
+#[pyfunction]
+pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: String) -> PyResult<(String, Vec<String>)> {
+    let file = SweepFile::open(&path).map_err(|error| errors::files(&error))?;
+    py.detach(|| {
+        let mut watch = CtrlC::new();
+        let page = pages::plot::plot(&file, label, call, &mut watch);
+        page.map(|page| (worded(&page.html, Words::Python), in_words(&page.notes))).map_err(|error| watch.or(&error))
+    })
+}
+
+/// Joins the parts of a map or sweep; the number of rows.
+#[pyfunction]
+pub(crate) fn merge_parts(py: Python<'_>, parts: Vec<PathBuf>, path: PathBuf) -> PyResult<usize> {
+    py.detach(|| merge(&parts, &path)).map_err(|error| errors::files(&error))
+}
+
+/// Writes a file as a whole or not at all.
+#[pyfunction]
+pub(crate) fn write_file(path: PathBuf, text: &str) -> PyResult<()> {
+    // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
+    let target = path.canonicalize().unwrap_or_else(|_| path.clone());
+    let write = || {
+        if !is_regular_or_new(&target) {
+            return fs::OpenOptions::new().write(true).open(&target)?.write_all(text.as_bytes());
+        }
+        let mut file = Temporary::beside(&target)?;
+        file.as_file_mut().write_all(text.as_bytes())?;
+        file.persist(&target)
+    };
+    write().map_err(|error: io::Error| errors::unwritable(format!("cannot write to {}: {error}", path.display())))
+}

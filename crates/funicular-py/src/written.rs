@@ -1,0 +1,173 @@
+//! What a robot at rest becomes for other programs and people: a model for control design, a file, a page.
+
+use crate::answers::{self, in_words};
+use crate::arrays::{Count, Matrix, Number, Numbers};
+use crate::equilibrium::PyEquilibrium;
+use crate::errors;
+use crate::request::{model, named, points};
+use crate::waiting::interruptible;
+use funicular::math::DMat;
+use funicular_study::analyses;
+use funicular_study::export::{self, MAX_SEGMENTS};
+use funicular_study::pages::report;
+use funicular_study::request;
+use funicular_study::wording::{Words, worded};
+use pyo3::inspect::PyStaticExpr;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::{Map, Value};
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+macro_rules! object {
+    ($name:ident, $module:literal, $class:literal) => {
+        #[doc = concat!("`", $module, ".", $class, "`.")]
+        pub(crate) struct $name(Py<PyAny>);
+
+        impl<'py> IntoPyObject<'py> for $name {
+            type Target = PyAny;
+            type Output = Bound<'py, PyAny>;
+            type Error = Infallible;
+
+            const OUTPUT_TYPE: PyStaticExpr =
+                PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: $module }, attr: $class };
+
+            fn into_pyobject(self, py: Python<'py>) -> Result<Self::Output, Self::Error> {
+                Ok(self.0.into_bound(py))
+            }
+        }
+    };
+}
+
+object!(ReducedObject, "funicular._results", "ReducedModel");
+object!(PageObject, "funicular._pages", "Page");
+
+/// Keywords of `reduce`.
+pub(crate) struct ReduceKeywords<'a> {
+    pub(crate) below_hz: Number,
+    pub(crate) input: Option<Vec<String>>,
+    pub(crate) output: Option<Vec<String>>,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) tolerance: Number,
+    pub(crate) damping_at_hz: Option<Number>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+}
+
+pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeywords<'_>) -> PyResult<ReducedObject> {
+    let request = request::ReduceRequest {
+        robot: of.of.get().source.clone(),
+        below_hz: keywords.below_hz.value("below_hz")?,
+        input: keywords.input.unwrap_or_default(),
+        output: keywords.output.unwrap_or_default(),
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        tolerance: keywords.tolerance.value("tolerance")?,
+        damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
+        state: of.state.clone(),
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::reduce::about(&at_rest, &request))?;
+    let found = found.map_err(|error| errors::study(&error))?;
+
+    let matrices = PyDict::new(py);
+    let (second, space) = (&found.model, found.model.state_space());
+    for (name, matrix) in [
+        ("mass", &second.mass),
+        ("damping", &second.damping),
+        ("stiffness", &second.stiffness),
+        ("input", &second.input),
+        ("output", &second.output),
+        ("a", &space.a),
+        ("b", &space.b),
+        ("c", &space.c),
+        ("d", &space.d),
+    ] {
+        matrices.set_item(name, array(matrix))?;
+    }
+    let description = answers::plain(py, &found)?;
+    let made = py.import("funicular._results")?.call_method1("reduced", (description.0, matrices))?;
+    Ok(ReducedObject(made.unbind()))
+}
+
+fn array(matrix: &DMat) -> Matrix {
+    Matrix::of_rows(matrix.transpose().iter().copied().collect(), matrix.ncols())
+}
+
+pub(crate) fn export(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    to: &str,
+    path: PathBuf,
+    segments: Count,
+    modes_below_hz: Option<Number>,
+) -> PyResult<Vec<String>> {
+    let rule = format!("give a whole number from 1 to {MAX_SEGMENTS}");
+    let request = request::ExportRequest {
+        robot: of.of.get().source.clone(),
+        to: named("to", to)?,
+        segments: segments.within("segments", 1..=MAX_SEGMENTS, &rule)?,
+        modes_below_hz: modes_below_hz.map(|hz| hz.value("modes_below_hz")).transpose()?,
+        state: of.state.clone(),
+        tensions: of.tensions.clone(),
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let exported = interruptible(py, move || export::run(&at_rest, &request))?;
+    let exported = exported.map_err(|error| errors::study(&error))?;
+    answers::write_file(path, &worded(&exported.text, Words::Python))?;
+    Ok(in_words(&exported.warnings))
+}
+
+/// Keywords of `report`.
+pub(crate) struct PageKeywords<'a> {
+    pub(crate) below_hz: Number,
+    pub(crate) input: Option<String>,
+    pub(crate) output: Option<String>,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+}
+
+pub(crate) fn report(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    path: Option<PathBuf>,
+    keywords: PageKeywords<'_>,
+) -> PyResult<PageObject> {
+    let request = request::ReportRequest {
+        robot: of.of.get().source.clone(),
+        below_hz: keywords.below_hz.value("below_hz")?,
+        input: keywords.input,
+        output: keywords.output,
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        state: of.state.clone(),
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+    };
+    let state = joined(&[&serde_json::to_value(&of.state), &serde_json::to_value(&of.tensions)])?;
+    let all = joined(&[&serde_json::to_value(&request)])?;
+    let pages = py.import("funicular._pages")?;
+    let call: String = pages.call_method1("report_call", (state, all))?.extract()?;
+    let (at_rest, text) = (Arc::clone(&of.at_rest), of.of.get().text.clone());
+    let page = interruptible(py, move || report::about(&at_rest, &request, &request.robot.name, &text, call))?;
+    let page = page.map_err(|error| errors::study(&error))?;
+    let made = pages.call_method1("page", (worded(&page.html, Words::Python), in_words(&page.warnings), path))?;
+    Ok(PageObject(made.unbind()))
+}
+
+/// Keys of several objects as one, in JSON.
+pub(crate) fn joined(parts: &[&serde_json::Result<Value>]) -> PyResult<String> {
+    let mut all = Map::new();
+    for part in parts {
+        match part {
+            Ok(Value::Object(keys)) => all.extend(keys.clone()),
+            Ok(_) => {}
+            Err(error) => return Err(errors::input(error.to_string())),
+        }
+    }
+    Ok(Value::Object(all).to_string())
+}

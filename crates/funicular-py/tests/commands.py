@@ -1,0 +1,109 @@
+"""Command lines of the program as calls of Python, by one rule: an option's name with _ for - is the keyword."""
+
+import re
+import shlex
+import subprocess
+from typing import Any
+
+import funicular
+
+# Options that say where a result goes or how it looks, and nothing of what is computed.
+OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--model", "--resume", "--discard", "--part", "--threads"}
+# Options without a value.
+SWITCHES = {"--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"}
+# Options that may be given many times, or hold lists of names.
+LISTS = {"reduce": {"--input", "--output"}}
+
+
+def commands(executable: str) -> list[str]:
+    """The program's commands."""
+    told = subprocess.run([executable, "--help"], capture_output=True, text=True, check=True).stdout
+    listed = told.split("Commands:")[1].split("Options:")[0]
+    return [name for name in re.findall(r"^  ([a-z][a-z-]*) ", listed, re.MULTILINE) if name != "help"]
+
+
+def help_of(executable: str, command: str) -> str:
+    return subprocess.run([executable, command, "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def options(executable: str, command: str) -> list[str]:
+    """Names of a command's options, without those that every command has."""
+    told = help_of(executable, command).split("Examples:")[0]
+    found = re.findall(r"^ +(?:-[a-zA-Z], )?(--[a-z0-9-]+)(?: <|$|\n)", told, re.MULTILINE)
+    return [name for name in dict.fromkeys(found) if name not in ("--help", "--version", "--print-request")]
+
+
+def examples(executable: str, command: str) -> list[str]:
+    """Lines of a command in its help."""
+    _, _, told = help_of(executable, command).partition("Examples:\n")
+    blocks = told.split("\n\n")[0]
+    joined = re.sub(r"\s+", " ", blocks.replace("\\\n", " "))
+    lines = [f"funicular {line.strip()}" for line in re.split(r"(?:^|\s)funicular ", joined) if line.strip()]
+    return [line.split("&&")[0].strip() for line in lines if line.split()[1] == command]
+
+
+def number(text: str) -> Any:
+    return int(text) if re.fullmatch(r"-?\d+", text) else float(text)
+
+
+def numbers(text: str) -> list[Any]:
+    return [number(part) for part in text.split(",")]
+
+
+def steps(text: str) -> Any:
+    """Values along an axis, as the keywords `grid` and `vary` take them."""
+    if ":" in text:
+        first, last, count = text.split(":")
+        return (number(first), number(last), int(count))
+    return numbers(text)
+
+
+def value(command: str, option: str, text: str) -> Any:
+    if (command, option) == ("pose-error", "--mass-kg"):
+        return steps(text)
+    if option in ("--input", "--output", "--name") or re.search("[a-z]{2}", text):
+        return text
+    found = numbers(text)
+    return found[0] if len(found) == 1 else found
+
+
+def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
+    """Command, files, keywords and values of the robot file."""
+    words = shlex.split(line)[1:]
+    command, files, keywords, changes = words[0], [], {}, {}
+    keywords: dict[str, Any] = {}
+    rest = iter(words[1:])
+    for word in rest:
+        key = word.removeprefix("--").replace("-", "_")
+        if not word.startswith("-"):
+            files.append(word)
+        elif word in OUTPUT:
+            if word not in SWITCHES:
+                next(rest)
+        elif word in SWITCHES:
+            keywords[key] = True
+        elif word == "--set":
+            path, _, text = next(rest).partition("=")
+            changes[path] = value(command, word, text)
+        elif word in ("--grid", "--vary"):
+            axis, _, text = next(rest).partition("=")
+            keywords.setdefault(key, {})[axis] = steps(text)
+        elif word == "--quantity":
+            keywords["quantities"] = next(rest).split(",")
+        elif word == "--poses":
+            keywords["poses"] = read_poses(next(rest))
+        elif word in LISTS.get(command, ()):
+            keywords.setdefault(key, []).append(next(rest))
+        else:
+            keywords[key] = value(command, word, next(rest))
+    return command, files, keywords, changes
+
+
+def read_poses(path: str) -> list[list[float]]:
+    with open(path) as file:
+        return [list(map(float, line.split(","))) for line in file.read().splitlines()[1:]]
+
+
+def robot_of(files: list[str], changes: dict[str, Any]) -> funicular.Robot:
+    robot = funicular.Robot.from_file(files[0]) if files else funicular.Robot.example()
+    return robot.with_(changes) if changes else robot

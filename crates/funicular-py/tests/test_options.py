@@ -1,0 +1,132 @@
+"""docs/python.md names what every command and every option of the program is in Python; `UPDATE_DOCS=1` writes its tables."""
+
+import inspect
+import os
+from collections.abc import Callable
+from typing import Any
+
+import commands
+import funicular
+import numpy as np
+import pytest
+from conftest import ROOT
+from funicular import Equilibrium, Robot, Sweep
+
+DOCUMENT = ROOT / "docs/python.md"
+
+# What stands for a command, and the callables whose keywords are its options.
+COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
+    "check": ("`robot.check()`", [Robot.check]),
+    "statics": ("`robot.equilibrium(…)`", [Robot.equilibrium]),
+    "stiffness": ("`robot.equilibrium(…).stiffness(…)`", [Robot.equilibrium, Equilibrium.stiffness]),
+    "modes": ("`robot.equilibrium(…).modes(…)`", [Robot.equilibrium, Equilibrium.modes]),
+    "frf": ("`robot.equilibrium(…).frf(…)`, `funicular.peaks(…)`", [Robot.equilibrium, Equilibrium.frf, funicular.peaks]),
+    "compare": ("`robot.equilibrium(…).compare(…)`", [Robot.equilibrium, Equilibrium.compare]),
+    "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
+    "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
+    "reduce": ("`robot.equilibrium(…).reduce(…)`", [Robot.equilibrium, Equilibrium.reduce]),
+    "map": ("`robot.map(…)`", [Robot.map]),
+    "sweep": ("`robot.sweep(…)`", [Robot.sweep]),
+    "merge": ("`funicular.merge(parts, path)`", [funicular.merge]),
+    "plot": ("`sweep.plot(…)`, `funicular.Sweep.read(path).plot(…)`", [Sweep.plot]),
+    "report": ("`robot.equilibrium(…).report(…)`", [Robot.equilibrium, Equilibrium.report]),
+    "paper": ("`funicular.paper(…)`", [funicular.paper]),
+    "import": ("`funicular.import_robot(files, …)`", [funicular.import_robot]),
+    "export": ("`robot.equilibrium(…).export(to, path, …)`", [Robot.equilibrium, Equilibrium.export]),
+    "validate": ("`funicular.validate()`", [funicular.validate]),
+    "request": ("`funicular.run(request)`", [funicular.run, Robot.map, Robot.sweep]),
+}
+
+# Options that are something else than a keyword of their name, with what they stand on; a command's own go first.
+OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
+    (None, "--set"): ("`robot.with_({path: value})`", Robot.with_),
+    (None, "--all"): ("`equilibrium.all_equilibria()`", Equilibrium.all_equilibria),
+    (None, "--format"): ("`to_dict()`, `to_pandas()` of the result", Equilibrium.to_dict),
+    (None, "--output-file"): ("results are values; `json.dumps(result.to_dict())`", Equilibrium.to_dict),
+    (None, "--from-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
+    (None, "--to-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
+    (None, "--points"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
+    (None, "--log"): ("`hz=numpy.geomspace(from_hz, to_hz, points)`", np.geomspace),
+    (None, "--quantity"): ("`quantities=` of `Robot.map`, `Robot.sweep`", Robot.map),
+    (None, "--model"): ("`model.save(path)`; `model.state_space()`, `to_scipy()`, `to_control()`", funicular.ReducedModel.save),
+    ("map", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
+    ("sweep", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
+    ("map", "--output-file"): ("`file=` of `Robot.map`, `Robot.sweep`", Robot.map),
+    ("sweep", "--output-file"): ("`file=` of `Robot.map`, `Robot.sweep`", Robot.sweep),
+    ("merge", "--output-file"): ("`path=` of the call", funicular.merge),
+    ("plot", "--output-file"): ("`path=` of the call", Sweep.plot),
+    ("report", "--output-file"): ("`path=` of the call", Equilibrium.report),
+    ("paper", "--output-file"): ("`path=` of the call", funicular.paper),
+    ("export", "--output-file"): ("`path=` of the call", Equilibrium.export),
+    ("import", "--output-file"): ("`imported.write(path)`", funicular.Imported.write),
+    ("request", "--format"): ("`json.dumps(result)`", funicular.run),
+    ("request", "--output-file"): ("`json.dumps(result)`, `rows.write(path)`, `page.write(path)`", funicular.Page.write),
+}
+
+
+def equal(command: str, option: str) -> tuple[str, str] | None:
+    """What an option is in Python, and the callable whose keyword it is, if it is one; None where it is nothing."""
+    for key in ((command, option), (None, option)):
+        if key in OTHERS:
+            return OTHERS[key][0], ""
+    keyword = option.removeprefix("--").replace("-", "_")
+    for called in COMMANDS[command][1]:
+        if keyword in inspect.signature(called).parameters:
+            # A method that inspect knows by its class, a function by the package.
+            name = called.__qualname__ if "." in called.__qualname__ else f"funicular.{called.__name__}"
+            return f"`{keyword}=`", f"`{name}`"
+    return None
+
+
+def tables(executable: str) -> str:
+    """Commands, then options with the commands that have them."""
+    lines = ["| Command | Python |", "|---|---|"]
+    lines += [f"| `{command}` | {COMMANDS[command][0]} |" for command in commands.commands(executable)]
+    rows: dict[tuple[str, str], tuple[list[str], dict[str, None]]] = {}
+    for command in commands.commands(executable):
+        for option in commands.options(executable, command):
+            python, called = equal(command, option) or ("MISSING", "")
+            names, callables = rows.setdefault((option, python), ([], {}))
+            names.append(command)
+            callables[called] = None
+    lines += ["", "| Option | of | Python |", "|---|---|---|"]
+    for (option, python), (names, callables) in sorted(rows.items()):
+        of = ", ".join(filter(None, callables))
+        lines.append(f"| `{option}` | {', '.join(names)} | {python}{f' of {of}' if of else ''} |")
+    return "\n".join(lines) + "\n"
+
+
+def test_every_command_is_in_python(executable: str) -> None:
+    assert sorted(COMMANDS) == sorted(commands.commands(executable))
+
+
+def test_every_option_is_in_python(executable: str) -> None:
+    lacking = [
+        f"{command} {option}"
+        for command in commands.commands(executable)
+        for option in commands.options(executable, command)
+        if equal(command, option) is None
+    ]
+    assert lacking == []
+
+
+def test_nothing_is_named_that_the_program_does_not_have(executable: str) -> None:
+    there = {(command, option) for command in commands.commands(executable) for option in commands.options(executable, command)}
+    for command, option in OTHERS:
+        assert (command, option) in there or (command is None and any(option == name for _, name in there)), (command, option)
+
+
+def test_the_tables_of_the_document_are_those_of_the_program_and_the_package(executable: str) -> None:
+    begin, end = "<!-- commands and options: begin -->\n", "<!-- commands and options: end -->"
+    before, rest = DOCUMENT.read_text().split(begin)
+    written, after = rest.split(end)
+    made = f"\n{tables(executable)}\n"
+    if os.environ.get("UPDATE_DOCS"):
+        DOCUMENT.write_text(f"{before}{begin}{made}{end}{after}")
+        return
+    assert written == made
+
+
+def test_a_command_without_a_keyword_is_found(executable: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(COMMANDS, "reduce", ("", [Robot.equilibrium]))
+    assert equal("reduce", "--damping-at-hz") is None and "MISSING" in tables(executable)

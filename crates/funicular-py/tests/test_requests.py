@@ -1,0 +1,287 @@
+"""A call of Python and a command line of the program are the same request, and have the same results."""
+
+import json
+import os
+import re
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import commands
+import funicular
+import numpy as np
+import pytest
+from conftest import ROOT
+
+# Lines for commands and options that the help texts have no example of.
+STATE = "--mass-kg 20 --force-n 1,0,-5 --moment-n-m 0,0.1,0 --load-point-m 0,0,0.1 --wind-m-s 5,0,0 --cable-load-n-per-m 0,0,-0.1"
+LENGTHS = "--lengths-m 6.9,6.6,6.8,6.7,6.8,6.6"
+MODEL = "--cable-model closed-form --assembly paper --in-plane-only"
+ROBOT = "robots/yuan2014-4mm.toml"
+WHOLE = "--cable-model exact --assembly consistent"
+RANGE = "--from-hz 0.5 --to-hz 8 --points 7"
+TENSIONS = "--pose 1,2,1.5,0,3,10 --tension-rule closest --wanted-tension-n 900 --min-tension-n 5 --max-tension-n 4000"
+MORE = [
+    f"funicular statics {ROBOT} --all",
+    f"funicular statics {ROBOT} {LENGTHS} {STATE}",
+    f"funicular statics robots/cogiro.toml {TENSIONS} --mass-kg 300 --static-model spring",
+    f"funicular stiffness {ROBOT} --at-hz 1.5 --pose 0,0,0.5 {STATE} {MODEL}",
+    f"funicular modes {ROBOT} --below-hz 3 {LENGTHS} --input f:1,0,1 --output ay --input-point-m 0.1,0,0 --stations 5",
+    f"funicular modes {ROBOT} --below-hz 3 --pose 0,0,0.5 {STATE} {MODEL} --input fz --output z --output-point-m 0,0,0.1",
+    f"funicular frf {ROBOT} {RANGE} --log --input cable:3@0.5:fz --output vz --prominence-db 3 --pose 0,0,0.5 {STATE}",
+    f"funicular frf {ROBOT} {RANGE} {MODEL} --input fz --output rx --input-point-m 0.1,0,0",
+    f"funicular compare {ROBOT} --below-hz 2",
+    f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly paper --in-plane-only",
+    f"funicular cable {ROBOT} --name 3 {RANGE}",
+    f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model closed-form --in-plane-only",
+    f"funicular pose-error {ROBOT} --mass-kg 10.55:86.35:5 {LENGTHS} --tolerance-mm 5",
+    f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --damping-at-hz 1",
+    f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
+    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 {STATE} {WHOLE}",
+    f"funicular map robots/cogiro.toml --grid z=1:2:2 {TENSIONS} {STATE} {MODEL} --quantity tensions --up-to-hz 50",
+    f"funicular sweep {ROBOT} --vary cables.3.unstrained_length_m=6.7,6.8 --static-model spring --set platform.mass_kg=12",
+    f"funicular report {ROBOT} --below-hz 3 --input mz --output arz --cable-model spring --mass-kg 12",
+    f"funicular export {ROBOT} --to moordyn --segments 5 --pose 0,0,0.5 --mass-kg 12 --wind-m-s 5,0,0",
+    f"funicular report {ROBOT} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 {STATE} {MODEL}",
+    f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
+    f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
+    "funicular paper",
+    "funicular import docs/import/tripod.txt --mass-kg 7 --inertia-kg-m2 1,1,1,0,0,0 --center-of-mass-m 0,0,0.1 --diameter-m 0.01",
+    "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml --mass-kg-per-m 0.05 --youngs-modulus-pa 1e11 "
+    "--diameter-m 0.005 --pose 0,0,1",
+]
+
+
+def lines() -> list[str]:
+    """Lines of the help texts and of this file; without the program the tests of them are skipped."""
+    executable = os.environ.get("FUNICULAR_PROGRAM")
+    if not executable:
+        return MORE
+    told = [line for command in commands.commands(executable) for line in commands.examples(executable, command)]
+    # A few examples name files of the reader's own.
+    return [line for line in told if "robots/" in line or "docs/" in line or line == "funicular report"] + MORE
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the repository's robots, in which the examples can be followed."""
+    for name in ("robots", "docs"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    poses = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0.5,0.25,1.5,0,1,2\n0,0,2,0,0,0\n"
+    (tmp_path / "trajectory.csv").write_text(poses)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_every_command_that_computes_has_a_line(executable: str) -> None:
+    found = lines()
+    lacking = []
+    for command in commands.commands(executable):
+        if command not in ("request", "merge", "plot", "validate"):
+            assert any(line.split()[1] == command for line in found), command
+        for option in commands.options(executable, command):
+            if option not in commands.OUTPUT and command != "plot":
+                of_command = [line for line in found if line.split()[1] == command]
+                used = any(option in line.split() for line in of_command)
+                same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")
+                if not used and option not in (*same, "--cable-set"):
+                    lacking.append((command, option))
+    assert lacking == []
+
+
+def asked(executable: str, line: str) -> dict[str, Any]:
+    words = commands.shlex.split(line)[1:]
+    told = subprocess.run([executable, *words, "--print-request"], capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr
+    found: dict[str, Any] = json.loads(told.stdout)
+    return found
+
+
+def ours(line: str) -> dict[str, Any]:
+    command, files, keywords, changes = commands.call(line)
+    if command == "import":
+        sources = [json.loads(funicular._study.source_file(Path(path))) for path in files]
+        return funicular._study.request(command, None, {"files": sources, **keywords})
+    if command in ("paper", "validate"):
+        return funicular._study.request(command, None, keywords)
+    return commands.robot_of(files, changes).request(command, **keywords)
+
+
+@pytest.mark.parametrize("line", lines())
+def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -> None:
+    theirs, mine = asked(executable, line), ours(line)
+    assert mine == theirs
+    # Numbers are as many in JSON as they are here: a request comes back as it was.
+    assert funicular._study._complete(json.loads(json.dumps(mine))) == mine
+
+
+# Results of these are compared; the others make pages and files, or rows, which have tests of their own.
+COMPUTED = ("check", "statics", "stiffness", "modes", "frf", "compare", "pose-error", "cable", "reduce")
+
+
+def plain(found: Any) -> Any:
+    """Without arrays."""
+    if isinstance(found, np.ndarray):
+        if found.dtype.kind == "c":
+            return {"real": found.real.tolist(), "imag": found.imag.tolist()}
+        return found.tolist()
+    if isinstance(found, dict):
+        return {key: plain(value) for key, value in found.items()}
+    return [plain(value) for value in found] if isinstance(found, (list, tuple)) else found
+
+
+STATE_KEYS = {"pose", "lengths_m", "mass_kg", "static_model", "force_n", "moment_n_m", "load_point_m", "wind_m_s"} | {
+    *("cable_load_n_per_m", "tension_rule", "wanted_tension_n", "min_tension_n", "max_tension_n")
+}
+
+
+@pytest.mark.parametrize("line", [line for line in MORE if line.split()[1] in COMPUTED])
+def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executable: str) -> None:
+    words = commands.shlex.split(line)[1:]
+    told = subprocess.run([executable, *words, "--format", "json"], capture_output=True, text=True, check=True)
+    theirs = json.loads(told.stdout)
+    assert funicular.run(ours(line)) == theirs
+
+    command, files, keywords, changes = commands.call(line)
+    robot = commands.robot_of(files, changes)
+    if command == "pose-error":
+        assert plain(robot.pose_error(**keywords)) == theirs
+        return
+    rest = robot.equilibrium(**{key: value for key, value in keywords.items() if key in STATE_KEYS})
+    # Python takes frequencies instead of a range of them, and finds peaks apart.
+    of_range = {"from_hz", "to_hz", "points", "log", "prominence_db"}
+    own = {key: value for key, value in keywords.items() if key not in STATE_KEYS | of_range}
+    hz = theirs.get("frequency_hz")
+    match command:
+        case "statics":
+            assert (plain(rest.all_equilibria()) if own else rest.to_dict()) == theirs
+        case "stiffness":
+            matrix = rest.stiffness(**own)
+            assert matrix.real.tolist() == theirs["real"] and matrix.imag.tolist() == theirs["imag"]
+        case "modes":
+            assert rest.modes(**own).to_dict() == theirs
+        case "compare":
+            assert plain(rest.compare(**own)) == theirs
+        case "reduce":
+            assert rest.reduce(**own).to_dict() == theirs
+        case "cable":
+            assert plain(rest.cable(hz=hz, **own)) == theirs
+        case "frf":
+            response = rest.frf(hz, **own)
+            assert response.real.tolist() == theirs["real"] and response.imag.tolist() == theirs["imag"]
+
+
+def test_modes_have_their_parts_in_a_response_and_shapes_along_the_cables() -> None:
+    modes = funicular.Robot.example().modes(3, input="fz", output="az", stations=5)
+    assert modes.cable_shapes is not None and modes.cable_shapes.shape == (len(modes), 6, 5, 3)
+    assert modes.cable_axes is not None and modes.station_position_m is not None and modes.station_arc_length_m is not None
+    assert np.allclose(modes.cable_axes @ modes.cable_axes.transpose(0, 2, 1), np.eye(3), atol=1e-12)
+    # The anchor is held; the other end moves with the platform.
+    assert np.abs(modes.cable_shapes[:, :, -1]).max() < 1e-9 * np.abs(modes.cable_shapes).max()
+    rest = funicular.Robot.example().equilibrium()
+    arms = modes.station_position_m[:, 0] - rest.pose.position_m
+    moved = modes.shape[:, None, :3] + np.cross(modes.shape[:, None, 3:], arms)
+    assert np.allclose(np.einsum("kij,mkj->mki", modes.cable_axes, moved), modes.cable_shapes[:, :, 0], atol=1e-6)
+    assert modes.peak is not None and modes.peak_unit == "(m/s²)/N" and modes.peak.shape == (len(modes),)
+    assert modes.residue_per_kg is not None and len(modes.to_pandas()["peak"]) == len(modes)
+
+
+def test_a_reduced_model_has_the_frequencies_and_responses_of_the_robot(tmp_path: Path) -> None:
+    rest = funicular.Robot.example().equilibrium()
+    model = rest.reduce(3, ["fz"], ["z", "az"])
+    assert np.allclose(model.mass, model.mass.T) and np.allclose(model.stiffness, model.stiffness.T)
+    found = np.sqrt(np.linalg.eigvals(np.linalg.solve(model.mass, model.stiffness)).real) / (2 * np.pi)
+    assert np.allclose(np.sort(found)[: len(rest.modes(3))], rest.modes(3).frequency_hz, rtol=1e-6)
+    a, b, c, d = model.state_space()
+    hz = np.array([0.5, 1.3, 2.4])
+    for i, signal in enumerate(("z", "az")):
+        response = np.array([(c @ np.linalg.solve(2j * np.pi * f * np.eye(len(a)) - a, b) + d)[i, 0] for f in hz])
+        # Damping that is made viscous is right at natural frequencies alone.
+        bound = 2 * ((model.damping_error or 0) + (model.truncation_error or 0))
+        expected = rest.frf(hz, "fz", signal)
+        assert np.abs(response - expected).max() < bound * np.abs(expected).max()
+    model.save(tmp_path / "model.npz")
+    assert np.array_equal(np.load(tmp_path / "model.npz")["ss_A"], a)
+    with pytest.raises(funicular.InputError, match=r"must end in \.npz"):
+        model.save(tmp_path / "model.csv")
+
+
+def test_a_reduced_model_goes_to_scipy_and_control() -> None:
+    model = funicular.Robot.example().reduce(2, ["fz"], ["z"])
+    scipy = pytest.importorskip("scipy.signal")
+    _, response = scipy.freqresp(model.to_scipy(), [6.0])
+    a, b, c, d = model.state_space()
+    assert np.allclose(response, c @ np.linalg.solve(6j * np.eye(len(a)) - a, b) + d, rtol=1e-6)
+    pytest.importorskip("control")
+    assert model.to_control().input_labels == ["fz"]
+
+
+def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path) -> None:
+    def run(line: str) -> None:
+        subprocess.run([executable, *line.split()], check=True, capture_output=True)
+
+    robot = funicular.Robot.from_file(ROBOT)
+    rest = robot.equilibrium(pose=[0, 0, 0.5])
+    for to, ending, keywords in [("opensees", "py", {}), ("moordyn", "txt", {}), ("vtk", "vtp", {"modes_below_hz": 2})]:
+        more = "".join(f" --{key.replace('_', '-')} {value}" for key, value in keywords.items())
+        run(f"export {ROBOT} --to {to} --pose 0,0,0.5 --segments 5{more} -o theirs.{ending}")
+        rest.export(to, f"ours.{ending}", segments=5, **keywords)
+        assert Path(f"ours.{ending}").read_bytes() == Path(f"theirs.{ending}").read_bytes()
+        made = funicular.run(robot.request("export", to=to, pose=[0, 0, 0.5], segments=5, **keywords))
+        assert made.text == Path(f"ours.{ending}").read_text()
+
+    files = ["docs/import/tripod_bodies.xml", "docs/import/tripod_cables.xml"]
+    run(f"import {' '.join(files)} --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o theirs.toml")
+    imported = funicular.import_robot(files, mass_kg_per_m=0.05, axial_stiffness_n=1e6)
+    imported.write("ours.toml")
+    # Comments name options in the words of who wrote them.
+    theirs = re.sub("--([a-z][a-z-]+)", lambda name: f"`{name[1].replace('-', '_')}`", Path("theirs.toml").read_text())
+    assert Path("ours.toml").read_text() == theirs
+    assert imported.robot.equilibrium().stable
+    with pytest.raises(funicular.InputError, match="`mass_kg_per_m`"):
+        funicular.import_robot(files)
+
+    page = rest.report("ours.html", below_hz=3)
+    assert Path("ours.html").read_text() == page.html and "robot.equilibrium(" in page.html
+    assert "<iframe" in page._repr_html_() and "<html" not in page._repr_html_()
+    rows = robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}, file="map.parquet")
+    shown = rows.plot("map.html")
+    assert Path("map.html").read_text() == shown.html and "tension" in shown.html
+    assert "rows in memory" in robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}).plot().html
+
+
+def test_parts_of_a_map_are_one_file(folder: Path) -> None:
+    robot = funicular.Robot.from_file(ROBOT)
+    grid = {"x": (-1, 1, 40), "y": (-1, 1, 10), "z": 0.5}
+    robot.map(grid, file="whole.parquet")
+    seen: list[tuple[int, int]] = []
+    for k in (1, 2, 3):
+        part = robot.map(grid, file=f"{k}.parquet", part=f"{k}/3", progress=lambda *rows: seen.append(rows))
+        assert part.complete and 0 < len(part) < 400 and seen[-1] == (len(part), len(part))
+    assert len(funicular.merge([f"{k}.parquet" for k in (1, 2, 3)], "merged.parquet")) == 400
+    assert Path("merged.parquet").read_bytes() == Path("whole.parquet").read_bytes()
+    for keywords, told in [({"part": "4/3", "file": "x.parquet"}, "`part`: `4/3` is no part"), ({"part": "1/3"}, "`part` goes with")]:
+        with pytest.raises(funicular.InputError, match=told):
+            robot.map(grid, **keywords)  # type: ignore[arg-type]
+    with pytest.raises(funicular.FileError, match="written without `part`"):
+        funicular.merge(["whole.parquet"], "again.parquet")
+
+
+def test_every_comparison_of_the_validation_passes() -> None:
+    found = funicular.validate()
+    assert found["passed"] == found["comparisons"] > 50
+
+
+@pytest.mark.parametrize(
+    ("request_", "told"),
+    [
+        ({"command": "statik"}, "unknown variant `statik`"),
+        ({"command": "modes", "robot": {"text": "x"}}, "below_hz"),
+        ({"command": "statics", "robot": {"text": ""}, "poze": 1}, "has no key `poze`; did you mean `pose`"),
+        ({"command": "merge", "parts": []}, "funicular.merge"),
+        ({"command": "statics", "robot": {"text": ""}, "mass_kg": float("nan")}, "what JSON cannot"),
+    ],
+)
+def test_requests_that_mean_nothing_are_explained(request_: dict[str, Any], told: str) -> None:
+    with pytest.raises(funicular.InputError, match=told):
+        funicular.run(request_)

@@ -1,0 +1,258 @@
+//! `cable`: the dynamic stiffness of one cable's platform end, anchor held.
+
+use super::found;
+use super::shared::SagNumbers;
+use crate::at_rest::{self, AtRest};
+use crate::error::NoSolution;
+use crate::names::suggestion;
+use crate::request;
+use anyhow::{Result, bail};
+use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};
+use funicular::dynamics::DynamicsError;
+use funicular::math::{Complex, Mat3};
+use funicular::robot::Robot;
+use funicular::statics::CableState;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Most clamped frequencies of one list.
+const MOST_CLAMPED: usize = 10_000;
+
+/// Results of `cable`: the stiffness of one cable's platform end over frequency.
+#[derive(Serialize)]
+pub struct CableResult {
+    #[serde(skip)]
+    pub robot: String,
+    pub name: String,
+    pub static_model: &'static str,
+    pub cable_model: &'static str,
+    pub in_plane_only: bool,
+    pub chord_m: f64,
+    pub parallel_tension_n: f64,
+    #[serde(flatten)]
+    pub sag: SagNumbers,
+    /// Unit vectors along the chord, in plane and out of plane, world axes.
+    pub axes: Axes,
+    /// Undamped, both ends held; absent for the models without them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamped_frequencies_hz: Option<Vec<f64>>,
+    pub frequency_hz: Vec<f64>,
+    pub local: Local,
+    pub world: World,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
+#[derive(Serialize)]
+pub struct Axes {
+    pub e: [f64; 3],
+    pub n: [f64; 3],
+    pub b: [f64; 3],
+}
+
+impl Axes {
+    pub fn of(axes: &LocalAxes) -> Self {
+        Self { e: axes.e.into(), n: axes.n.into(), b: axes.b.into() }
+    }
+}
+
+/// Along the chord, coupling, normal in plane, out of plane [N/m].
+#[derive(Serialize)]
+pub struct Local {
+    pub k_a: Curve,
+    pub k_b: Curve,
+    pub k_c: Curve,
+    pub k_o: Curve,
+}
+
+/// One complex number over frequency.
+#[derive(Serialize)]
+pub struct Curve {
+    pub real: Vec<f64>,
+    pub imag: Vec<f64>,
+}
+
+/// 3×3 in world axes at each frequency [N/m].
+#[derive(Serialize)]
+pub struct World {
+    pub real: Vec<[[f64; 3]; 3]>,
+    pub imag: Vec<[[f64; 3]; 3]>,
+}
+
+/// The stiffness of one cable's platform end over frequency, anchor held.
+///
+/// # Errors
+/// A name that no cable has, a robot without that equilibrium, or an undamped resonance at one of the frequencies.
+pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
+    let frequency_hz = request.range.frequencies()?;
+    place(&robot, &request.name)?;
+    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let wanted = Wanted {
+        name: &request.name,
+        frequency_hz,
+        cable_model: request.cable_model,
+        in_plane_only: request.in_plane_only,
+    };
+    about(&at_rest, wanted)
+}
+
+/// One cable of a robot that is at rest already.
+#[derive(Debug)]
+pub struct Wanted<'a> {
+    /// Name of the cable.
+    pub name: &'a str,
+    /// Frequencies [Hz], none negative, at least one.
+    pub frequency_hz: Vec<f64>,
+    /// Cable model; the default depends on the static model.
+    pub cable_model: Option<CableModel>,
+    /// Leave out the stiffness out of the cable's plane.
+    pub in_plane_only: bool,
+}
+
+/// Place of a cable in the robot.
+fn place(robot: &Robot, name: &str) -> Result<usize> {
+    let Some(i) = robot.cables.iter().position(|cable| cable.name == name) else {
+        let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+        bail!("the robot has no cable \"{name}\"{}", suggestion(name, &names))
+    };
+    Ok(i)
+}
+
+/// The stiffness of one cable of a robot that is at rest already.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, wanted: Wanted<'_>) -> Result<CableResult> {
+    let Wanted { name, frequency_hz, cable_model, in_plane_only } = wanted;
+    let i = place(&at_rest.robot, name)?;
+    let (from_hz, to_hz) =
+        frequency_hz.iter().fold((f64::INFINITY, 0.0_f64), |(from, to), hz| (from.min(*hz), to.max(*hz)));
+    let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);
+    let model: CableModel = at_rest::cable_model(cable_model, at_rest.equilibrium.model);
+    let stiffness = EndStiffness::new(robot, i, state, model, in_plane_only, to_hz)
+        .map_err(|reason| DynamicsError::of_cable(name, model, reason))?;
+    let sag = Sag::of(robot, i, state);
+    let axes = LocalAxes::of_cable(robot, i, state);
+    let values = curve(&stiffness, &axes, &frequency_hz)?;
+    let part = |of: fn(&LocalStiffness<Complex>) -> Complex| Curve {
+        real: values.iter().map(|k| of(k).re + 0.0).collect(),
+        imag: values.iter().map(|k| of(k).im + 0.0).collect(),
+    };
+    let world = |of: fn(&Complex) -> f64| {
+        values.iter().map(|k| rows(&in_part(k, of).in_world(&axes))).collect::<Vec<[[f64; 3]; 3]>>()
+    };
+    Ok(CableResult {
+        robot: robot.name.clone(),
+        name: name.to_owned(),
+        static_model: at_rest.equilibrium.model.name(),
+        cable_model: model.name(),
+        in_plane_only,
+        chord_m: sag.chord,
+        parallel_tension_n: sag.tension,
+        sag: SagNumbers::of(&sag),
+        axes: Axes::of(&axes),
+        clamped_frequencies_hz: clamped(&stiffness, from_hz, to_hz)?,
+        local: Local {
+            k_a: part(|k| k.axial),
+            k_b: part(|k| k.coupling),
+            k_c: part(|k| k.normal),
+            k_o: part(|k| k.out_of_plane),
+        },
+        world: World { real: world(|k| k.re), imag: world(|k| k.im) },
+        frequency_hz,
+        warnings: warnings(robot, i, state, &sag, model, to_hz),
+    })
+}
+
+/// The four numbers at each frequency [Hz].
+fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Result<Vec<LocalStiffness<Complex>>> {
+    frequency_hz
+        .iter()
+        .map(|&f| {
+            let k = match stiffness {
+                EndStiffness::Constant(world) => in_axes(world, axes),
+                EndStiffness::Dynamic(form) => turned(&form.damped(f * TAU), form.axes(), axes),
+            };
+            let finite =
+                [k.axial, k.coupling, k.normal, k.out_of_plane].iter().all(|k| k.re.is_finite() && k.im.is_finite());
+            if finite {
+                Ok(k)
+            } else {
+                let reason = "is not finite: an undamped natural frequency of the clamped cable lies there; give the \
+                              rope damping or choose other frequencies";
+                Err(NoSolution(format!("the stiffness at {f} Hz {reason}")).into())
+            }
+        })
+        .collect()
+}
+
+/// A stiffness in the axes of its model, in the axes of the chord.
+fn turned(k: &LocalStiffness<Complex>, from: &LocalAxes, to: &LocalAxes) -> LocalStiffness<Complex> {
+    if from == to {
+        return *k;
+    }
+    let part = |of: fn(&Complex) -> f64| in_axes(&in_part(k, of).in_world(from), to);
+    let (re, im) = (part(|k| k.re), part(|k| k.im));
+    let join = |re: Complex, im: Complex| Complex::new(re.re, im.re);
+    LocalStiffness {
+        axial: join(re.axial, im.axial),
+        coupling: join(re.coupling, im.coupling),
+        normal: join(re.normal, im.normal),
+        out_of_plane: join(re.out_of_plane, im.out_of_plane),
+    }
+}
+
+/// A symmetric stiffness in world axes, in the axes of the cable.
+fn in_axes(world: &Mat3, axes: &LocalAxes) -> LocalStiffness<Complex> {
+    let LocalAxes { e, n, b } = axes;
+    let between = |u: &funicular::math::Vec3, v: &funicular::math::Vec3| Complex::new(u.dot(&(world * v)), 0.0);
+    LocalStiffness { axial: between(e, e), coupling: between(e, n), normal: between(n, n), out_of_plane: between(b, b) }
+}
+
+fn in_part(k: &LocalStiffness<Complex>, of: fn(&Complex) -> f64) -> LocalStiffness<f64> {
+    LocalStiffness {
+        axial: of(&k.axial),
+        coupling: of(&k.coupling),
+        normal: of(&k.normal),
+        out_of_plane: of(&k.out_of_plane),
+    }
+}
+
+fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)] + 0.0))
+}
+
+/// Frequencies of the cable with both ends held in the range [Hz].
+fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<Vec<f64>>> {
+    let EndStiffness::Dynamic(form) = stiffness else { return Ok(None) };
+    let limit = to_hz * TAU;
+    let count = form.clamped_modes_below(limit);
+    if count > MOST_CLAMPED {
+        bail!(
+            "the cable has {count} clamped frequencies below {to_hz} Hz, at most {MOST_CLAMPED} are listed: lower ⟪to_hz⟫"
+        );
+    }
+    let all = form.clamped_frequencies_below(limit).into_iter().map(|omega| omega / TAU);
+    Ok(Some(all.filter(|f| *f >= from_hz).collect()))
+}
+
+/// What the core warns of, for this cable alone.
+fn warnings(robot: &Robot, i: usize, state: &CableState, sag: &Sag, model: CableModel, below_hz: f64) -> Vec<String> {
+    use funicular::validity::{AXIAL_PART, DeepSag, Warning};
+    let cable = robot.cables[i].name.clone();
+    let mut warnings = Vec::new();
+    if state.is_slack() {
+        warnings.push(Warning::Slack { cable: cable.clone() });
+    }
+    if let Some(deep) = DeepSag::of(robot, i, state, model) {
+        warnings.push(Warning::DeepSag { cables: vec![deep], model });
+    }
+    let axial_hz = sag.axial_frequency_hz();
+    if model != CableModel::Exact && below_hz > AXIAL_PART * axial_hz {
+        warnings.push(Warning::AxialWaves { cable, axial_hz, below_hz });
+    }
+    warnings.iter().map(ToString::to_string).collect()
+}
+
+found!(CableResult, "cable");

@@ -1,0 +1,269 @@
+//! `check`: what the robot file says.
+
+use super::found;
+use crate::text::{short, vector};
+use funicular::math::rotation;
+use funicular::robot::{Cable, Damping, Freedoms, Load, Robot, State, TensionLimits, Wind};
+use serde::Serialize;
+
+/// The robot as it was read.
+#[derive(Serialize)]
+pub struct Checked {
+    #[serde(skip)]
+    pub robot: String,
+    pub source: String,
+    pub gravity_m_s2: [f64; 3],
+    pub freedoms: usize,
+    pub platform: CheckedPlatform,
+    /// Absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<LoadRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind: Option<WindRow>,
+    pub materials: Vec<CheckedRope>,
+    pub cables: Vec<CheckedCable>,
+    /// `lengths`, `pose` or `none`.
+    pub state: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<CheckedPose>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// The platform of a robot file.
+#[derive(Serialize)]
+pub struct CheckedPlatform {
+    pub freedoms: &'static str,
+    /// Only of a planar platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_normal: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_offset_m: Option<f64>,
+    pub mass_kg: f64,
+    pub inertia_kg_m2: [[f64; 3]; 3],
+    pub center_of_mass_m: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drag_area_m2: Option<f64>,
+}
+
+/// A load on the platform.
+#[derive(Serialize)]
+pub struct LoadRow {
+    pub force_n: [f64; 3],
+    pub moment_n_m: [f64; 3],
+    pub point_m: [f64; 3],
+}
+
+impl LoadRow {
+    /// `None` where there is none.
+    pub fn of(load: &Load) -> Option<Self> {
+        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
+            force_n: load.force_w.into(),
+            moment_n_m: load.moment_w.into(),
+            point_m: load.point_p.into(),
+        })
+    }
+
+    /// One phrase for people.
+    pub fn text(&self) -> String {
+        let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
+        format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
+    }
+}
+
+/// The wind.
+#[derive(Serialize)]
+pub struct WindRow {
+    pub velocity_m_s: [f64; 3],
+    pub air_density_kg_m3: f64,
+}
+
+impl WindRow {
+    /// `None` in still air.
+    pub fn of(wind: &Wind) -> Option<Self> {
+        (wind.velocity_w.norm() > 0.0)
+            .then(|| Self { velocity_m_s: wind.velocity_w.into(), air_density_kg_m3: wind.air_density })
+    }
+
+    /// One phrase for people.
+    pub fn text(&self) -> String {
+        format!("({}) m/s, air of {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
+    }
+}
+
+/// One rope of a robot file.
+#[derive(Serialize, PartialEq)]
+pub struct CheckedRope {
+    pub name: String,
+    pub axial_stiffness_n: f64,
+    pub mass_kg_per_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscous_damping_n_s_m2: Option<f64>,
+    #[serde(flatten)]
+    pub limits: CheckedLimits,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub breaking_load_n: Option<f64>,
+    /// Drag coefficient times diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drag_width_m: Option<f64>,
+}
+
+/// Limits of tension, as far as there are any.
+#[derive(Serialize, PartialEq)]
+pub struct CheckedLimits {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub minimum_tension_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub maximum_tension_n: Option<f64>,
+}
+
+impl CheckedLimits {
+    fn of(limits: TensionLimits) -> Self {
+        Self { minimum_tension_n: limits.minimum, maximum_tension_n: limits.maximum }
+    }
+}
+
+/// One cable of a robot file.
+#[derive(Serialize)]
+pub struct CheckedCable {
+    pub name: String,
+    pub material: String,
+    pub anchor_m: [f64; 3],
+    pub attachment_m: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unstrained_length_m: Option<f64>,
+    /// Its own or those of its rope.
+    #[serde(flatten)]
+    pub limits: CheckedLimits,
+    /// Besides weight and wind; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_n_per_m: Option<[f64; 3]>,
+}
+
+/// The pose of a robot file.
+#[derive(Serialize)]
+pub struct CheckedPose {
+    pub position_m: [f64; 3],
+    pub roll_pitch_yaw_deg: [f64; 3],
+}
+
+/// The robot as it was read, with warnings of what is unusual.
+pub fn run(robot: Robot) -> Checked {
+    let mut materials: Vec<CheckedRope> = Vec::new();
+    for cable in &robot.cables {
+        let rope = &cable.material;
+        let (damping_ratio, viscous_damping_n_s_m2) = match rope.damping {
+            Damping::Ratio(ratio) => (Some(ratio), None),
+            Damping::Viscous(coefficient) => (None, Some(coefficient)),
+        };
+        let row = CheckedRope {
+            name: rope.name.clone(),
+            axial_stiffness_n: rope.axial_stiffness,
+            mass_kg_per_m: rope.mass_per_length,
+            damping_ratio,
+            viscous_damping_n_s_m2,
+            limits: CheckedLimits::of(rope.tension_limits),
+            breaking_load_n: rope.breaking_load,
+            drag_width_m: rope.drag_width,
+        };
+        if !materials.contains(&row) {
+            materials.push(row);
+        }
+    }
+    let lengths = match &robot.state {
+        State::Lengths(lengths) => Some(lengths),
+        State::Pose(_) | State::Unknown => None,
+    };
+    let cables = robot
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, cable)| CheckedCable {
+            name: cable.name.clone(),
+            material: cable.material.name.clone(),
+            anchor_m: cable.anchor_w.into(),
+            attachment_m: cable.attachment_p.into(),
+            unstrained_length_m: lengths.map(|lengths| lengths[i]),
+            limits: CheckedLimits::of(cable.limits()),
+            load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
+        })
+        .collect();
+    let (state, pose) = match &robot.state {
+        State::Lengths(_) => ("lengths", None),
+        State::Pose(pose) => {
+            let row = CheckedPose {
+                position_m: pose.position_w.into(),
+                roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
+            };
+            ("pose", Some(row))
+        }
+        State::Unknown => ("none", None),
+    };
+    let inertia = robot.platform.inertia_p;
+    let freedoms = robot.platform.freedoms.count();
+    let plane = match robot.platform.freedoms {
+        Freedoms::Planar(plane) => Some(plane),
+        Freedoms::Rigid | Freedoms::PointMass => None,
+    };
+    Checked {
+        warnings: warnings(&robot),
+        robot: robot.name,
+        source: robot.source,
+        gravity_m_s2: robot.gravity_w.into(),
+        freedoms,
+        platform: CheckedPlatform {
+            freedoms: robot.platform.freedoms.name(),
+            plane_normal: plane.map(|plane| plane.normal_w().into()),
+            plane_offset_m: plane.map(|plane| plane.offset()),
+            mass_kg: robot.platform.mass,
+            inertia_kg_m2: std::array::from_fn(|i| std::array::from_fn(|j| inertia[(i, j)])),
+            center_of_mass_m: robot.platform.center_of_mass_p.into(),
+            drag_area_m2: (robot.platform.drag_area > 0.0).then_some(robot.platform.drag_area),
+        },
+        load: LoadRow::of(&robot.load),
+        wind: WindRow::of(&robot.wind),
+        materials,
+        cables,
+        state,
+        pose,
+    }
+}
+
+fn warnings(robot: &Robot) -> Vec<String> {
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    let mut warnings = Vec::new();
+    if cables < freedoms {
+        warnings.push(format!(
+            "{cables} cables for {freedoms} freedoms: from lengths the platform hangs where its energy is least; of a pose \
+             that they cannot hold, statics gives the nearest that they can"
+        ));
+    }
+    if let Freedoms::Planar(plane) = robot.platform.freedoms {
+        let across = |cable: &Cable| plane.distance(&cable.anchor_w) - plane.normal_w().dot(&cable.attachment_p);
+        let beside: Vec<String> = robot
+            .cables
+            .iter()
+            .filter(|cable| across(cable).abs() > 1e-9 * (1.0 + cable.anchor_w.norm()))
+            .map(|cable| format!("\"{}\" by {} m", cable.name, short(across(cable), 4)))
+            .collect();
+        if !beside.is_empty() {
+            warnings.push(format!(
+                "cables leave the plane of the platform: {}; what they pull across it is carried by the guide, which has no \
+                 friction and does not yield here",
+                beside.join(", ")
+            ));
+        }
+        let across = plane.normal_w().dot(&robot.gravity_w);
+        if across.abs() > 1e-9 * robot.gravity_w.norm() {
+            warnings.push(format!(
+                "gravity has {} m/s² across the plane of the platform: the guide carries it, and cables sag out of the plane",
+                short(across, 4)
+            ));
+        }
+    }
+    warnings
+}
+
+found!(Checked, "check");

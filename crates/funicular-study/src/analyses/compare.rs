@@ -1,0 +1,133 @@
+//! `compare`: every cable model side by side.
+
+use super::found;
+use super::modes::ModeRow;
+use crate::at_rest::{self, AtRest};
+use crate::request;
+use anyhow::Result;
+use funicular::cable::CableModel;
+use funicular::compare::{self, Comparison, ModelResult, TOLERANCE};
+use funicular::dynamics::Linearisation;
+use funicular::modes;
+use funicular::robot::Robot;
+use serde::Serialize;
+
+/// Results of `compare`: every cable model against the reference.
+#[derive(Serialize)]
+pub struct Compared {
+    #[serde(skip)]
+    pub robot: String,
+    pub below_hz: f64,
+    pub static_model: &'static str,
+    pub assembly: &'static str,
+    pub in_plane_only: bool,
+    pub reference: &'static str,
+    pub tolerance: f64,
+    pub models: Vec<ModelRow>,
+    pub advice: AdviceRow,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// One cable model: its modes, and how they match the reference.
+#[derive(Serialize)]
+pub struct ModelRow {
+    pub cable_model: &'static str,
+    /// Why the model has no modes here.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    pub modes: Vec<ModeRow>,
+    pub count_below: usize,
+    pub certified: bool,
+    pub matches: Vec<MatchRow>,
+    pub missed: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_wrong_hz: Option<f64>,
+}
+
+/// One mode beside the mode of the reference that it matches.
+#[derive(Serialize)]
+pub struct MatchRow {
+    pub frequency_hz: f64,
+    pub reference_hz: f64,
+    pub reference_index: usize,
+    pub relative_difference: f64,
+    pub correlation: f64,
+}
+
+/// The simplest model that is good enough.
+#[derive(Serialize)]
+pub struct AdviceRow {
+    pub cable_model: &'static str,
+    pub text: String,
+}
+
+/// Every cable model, each against the reference.
+///
+/// # Errors
+/// A robot without that equilibrium, or too many modes.
+pub fn run(robot: Robot, request: &request::CompareRequest) -> Result<Compared> {
+    request::check_positive("below_hz", request.below_hz)?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+}
+
+/// Cable models of a robot that is at rest already, whatever the state of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Compared> {
+    request::check_positive("below_hz", request.below_hz)?;
+    let linearisation = Linearisation {
+        // For the number of modes, before any work; the models follow.
+        cable_model: CableModel::ClosedForm,
+        assembly: request.terms.assembly,
+        in_plane_only: request.terms.in_plane_only,
+    };
+    let (reference, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
+    modes::check_count(&reference, request.below_hz, modes::MOST)?;
+    let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation)?;
+    let Comparison { below_hz, reference, models, advice } = found;
+    for model in &models {
+        if let Some(warning) = model.modes.as_ref().ok().and_then(modes::Modes::doubt) {
+            warnings.push(format!("{}: {warning}", model.model));
+        }
+    }
+    Ok(Compared {
+        robot: at_rest.robot.name.clone(),
+        below_hz,
+        static_model: at_rest.equilibrium.model.name(),
+        assembly: linearisation.assembly.name(),
+        in_plane_only: linearisation.in_plane_only,
+        reference: reference.name(),
+        tolerance: TOLERANCE,
+        models: models.into_iter().map(ModelRow::from).collect(),
+        advice: AdviceRow { cable_model: advice.model.name(), text: advice.text },
+        warnings,
+    })
+}
+
+impl From<ModelResult> for ModelRow {
+    fn from(result: ModelResult) -> Self {
+        let (modes, count_below, certified, error) = match result.modes {
+            Ok(found) => {
+                (found.modes.into_iter().map(ModeRow::from).collect(), found.count_below, found.certified, None)
+            }
+            Err(error) => (Vec::new(), 0, false, Some(error.to_string())),
+        };
+        let matches = result
+            .matches
+            .into_iter()
+            .map(|m| MatchRow {
+                frequency_hz: m.frequency_hz,
+                reference_hz: m.reference_hz,
+                reference_index: m.reference_index,
+                relative_difference: m.relative_difference,
+                correlation: m.correlation,
+            })
+            .collect();
+        let (missed, first_wrong_hz) = (result.missed, result.first_wrong_hz);
+        Self { cable_model: result.model.name(), error, modes, count_below, certified, matches, missed, first_wrong_hz }
+    }
+}
+
+found!(Compared, "compare");

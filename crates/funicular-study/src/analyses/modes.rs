@@ -1,0 +1,234 @@
+//! `modes`: every natural frequency below a limit.
+
+use super::cable::Axes;
+use super::shared::Models;
+use super::{found, frf};
+use crate::at_rest::{self, AtRest};
+use crate::request;
+use anyhow::{Result, bail};
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::Dynamics;
+use funicular::modes;
+use funicular::ports::{Input, Output};
+use funicular::response::{Direction, Quantity};
+use funicular::robot::Robot;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Results of `modes`: every natural frequency below a limit.
+#[derive(Serialize)]
+pub struct Modes {
+    #[serde(skip)]
+    pub robot: String,
+    pub below_hz: f64,
+    #[serde(flatten)]
+    pub models: Models,
+    pub count_below: usize,
+    pub certified: bool,
+    pub unstable_directions: usize,
+    /// Whether every mode has its damped partner, counted; absent where damping ratios are of first order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damped_certified: Option<bool>,
+    pub cable_names: Vec<String>,
+    #[serde(flatten)]
+    pub participation: Option<Participation>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stations: Vec<StationsRow>,
+    pub modes: Vec<ModeRow>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// The pair whose response the modes take part in.
+#[derive(Serialize)]
+pub struct Participation {
+    pub input: String,
+    pub output: String,
+    /// Of `peak`.
+    pub peak_unit: String,
+}
+
+/// Where the displacements of `cable_shapes` are.
+#[derive(Serialize)]
+pub struct StationsRow {
+    pub cable: String,
+    pub arc_length_m: Vec<f64>,
+    pub position_m: Vec<[f64; 3]>,
+    pub axes: Axes,
+}
+
+/// One mode.
+#[derive(Serialize)]
+pub struct ModeRow {
+    pub frequency_hz: f64,
+    pub multiplicity: usize,
+    pub damping_ratio: f64,
+    /// λ = −ζω + iω√(1 − ζ²), real and imaginary part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eigenvalue_per_s: Option<[f64; 2]>,
+    pub kind: &'static str,
+    pub platform_energy_fraction: f64,
+    pub cable_energy_fractions: Vec<f64>,
+    pub shape: [f64; 6],
+    pub modal_mass_kg: f64,
+    pub residual: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residue_per_kg: Option<f64>,
+    /// Height of the mode's own peak.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak: Option<f64>,
+    /// For each cable, displacement (e, n, b) of each station, in the scale of `shape`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cable_shapes: Vec<Vec<[f64; 3]>>,
+}
+
+impl From<modes::Mode> for ModeRow {
+    fn from(mode: modes::Mode) -> Self {
+        Self {
+            frequency_hz: mode.frequency_hz,
+            multiplicity: mode.multiplicity,
+            damping_ratio: mode.damping_ratio,
+            eigenvalue_per_s: None,
+            kind: mode.kind.name(),
+            platform_energy_fraction: mode.platform_energy_fraction,
+            cable_energy_fractions: mode.cable_energy_fractions,
+            // `+ 0.0` makes a negative zero positive.
+            shape: mode.shape.map(|x| x + 0.0),
+            modal_mass_kg: mode.modal_mass,
+            residual: mode.residual,
+            residue_per_kg: None,
+            peak: None,
+            cable_shapes: Vec::new(),
+        }
+    }
+}
+
+/// Every natural frequency below a limit.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, a robot without that equilibrium, or too many modes.
+pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
+    request::check_positive("below_hz", request.below_hz)?;
+    // Signals that mean nothing are refused before the work.
+    directions(&robot, pair(request)?.as_ref(), request)?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+}
+
+/// Natural frequencies of a robot that is at rest already, whatever the state of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
+    request::check_positive("below_hz", request.below_hz)?;
+    let pair = pair(request)?;
+    let directions = directions(&at_rest.robot, pair.as_ref(), request)?;
+    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
+    modes::check_count(&dynamics, request.below_hz, modes::MOST)?;
+    let found = modes::below(&dynamics, request.below_hz);
+    warnings.extend(found.doubt());
+    let AtRest { robot, equilibrium, .. } = at_rest;
+
+    let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
+    let (damped, doubt) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
+    warnings.extend(doubt);
+    if let Some(damped) = &damped {
+        for (row, mode) in rows.iter_mut().zip(&damped.modes) {
+            let eigenvalue = mode.eigenvalue();
+            row.damping_ratio = mode.damping_ratio();
+            row.eigenvalue_per_s = Some([eigenvalue.re, eigenvalue.im]);
+        }
+    }
+    let mut participation = None;
+    if let (Some((input, output)), Some((from, to))) = (&pair, directions) {
+        let places = at_rest.places(&dynamics, input.on_cable.as_ref(), output.on_cable.as_ref())?;
+        let pose = &equilibrium.pose;
+        let from = places.port(places.input, from.vector(pose), input.direction_w);
+        let to = places.port(places.output, to.vector(pose), output.direction_w);
+        for (row, mode) in rows.iter_mut().zip(&found.modes) {
+            let residue = from.in_mode(&dynamics, mode) * to.in_mode(&dynamics, mode) / mode.modal_mass;
+            let omega = mode.frequency_hz * TAU;
+            let by_time = match output.quantity {
+                Quantity::Displacement => 1.0,
+                Quantity::Velocity => omega,
+                Quantity::Acceleration => omega * omega,
+            };
+            row.residue_per_kg = Some(residue + 0.0);
+            let damping = 2.0 * row.damping_ratio * omega * omega;
+            row.peak = (damping > 0.0).then(|| residue.abs() * by_time / damping);
+        }
+        let peak_unit = frf::unit(input, output);
+        participation = Some(Participation { input: input.name.clone(), output: output.name.clone(), peak_unit });
+    }
+    let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(at_rest, &dynamics, count))?;
+    for (row, mode) in rows.iter_mut().zip(&found.modes) {
+        row.cable_shapes = stations.iter().map(|of| of.in_mode(&dynamics, mode)).collect();
+    }
+    Ok(Modes {
+        robot: robot.name.clone(),
+        below_hz: request.below_hz,
+        models: Models::of(equilibrium, linearisation),
+        count_below: found.count_below,
+        certified: found.certified,
+        unstable_directions: found.unstable_directions,
+        damped_certified: damped.map(|damped| damped.certified),
+        cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+        participation,
+        stations: stations.iter().map(|of| StationsRow::of(robot, of)).collect(),
+        modes: rows,
+        warnings,
+    })
+}
+
+/// Input and output of the response that the modes take part in.
+fn pair(request: &request::ModesRequest) -> Result<Option<(Input, Output)>> {
+    match (&request.input, &request.output) {
+        (Some(input), Some(output)) => Ok(Some((request::input(input)?, request::output(output)?))),
+        (None, None) => Ok(None),
+        (Some(_), None) => bail!("⟪input⟫ is one end of a response: give ⟪output⟫, too"),
+        (None, Some(_)) => bail!("⟪output⟫ is one end of a response: give ⟪input⟫, too"),
+    }
+}
+
+/// Where the response begins and ends on the platform.
+fn directions(
+    robot: &Robot,
+    pair: Option<&(Input, Output)>,
+    request: &request::ModesRequest,
+) -> Result<Option<(Direction, Direction)>> {
+    pair.map(|(input, output)| at_rest::directions(robot, input, output, &request.points)).transpose()
+}
+
+/// Equal steps along every cable.
+fn stations(at_rest: &AtRest, dynamics: &Dynamics, count: usize) -> Result<Vec<CableStations>> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    request::check_stations(count)?;
+    let fractions: Vec<f64> = (0..count).map(|i| i as f64 / (count - 1) as f64).collect();
+    let of = |i: usize| Ok(CableStations::new(robot, equilibrium, dynamics, i, &fractions, false)?);
+    (0..robot.cables.len()).map(of).collect()
+}
+
+impl StationsRow {
+    fn of(robot: &Robot, stations: &CableStations) -> Self {
+        Self {
+            cable: robot.cables[stations.cable].name.clone(),
+            arc_length_m: stations.arc_lengths.clone(),
+            position_m: stations.points_w.iter().map(|point| (*point).into()).collect(),
+            axes: Axes::of(&stations.axes),
+        }
+    }
+}
+
+/// The first few cables that matter in a mode, by name, with their shares of its energy.
+pub fn strongest<'a>(names: impl Iterator<Item = &'a str>, shares: &[f64]) -> Vec<(&'a str, f64)> {
+    const SHOWN: usize = 3;
+    // A share that rounds to less than this tells nothing.
+    const MIN_SHARE: f64 = 0.05;
+    let mut all: Vec<(&str, f64)> = names.zip(shares.iter().copied()).collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    all.retain(|(_, share)| *share >= MIN_SHARE);
+    all.truncate(SHOWN);
+    all
+}
+
+found!(Modes, "modes");

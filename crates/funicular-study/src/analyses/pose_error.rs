@@ -1,0 +1,174 @@
+//! `pose-error`: how far simpler static models are off, over platform mass.
+
+use super::found;
+use crate::Watch;
+use crate::error::{Cancelled, NoSolution};
+use crate::request;
+use crate::text::counted;
+use crate::values::positive;
+use anyhow::{Result, anyhow, bail};
+use funicular::pose_error::{self, PoseDifference, PoseErrorPoint, Threshold};
+use funicular::robot::{Robot, State};
+use serde::Serialize;
+
+/// Results of `pose-error`: distances between the poses of static models over platform mass.
+#[derive(Serialize)]
+pub struct PoseErrors {
+    #[serde(skip)]
+    pub robot: String,
+    pub points: Vec<PointRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub threshold: Option<ThresholdRow>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Differences are absent where one of the two models has no equilibrium.
+#[derive(Serialize)]
+pub struct PointRow {
+    pub mass_kg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spring_from_ideal: Option<Difference>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub catenary_from_ideal: Option<Difference>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spring_from_catenary: Option<Difference>,
+}
+
+/// Difference of two poses.
+#[derive(Serialize, Clone, Copy)]
+pub struct Difference {
+    pub translation_m: [f64; 3],
+    pub distance_m: f64,
+    pub angle_deg: f64,
+}
+
+impl From<PoseDifference> for Difference {
+    fn from(difference: PoseDifference) -> Self {
+        Self {
+            translation_m: difference.translation,
+            distance_m: difference.distance,
+            angle_deg: difference.angle.to_degrees(),
+        }
+    }
+}
+
+/// Mass from which on springs are good enough.
+#[derive(Serialize)]
+pub struct ThresholdRow {
+    pub tolerance_mm: f64,
+    /// `everywhere`, `from` or `nowhere`.
+    pub within: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_mass_kg: Option<f64>,
+}
+
+/// Poses of spring and catenary cables against ideal ones over platform mass.
+///
+/// # Errors
+/// A range that does not ascend, a robot without lengths, no mass at which two models have an equilibrium, or work that was
+/// stopped.
+pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn Watch) -> Result<PoseErrors> {
+    let lengths = match (&request.lengths_m, &robot.state) {
+        (Some(lengths), _) | (None, State::Lengths(lengths)) => lengths,
+        (None, State::Pose(_) | State::Unknown) => bail!(
+            "the robot file gives no unstrained lengths, which fix the comparison: give ⟪lengths_m⟫ (`funicular statics` \
+             prints the lengths of a pose)"
+        ),
+    };
+    let masses = masses(request)?;
+
+    // Lengths that do not fit the robot are wrong at every mass: said once, as bad input.
+    let first = PoseErrorPoint::at_mass(robot, lengths, masses[0]);
+    if let Err(
+        error @ (funicular::statics::StaticsError::LengthCount { .. }
+        | funicular::statics::StaticsError::CableCount { .. }),
+    ) = &first.catenary
+    {
+        return Err(error.clone().into());
+    }
+    let mut points = Vec::with_capacity(masses.len());
+    for (i, &mass) in masses.iter().enumerate() {
+        points.push(PoseErrorPoint::at_mass(robot, lengths, mass));
+        watch.progress(i + 1, masses.len(), "masses");
+        if watch.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+    }
+
+    if points.iter().all(|point| point.catenary.is_err() || (point.spring.is_err() && point.ideal.is_err())) {
+        let reason = points[0].catenary.as_ref().err().or(points[0].spring.as_ref().err());
+        let reason = reason.map_or_else(String::new, |error| format!("; at {} kg: {error}", points[0].mass));
+        return Err(NoSolution(format!("at no mass of the range do two models have an equilibrium{reason}")).into());
+    }
+    let threshold = request.tolerance_mm.map(|tolerance_mm| {
+        let found = pose_error::threshold(robot, lengths, &points, 1e-3 * tolerance_mm);
+        let (within, from_mass_kg) = match found {
+            Threshold::Everywhere => ("everywhere", None),
+            Threshold::From(mass) => ("from", Some(mass)),
+            Threshold::Nowhere => ("nowhere", None),
+        };
+        ThresholdRow { tolerance_mm, within, from_mass_kg }
+    });
+    Ok(PoseErrors {
+        robot: robot.name.clone(),
+        warnings: warnings(&points),
+        points: points
+            .iter()
+            .map(|point| PointRow {
+                mass_kg: point.mass,
+                spring_from_ideal: point.spring_from_ideal().map(Difference::from),
+                catenary_from_ideal: point.catenary_from_ideal().map(Difference::from),
+                spring_from_catenary: point.spring_from_catenary().map(Difference::from),
+            })
+            .collect(),
+        threshold,
+    })
+}
+
+/// Maximum number of masses of a range.
+pub const MAX_MASSES: usize = 100_000;
+
+/// The masses of the request [kg], ascending; the first and the last are exact.
+fn masses(request: &request::PoseErrorRequest) -> Result<Vec<f64>> {
+    let (from, to, count) = request.mass_kg;
+    for mass in [from, to] {
+        positive(mass).map_err(|reason| anyhow!("⟪mass_kg⟫: {reason}"))?;
+    }
+    if to <= from {
+        bail!("⟪mass_kg⟫: the range ends at {to}, it must end above its start {from}");
+    }
+    if !(2..=MAX_MASSES).contains(&count) {
+        bail!("⟪mass_kg⟫: `{count}` is not a count of masses: a whole number from 2 to {MAX_MASSES}");
+    }
+    let at = |i: usize| if i + 1 == count { to } else { from + (to - from) * i as f64 / (count - 1) as f64 };
+    let masses: Vec<f64> = (0..count).map(at).collect();
+    if masses.windows(2).any(|pair| pair[1] <= pair[0]) {
+        bail!(
+            "⟪mass_kg⟫: {count} masses are more than the numbers between {from} and {to} can tell apart; ask for fewer"
+        );
+    }
+    Ok(masses)
+}
+
+/// Each model that has no equilibrium somewhere, with the first reason.
+fn warnings(points: &[PoseErrorPoint]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (name, of) in [
+        ("ideal", (|p| p.ideal.as_ref().err()) as fn(&PoseErrorPoint) -> Option<&funicular::statics::StaticsError>),
+        ("spring", |p| p.spring.as_ref().err()),
+        ("catenary", |p| p.catenary.as_ref().err()),
+    ] {
+        let mut failed = points.iter().filter_map(|point| of(point).map(|error| (point.mass, error)));
+        if let Some((mass, error)) = failed.next() {
+            let count = failed.count() + 1;
+            warnings.push(format!(
+                "{name} cables have no equilibrium at {count} of {}, first at {mass} kg: {error}",
+                counted(points.len(), "mass").replace("masss", "masses"),
+            ));
+        }
+    }
+    warnings
+}
+
+found!(PoseErrors, "pose-error");

@@ -1,0 +1,222 @@
+//! `reduce`: a small second-order model of the robot for control design.
+
+use super::found;
+use super::shared::Models;
+use crate::at_rest::{self, AtRest};
+use crate::request;
+use crate::text::significant;
+use anyhow::Result;
+use funicular::math::Vec3;
+use funicular::modes;
+use funicular::ports::{Input, OnCable, Output, cable_of};
+use funicular::reduction::{Coordinate, DampingAt, Place, SecondOrder, Wanted, reduce};
+use funicular::response::Quantity;
+use funicular::robot::Robot;
+use serde::Serialize;
+
+/// Most natural frequencies that one model is to have: it has about twice as many coordinates.
+const MOST_MODES: usize = 400;
+
+/// Results of `reduce`: a second-order model and its errors.
+#[derive(Serialize)]
+pub struct Reduced {
+    #[serde(skip)]
+    pub robot: String,
+    pub below_hz: f64,
+    #[serde(flatten)]
+    pub models: Models,
+    pub order: usize,
+    pub frequency_error: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub truncation_error: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_error: Option<f64>,
+    pub damping: String,
+    pub inputs: Vec<ChannelRow>,
+    pub outputs: Vec<ChannelRow>,
+    pub coordinates: Vec<CoordinateRow>,
+    /// Where a front end has written the matrices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model_file: Option<String>,
+    /// The matrices.
+    #[serde(skip)]
+    pub model: SecondOrder,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// One input or output of the model.
+#[derive(Serialize)]
+pub struct ChannelRow {
+    pub name: String,
+    pub unit: &'static str,
+}
+
+/// One coordinate of the model.
+#[derive(Serialize)]
+pub struct CoordinateRow {
+    pub name: String,
+    pub unit: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamped_frequency_hz: Option<f64>,
+}
+
+/// A second-order model of the robot for control design.
+///
+/// # Errors
+/// A signal that means nothing on the robot, a robot without that equilibrium, or too many modes.
+pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
+    check(&robot, request)?;
+    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+}
+
+/// Inputs and outputs of a model.
+type Signals = (Vec<(Input, Place)>, Vec<(Output, Place)>);
+
+/// Refuses numbers out of range and signals that mean nothing on the robot.
+fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
+    request::check_positive("below_hz", request.below_hz)?;
+    request::check_not_negative("tolerance", request.tolerance)?;
+    if let Some(hz) = request.damping_at_hz {
+        request::check_positive("damping_at_hz", hz)?;
+    }
+    request.points.check()?;
+    Ok((inputs(robot, request)?, outputs(robot, request)?))
+}
+
+/// A model of a robot that is at rest already, whatever the state of the request.
+///
+/// # Errors
+/// As of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduced> {
+    let (inputs, outputs) = check(&at_rest.robot, request)?;
+    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
+    modes::check_count(&dynamics, request.below_hz, MOST_MODES)?;
+    let damping_at = request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
+    let wanted = Wanted { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
+    let from: Vec<Place> = inputs.iter().map(|(_, place)| place.clone()).collect();
+    let to: Vec<(Place, Quantity)> = outputs.iter().map(|(output, place)| (place.clone(), output.quantity)).collect();
+    let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, wanted)?;
+    let mut reduced = Reduced {
+        robot: at_rest.robot.name.clone(),
+        below_hz: request.below_hz,
+        models: Models::of(&at_rest.equilibrium, linearisation),
+        order: model.mass.nrows(),
+        frequency_error: model.frequency_error,
+        truncation_error: model.truncation_error,
+        damping_error: model.damping_error,
+        damping: match (model.damping_error, damping_at) {
+            (Some(0.0), _) => "viscous, exactly".to_owned(),
+            (_, DampingAt::NaturalFrequencies) => {
+                "constant ratios made viscous, right at every natural frequency".to_owned()
+            }
+            (_, DampingAt::Hz(hz)) => format!("constant ratios made viscous, right at {hz} Hz"),
+        },
+        inputs: inputs
+            .iter()
+            .map(|(input, _)| ChannelRow { name: input.name.clone(), unit: if input.is_moment { "N m" } else { "N" } })
+            .collect(),
+        outputs: outputs
+            .iter()
+            .map(|(output, _)| ChannelRow { name: output.name.clone(), unit: unit(output) })
+            .collect(),
+        coordinates: model.coordinates.iter().map(|of| CoordinateRow::of(&at_rest.robot, of)).collect(),
+        model_file: None,
+        model,
+        warnings,
+    };
+    if reduced.truncation_error.is_some_and(|error| error > request.tolerance) {
+        reduced.warnings.push(format!(
+            "with all modes of the cables the error is {}, more than the {} asked: a force on a cable and the motion \
+             beside it have a kink that modes do not have",
+            significant(reduced.truncation_error.unwrap_or_default(), 2),
+            request.tolerance
+        ));
+    }
+    Ok(reduced)
+}
+
+/// The inputs asked, or every force and moment on the platform.
+fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Place)>> {
+    let all = ["fx", "fy", "fz", "mx", "my", "mz"];
+    let asked = if request.input.is_empty() {
+        let possible = robot.platform.freedoms.components();
+        possible.iter().map(|&i| request::input(all[i])).collect::<Result<Vec<_>>>()?
+    } else {
+        request.input.iter().map(|name| request::input(name)).collect::<Result<Vec<_>>>()?
+    };
+    let place = |input: Input| {
+        let direction = input.direction(robot, request.points.input_point_m.map(Vec3::from))?;
+        let place = place(robot, input.on_cable.as_ref(), input.direction_w, direction)?;
+        Ok((input, place))
+    };
+    asked.into_iter().map(place).collect()
+}
+
+/// The outputs asked, or every displacement and rotation of the platform.
+fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Place)>> {
+    let all = ["x", "y", "z", "rx", "ry", "rz"];
+    let asked = if request.output.is_empty() {
+        let possible = robot.platform.freedoms.components();
+        possible.iter().map(|&i| request::output(all[i])).collect::<Result<Vec<_>>>()?
+    } else {
+        request.output.iter().map(|name| request::output(name)).collect::<Result<Vec<_>>>()?
+    };
+    let place = |output: Output| {
+        let direction = output.direction(robot, request.points.output_point_m.map(Vec3::from))?;
+        let place = place(robot, output.on_cable.as_ref(), output.direction_w, direction)?;
+        Ok((output, place))
+    };
+    asked.into_iter().map(place).collect()
+}
+
+fn place(
+    robot: &Robot,
+    on_cable: Option<&OnCable>,
+    direction_w: Vec3,
+    direction: funicular::response::Direction,
+) -> Result<Place> {
+    Ok(match on_cable {
+        None => Place::Platform(direction),
+        Some(place) => Place::Cable {
+            cable: cable_of(robot, place)?,
+            fraction: place.fraction,
+            direction_w: direction_w.normalize(),
+        },
+    })
+}
+
+fn unit(output: &Output) -> &'static str {
+    match (output.is_rotation, output.quantity) {
+        (false, Quantity::Displacement) => "m",
+        (false, Quantity::Velocity) => "m/s",
+        (false, Quantity::Acceleration) => "m/s²",
+        (true, Quantity::Displacement) => "rad",
+        (true, Quantity::Velocity) => "rad/s",
+        (true, Quantity::Acceleration) => "rad/s²",
+    }
+}
+
+impl CoordinateRow {
+    fn of(robot: &Robot, coordinate: &Coordinate) -> Self {
+        match coordinate {
+            Coordinate::Platform(i) => Self {
+                name: robot.platform.freedoms.coordinate_names()[*i].to_owned(),
+                unit: if robot.platform.freedoms.is_rotation(*i) { "rad" } else { "m" },
+                clamped_frequency_hz: None,
+            },
+            Coordinate::Clamped { cable, out_of_plane, frequency_hz } => Self {
+                name: format!(
+                    "cable {} {}",
+                    robot.cables[*cable].name,
+                    if *out_of_plane { "out of plane" } else { "in plane" }
+                ),
+                unit: "m √kg",
+                clamped_frequency_hz: Some(*frequency_hz),
+            },
+        }
+    }
+}
+
+found!(Reduced, "reduce");

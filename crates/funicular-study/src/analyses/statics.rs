@@ -1,0 +1,261 @@
+//! `statics`: the equilibrium.
+
+use super::check::{LoadRow, WindRow};
+use super::found;
+use super::shared::SagNumbers;
+use crate::at_rest::{self, AtRest};
+use crate::request;
+use anyhow::Result;
+use funicular::cable::Sag;
+use funicular::math::rotation;
+use funicular::robot::{Pose, Robot, TensionLimits};
+use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
+use serde::Serialize;
+
+/// Results of `statics`: the equilibrium.
+#[derive(Serialize)]
+pub struct Statics {
+    #[serde(skip)]
+    pub robot: String,
+    pub static_model: &'static str,
+    pub mass_kg: f64,
+    /// On the platform; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<LoadRow>,
+    /// Absent in still air.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind: Option<WindRow>,
+    pub pose: PoseRow,
+    /// Distance from the pose asked; absent where the cables are as many as the freedoms, or lengths were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest_pose_distance_m: Option<f64>,
+    /// Absent where the tensions were no choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_rule: Option<&'static str>,
+    pub cables: Vec<CableRow>,
+    pub residual: f64,
+    /// Neither loads nor tensions: the residual says nothing.
+    #[serde(skip)]
+    pub carries_nothing: bool,
+    pub iterations: usize,
+    /// Absent for ideal cables, which are rigid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stable: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_stiffness_n_per_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other_stable: Option<OtherStable>,
+    /// All that a search found, the lowest first; with --all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equilibria: Option<Vec<EquilibriumRow>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub search: Option<Search>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Another equilibrium of the same lengths.
+#[derive(Serialize)]
+pub struct EquilibriumRow {
+    pub stable: bool,
+    /// Directions in which the energy falls.
+    pub falling_directions: usize,
+    /// Directions in which it does not change.
+    pub indifferent_directions: usize,
+    /// Above that of the lowest; absent where the loads have no potential.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_j: Option<f64>,
+    /// From the first equilibrium.
+    pub distance_m: f64,
+    pub pose: PoseRow,
+    pub tensions_platform_n: Vec<f64>,
+}
+
+impl EquilibriumRow {
+    fn of(candidate: &Candidate) -> Self {
+        Self {
+            stable: candidate.is_stable(),
+            falling_directions: candidate.falling,
+            indifferent_directions: candidate.indifferent,
+            energy_j: candidate.energy,
+            distance_m: candidate.distance,
+            pose: PoseRow::of(&candidate.equilibrium.pose),
+            tensions_platform_n: candidate.equilibrium.cables.iter().map(|cable| cable.tension_platform).collect(),
+        }
+    }
+}
+
+/// What a search for all equilibria found.
+#[derive(Serialize)]
+pub struct Search {
+    pub starts: usize,
+    /// Sum of (−1)^falling_directions, and what it is of a list that lacks none.
+    pub index_sum: i64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expected_index_sum: Option<i64>,
+}
+
+/// Another stable equilibrium, where a short search met one.
+#[derive(Serialize)]
+pub struct OtherStable {
+    /// Above that of this equilibrium; absent where the loads have no potential.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_above_j: Option<f64>,
+    pub distance_m: f64,
+    pub position_m: [f64; 3],
+}
+
+impl OtherStable {
+    fn of(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+        let (other, energy_above_j) = statics::other_stable(robot, equilibrium)?;
+        Some(Self { energy_above_j, distance_m: other.distance, position_m: other.equilibrium.pose.position_w.into() })
+    }
+}
+
+/// Pose of the platform.
+#[derive(Serialize)]
+pub struct PoseRow {
+    pub position_m: [f64; 3],
+    pub quaternion_wxyz: [f64; 4],
+    pub roll_pitch_yaw_deg: [f64; 3],
+}
+
+impl PoseRow {
+    fn of(pose: &Pose) -> Self {
+        Self {
+            position_m: pose.position_w.into(),
+            quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
+            roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
+        }
+    }
+}
+
+/// One cable at the equilibrium.
+#[derive(Serialize)]
+pub struct CableRow {
+    pub name: String,
+    pub unstrained_length_m: f64,
+    pub tension_platform_n: f64,
+    pub tension_anchor_n: f64,
+    pub chord_m: f64,
+    #[serde(flatten)]
+    pub sag: SagNumbers,
+    pub force_on_platform_n: [f64; 3],
+    /// Absent where neither the file nor a rule has limits.
+    #[serde(flatten)]
+    pub limits: Option<LimitNumbers>,
+}
+
+/// The limits of a cable's tension, and how far it is from them.
+#[derive(Serialize)]
+pub struct LimitNumbers {
+    pub minimum_tension_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub maximum_tension_n: Option<f64>,
+    /// Distance from the nearer limit; absent without any.
+    pub tension_margin_n: f64,
+    /// The same over the distance between the limits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_margin: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_reached: Option<&'static str>,
+}
+
+impl LimitNumbers {
+    fn of(margin: &TensionMargin) -> Self {
+        let TensionRange { minimum, maximum } = margin.range;
+        Self {
+            minimum_tension_n: minimum,
+            maximum_tension_n: maximum.is_finite().then_some(maximum),
+            tension_margin_n: margin.distance(),
+            tension_margin: margin.relative(),
+            limit_reached: margin.reached().map(|limit| match limit {
+                Limit::Minimum => "minimum",
+                Limit::Maximum => "maximum",
+            }),
+        }
+    }
+}
+
+/// The equilibrium.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, or a robot without that equilibrium.
+pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
+    about(&at_rest::equilibrium(robot, &request.state, &request.tensions)?, request.all)
+}
+
+/// The cables of a robot at rest, one row each.
+pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
+    let AtRest { robot, equilibrium, rule, .. } = at_rest;
+    let limited = rule.is_some() || robot.cables.iter().any(|cable| cable.limits() != TensionLimits::default());
+    equilibrium
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, cable)| CableRow {
+            name: robot.cables[i].name.clone(),
+            unstrained_length_m: cable.unstrained_length,
+            tension_platform_n: cable.tension_platform,
+            tension_anchor_n: cable.tension_anchor,
+            chord_m: cable.chord(),
+            sag: SagNumbers::of(&Sag::of(robot, i, cable)),
+            force_on_platform_n: cable.force_on_platform_w.into(),
+            limits: limited.then(|| LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable))),
+        })
+        .collect()
+}
+
+/// Results for a robot at rest; `all` searches for all equilibria of its lengths.
+///
+/// # Errors
+/// A search that the robot has not, such as one of ideal cables.
+pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
+    let AtRest { robot, equilibrium, rule, .. } = at_rest;
+    let cables = cable_rows(at_rest);
+    let (stable, least_stiffness_n_per_m) = match equilibrium.stability {
+        Stability::Stable { least_stiffness } => (Some(true), Some(least_stiffness)),
+        Stability::Unstable { least_stiffness, .. } => (Some(false), Some(least_stiffness)),
+        Stability::Rigid => (None, None),
+    };
+    let (mut equilibria, mut search, mut other_stable) = (None, None, None);
+    let mut warnings = at_rest.warnings(None);
+    if all {
+        let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let found = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
+        if let (true, Some(expected)) = (found.lacks_some(), found.expected_index_sum) {
+            warnings.push(format!(
+                "the list of equilibria is not whole: the sum of (−1)^(falling directions) is {}, of all it is {expected} \
+                 (after {} starts)",
+                found.index_sum, found.starts
+            ));
+        }
+        equilibria = Some(found.found.iter().map(EquilibriumRow::of).collect());
+        let (index_sum, expected_index_sum) = (found.index_sum, found.expected_index_sum);
+        search = Some(Search { starts: found.starts, index_sum, expected_index_sum });
+    } else {
+        other_stable = OtherStable::of(robot, equilibrium);
+    }
+    Ok(Statics {
+        warnings,
+        robot: robot.name.clone(),
+        static_model: equilibrium.model.name(),
+        mass_kg: robot.platform.mass,
+        load: LoadRow::of(&robot.load),
+        wind: WindRow::of(&robot.wind),
+        pose: PoseRow::of(&equilibrium.pose),
+        nearest_pose_distance_m: at_rest.instead_of.map(|(_, distance)| distance),
+        tension_rule: rule.as_ref().map(statics::TensionRule::name),
+        cables,
+        residual: equilibrium.residual,
+        carries_nothing: statics::carries_nothing(robot, equilibrium),
+        iterations: equilibrium.iterations,
+        stable,
+        least_stiffness_n_per_m,
+        other_stable,
+        equilibria,
+        search,
+    })
+}
+
+found!(Statics, "statics");

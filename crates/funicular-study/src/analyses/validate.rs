@@ -1,0 +1,75 @@
+//! `validate`: every comparison of docs/validation.md, made now.
+
+use super::Found;
+use crate::error::NoSolution;
+use crate::text::counted;
+use crate::validation::{self, Section};
+use anyhow::Result;
+use serde::Serialize;
+
+/// Every comparison with numbers that others published or computed.
+#[derive(Serialize)]
+pub struct Validated {
+    pub comparisons: usize,
+    pub passed: usize,
+    pub sections: Vec<Section>,
+}
+
+/// Makes every comparison.
+///
+/// # Errors
+/// Reference data that cannot be read.
+pub fn run() -> Result<Validated> {
+    let sections = validation::sections()?;
+    let rows = || sections.iter().flat_map(|section| &section.rows);
+    Ok(Validated { comparisons: rows().count(), passed: rows().filter(|row| row.pass).count(), sections })
+}
+
+impl Validated {
+    /// Whether every comparison passes.
+    ///
+    /// # Errors
+    /// [`NoSolution`] that names the first comparison that does not pass.
+    pub fn verdict(&self) -> Result<(), NoSolution> {
+        let Some(first) = self.sections.iter().flat_map(|section| &section.rows).find(|row| !row.pass) else {
+            return Ok(());
+        };
+        let failed = counted(self.comparisons - self.passed, "comparison");
+        Err(NoSolution(format!(
+            "{failed} of {} not within tolerance, first: {}, {}: difference {:.1e}, tolerance {:.1e}",
+            self.comparisons, first.case, first.quantity, first.difference, first.tolerance
+        )))
+    }
+}
+
+impl Found for Validated {
+    const COMMAND: &'static str = "validate";
+
+    /// The comparisons belong to many robots.
+    fn robot(&self) -> &'static str {
+        ""
+    }
+
+    fn warnings(&self) -> &[String] {
+        &[]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comparison_that_fails_is_named_and_is_no_success() {
+        let mut found = run().unwrap();
+        assert!(found.verdict().is_ok());
+        let row = &mut found.sections[1].rows[0];
+        (row.pass, row.difference) = (false, 0.5);
+        found.passed -= 1;
+        let text = found.verdict().unwrap_err().to_string();
+        assert!(
+            text.starts_with("1 comparison of ") && text.contains(", first: yuan2014-4mm, 10.55 kg, position [m]"),
+            "{text}"
+        );
+    }
+}

@@ -1,0 +1,287 @@
+//! An input file of MoorDyn, version 2, in air.
+//!
+//! A line of MoorDyn is a chain of bars, see [`super::chain`]; each has its own type, for its own mass per length.
+//! MoorDyn has principal moments of inertia only, so its body has the platform's principal axes where these are not
+//! those of the platform frame. Its origin is the platform's.
+
+use super::chain::Chain;
+use super::one_line;
+use crate::at_rest::AtRest;
+use anyhow::{Result, bail};
+use askama::Template;
+use funicular::math::{Mat3, Vec3};
+use funicular::robot::{Damping, Freedoms, Material, Robot};
+
+#[derive(Template)]
+#[template(path = "moordyn.txt", escape = "none")]
+struct Input {
+    name: String,
+    source: String,
+    segments: usize,
+    shortened: f64,
+    heavier: f64,
+    body_axes: &'static str,
+    damping: bool,
+    types: Vec<LineType>,
+    body: Option<BodyRow>,
+    points: Vec<PointRow>,
+    lines: Vec<LineRow>,
+    step: f64,
+    gravity: f64,
+    depth: f64,
+}
+
+struct LineType {
+    name: String,
+    mass_per_length: f64,
+    axial_stiffness: f64,
+}
+
+struct BodyRow {
+    pose: [f64; 6],
+    mass: f64,
+    center: Vec3,
+    moments: Vec3,
+}
+
+struct PointRow {
+    id: usize,
+    attachment: &'static str,
+    at: Vec3,
+    mass: f64,
+}
+
+struct LineRow {
+    id: usize,
+    kind: String,
+    ends: [usize; 2],
+    unstrained_length: f64,
+}
+
+/// The input file.
+///
+/// # Errors
+/// A slack cable, or what MoorDyn has not: guides, loads, massless lines, gravity other than along −z.
+pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    refuse(robot)?;
+    let mut types = Vec::new();
+    let body = match robot.platform.freedoms {
+        Freedoms::Rigid => Some(Frame::of(at_rest)),
+        Freedoms::PointMass | Freedoms::Planar(_) => None,
+    };
+    let mut points = Vec::new();
+    let mut lines = Vec::new();
+    let (mut step, mut shortened, mut heavier, mut lowest) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
+    let cables = robot.cables.len();
+    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
+        let chain = Chain::of(robot, equilibrium, i, segments)?;
+        let unstrained_length = chain.bar_length * segments as f64;
+        let mass_per_length =
+            chain.weight_factor * cable.material.mass_per_length * (state.unstrained_length / unstrained_length);
+        heavier = heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
+        let name = type_name(&cable.material.name, i);
+        let axial_stiffness = cable.material.axial_stiffness;
+        types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
+        let wave = (cable.material.axial_stiffness / cable.material.mass_per_length).sqrt();
+        step = step.min(STEP * chain.bar_length / wave);
+        shortened = shortened.max(state.unstrained_length - unstrained_length);
+        lowest = chain.nodes_w.iter().map(|node| node.z).fold(lowest, f64::min);
+        points.push(PointRow { id: i + 1, attachment: "Fixed", at: cable.anchor_w, mass: 0.0 });
+        let mut end = cables + 1;
+        if let Some(frame) = &body {
+            end += i;
+            let at = frame.axes_p.transpose() * cable.attachment_p;
+            points.push(PointRow { id: end, attachment: "Body1", at, mass: 0.0 });
+        }
+        lines.push(LineRow { id: i + 1, kind: name, ends: [end, i + 1], unstrained_length });
+    }
+    if body.is_none() {
+        let Robot { platform, .. } = robot;
+        let at = equilibrium.pose.point_w(&platform.center_of_mass_p);
+        points.push(PointRow { id: cables + 1, attachment: "Free", at, mass: platform.mass });
+    }
+    points.sort_by_key(|point| point.id);
+    let undamped = |material: &Material| {
+        matches!(material.damping, Damping::Ratio(zeta) if zeta == 0.0)
+            || matches!(material.damping, Damping::Viscous(c) if c == 0.0)
+    };
+    let input = Input {
+        name: without_section(&robot.name),
+        source: without_section(&robot.source),
+        segments,
+        shortened,
+        heavier,
+        body_axes: match &body {
+            Some(frame) if frame.axes_p != Mat3::identity() => "principal axes of inertia",
+            _ => "axes of the platform frame",
+        },
+        damping: !robot.cables.iter().all(|cable| undamped(&cable.material)),
+        types,
+        body: body.map(|frame| frame.row),
+        points,
+        lines,
+        step,
+        gravity: -robot.gravity_w.z,
+        // Far below anything, for the seabed.
+        depth: (-10.0 * lowest).max(1000.0),
+    };
+    Ok(input.render()? + "\n")
+}
+
+/// Time step over the time that a wave takes along a segment: a Runge-Kutta method of fourth order is stable up to √2.
+const STEP: f64 = 0.5;
+
+fn refuse(robot: &Robot) -> Result<()> {
+    if matches!(robot.platform.freedoms, Freedoms::Planar(_)) {
+        bail!(
+            "the platform is planar: MoorDyn's bodies are free in all six freedoms or moved by another program, and \
+             nothing guides them in a plane; export it to OpenSees"
+        );
+    }
+    if robot.load.force_w != Vec3::zeros() || robot.load.moment_w != Vec3::zeros() {
+        bail!(
+            "a load acts on the platform: MoorDyn's input has no forces but weight and water (EXTERNAL LOADS is read by \
+             its Fortran edition only); leave out [loads], ⟪force_n⟫ and ⟪moment_n_m⟫, or export to OpenSees"
+        );
+    }
+    let along = robot.cables.iter().any(|cable| cable.load_per_length_w != Vec3::zeros());
+    if robot.wind.velocity_w != Vec3::zeros() || along {
+        bail!(
+            "wind or another load acts along the cables: MoorDyn's input has water, no wind; leave out [wind], \
+             `load_n_per_m`, ⟪wind_m_s⟫ and ⟪cable_load_n_per_m⟫, or export to OpenSees"
+        );
+    }
+    let g = robot.gravity_w;
+    if g.x != 0.0 || g.y != 0.0 || g.z > 0.0 {
+        bail!("gravity is ({}, {}, {}) m/s²: MoorDyn has it along -z only; turn the robot's world axes", g.x, g.y, g.z);
+    }
+    if let Some(cable) = robot.cables.iter().find(|cable| cable.material.mass_per_length == 0.0) {
+        bail!("cable \"{}\" has no mass, and MoorDyn divides by it: give its material a `mass_kg_per_m`", cable.name);
+    }
+    Ok(())
+}
+
+/// Letters of a rope's name that the name of a line type takes: enough to recognise it, and few enough for readers that
+/// have room for a short word only.
+const MAX_ROPE_LETTERS: usize = 64;
+
+/// Name of the line type of cable `i`: the beginning of its rope's name without what ends a word or begins a section, and a
+/// number, since every cable has its own mass per length. The number makes it unique, however alike the ropes' names are.
+fn type_name(material: &str, i: usize) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() || "-.".contains(c) { c } else { '_' };
+    let rope: String = material.chars().take(MAX_ROPE_LETTERS).map(letter).collect();
+    format!("{}_{}", without_section(&rope), i + 1)
+}
+
+/// The body's frame.
+struct Frame {
+    /// Its axes in the platform frame, as columns.
+    axes_p: Mat3,
+    row: BodyRow,
+}
+
+impl Frame {
+    fn of(at_rest: &AtRest) -> Self {
+        let (platform, pose) = (&at_rest.robot.platform, &at_rest.equilibrium.pose);
+        let inertia = platform.inertia_p;
+        let (axes_p, moments) = if inertia == Mat3::from_diagonal(&inertia.diagonal()) {
+            (Mat3::identity(), inertia.diagonal())
+        } else {
+            let principal = inertia.symmetric_eigen();
+            nearest_frame(&principal.eigenvectors, &principal.eigenvalues)
+        };
+        let rot_wb = pose.rot_wp.to_rotation_matrix() * axes_p;
+        // Roll, pitch and yaw about moving axes, R = Rx Ry Rz.
+        let pitch = rot_wb[(0, 2)].clamp(-1.0, 1.0).asin();
+        let roll = (-rot_wb[(1, 2)]).atan2(rot_wb[(2, 2)]);
+        let yaw = (-rot_wb[(0, 1)]).atan2(rot_wb[(0, 0)]);
+        let at = pose.position_w;
+        let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
+        let row = BodyRow {
+            pose: [at.x, at.y, at.z, roll, pitch, yaw].map(|x| x + 0.0),
+            mass: platform.mass,
+            center: axes_p.transpose() * platform.center_of_mass_p,
+            moments,
+        };
+        Self { axes_p, row }
+    }
+}
+
+/// Axes and their moments in the order and with the signs that turn them least: right-handed, of the largest trace. An
+/// eigenvalue solver leaves both open, and forward statics of an imported robot begins from its frame without rotation.
+fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
+    const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+    let mut nearest = (Mat3::identity(), *moments);
+    let mut largest = f64::NEG_INFINITY;
+    for order in ORDERS {
+        // One sign too many is put on the axis that loses least by it.
+        let mut frame = Mat3::from_columns(&order.map(|k| axes.column(k).into_owned()));
+        for k in 0..3 {
+            if frame[(k, k)] < 0.0 {
+                frame.column_mut(k).neg_mut();
+            }
+        }
+        if frame.determinant() < 0.0 {
+            let least = frame.diagonal().imin();
+            frame.column_mut(least).neg_mut();
+        }
+        if frame.trace() > largest {
+            largest = frame.trace();
+            nearest = (frame, Vec3::from(order.map(|k| moments[k])));
+        }
+    }
+    nearest
+}
+
+/// On one line, which begins no section: three hyphens would.
+fn without_section(text: &str) -> String {
+    let mut text = one_line(text);
+    while text.contains("---") {
+        text = text.replace("---", "--");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use funicular::math::{Rotation, rotation};
+
+    #[test]
+    fn names_of_line_types_differ_whatever_the_ropes_are_called() {
+        let long = "rope".repeat(1000);
+        let ropes =
+            [long.clone(), format!("{long}a"), format!("{long}b"), "a b".to_owned(), "a_b".to_owned(), "索".into()];
+        let names: Vec<String> = ropes.iter().enumerate().map(|(i, rope)| type_name(rope, i)).collect();
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[..i].contains(name) && name.len() < 80, "{name}");
+        }
+        assert_eq!(type_name("rope-4mm", 0), "rope-4mm_1");
+        assert_eq!(type_name("a ----- b", 2), "a_--_b_3", "three hyphens would begin a section");
+    }
+
+    #[test]
+    fn of_all_principal_axes_those_are_taken_that_turn_the_frame_least() {
+        const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+        for case in 0..200 {
+            // Turns all around, and moments that are near each other too.
+            let angle = |step: f64| 3.0 * (step * f64::from(case)).sin();
+            let turn = Vec3::new(angle(0.7), angle(1.3), angle(2.1));
+            let rot = rotation::turned(&Rotation::identity(), &turn).to_rotation_matrix();
+            let moments = Vec3::new(1.0, 1.0 + 0.01 * f64::from(case % 7 + 1), 1.5);
+            let tensor = rot.matrix() * Mat3::from_diagonal(&moments) * rot.matrix().transpose();
+            let principal = tensor.symmetric_eigen();
+            let (axes, found) = nearest_frame(&principal.eigenvectors, &principal.eigenvalues);
+            assert!((axes.determinant() - 1.0).abs() < 1e-12, "{case}");
+            assert!((axes * Mat3::from_diagonal(&found) * axes.transpose() - tensor).norm() < 1e-12, "{case}");
+            for order in ORDERS {
+                for signs in 0..8_u8 {
+                    let column = |k: usize| axes.column(order[k]) * if signs >> k & 1 == 1 { -1.0 } else { 1.0 };
+                    let other = Mat3::from_columns(&[column(0), column(1), column(2)]);
+                    assert!(other.determinant() < 0.0 || other.trace() <= axes.trace() + 1e-12, "{case}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! Files of other programs, read into a [`Draft`](draft::Draft) of a robot file.
+//!
+//! A reader takes over facts and leaves the rest: it makes nothing up, says at which line a file is wrong, and lists
+//! what a robot file cannot hold. docs/import.md has the meaning of every element that is read.
+
+pub(crate) mod caspr;
+pub(crate) mod draft;
+pub(crate) mod moordyn;
+pub(crate) mod text;
+pub(crate) mod wirex;
+pub(crate) mod xml;
+
+pub use text::{MAX_BYTES, SourceFile};
+
+use crate::request;
+use crate::wording::{Words, worded};
+use anyhow::{Result, bail};
+use draft::Draft;
+use xml::Xml;
+
+/// A robot file made from files of another program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Imported {
+    /// The robot file.
+    pub text: String,
+    /// Facts that the sources leave open, and how they were read.
+    pub assumed: Vec<String>,
+    /// Facts of the sources that a robot file cannot hold.
+    pub lost: Vec<String>,
+}
+
+/// Makes a robot file from the files of a request; options are named as a front end writes them.
+///
+/// # Errors
+/// The file, the line, the value and what to do; or why the robot is none that a robot file can hold.
+pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
+    let mut draft = read(&request.files, &Wanted { cable_set: request.cable_set.as_deref() })?;
+    draft.complete(&request.ropes, &request.platform)?;
+    let text = worded(&draft.to_toml()?, words);
+    let in_words = |texts: &[String]| texts.iter().map(|text| worded(text, words)).collect();
+    Ok(Imported { text, assumed: in_words(&draft.assumed), lost: in_words(&draft.lost) })
+}
+
+/// Options of a request besides the files.
+pub(crate) struct Wanted<'a> {
+    /// One of the sets of cables of a CASPR file.
+    pub(crate) cable_set: Option<&'a str>,
+}
+
+/// Reads the files of one robot. Which program they belong to is seen from what is in them, not from their names.
+///
+/// # Errors
+///
+/// The file, the line, the value and what to do; or why the robot is none that a robot file can hold.
+pub(crate) fn read(files: &[SourceFile], wanted: &Wanted) -> Result<Draft> {
+    let mut sources = Sources::default();
+    for file in files {
+        sources.sort_in(file)?;
+    }
+    let mut draft = sources.read(wanted)?;
+    draft.assumed.splice(0..0, files.iter().filter_map(SourceFile::doubt));
+    Ok(draft)
+}
+
+/// The files by what they are.
+#[derive(Default)]
+struct Sources<'a> {
+    bodies: Vec<Xml<'a>>,
+    cables: Vec<Xml<'a>>,
+    wirex: Vec<Xml<'a>>,
+    moordyn: Vec<&'a SourceFile>,
+    /// Files of CASPR that say nothing of the robot itself.
+    aside: Vec<String>,
+}
+
+impl<'a> Sources<'a> {
+    fn sort_in(&mut self, file: &'a SourceFile) -> Result<()> {
+        if !file.text.trim_start().starts_with('<') {
+            if !moordyn::is_input(&file.text) {
+                bail!(
+                    "{}: it is neither XML, as the files of CASPR and WireX are, nor a MoorDyn input file, which has \
+                     sections such as `--- LINE TYPES ---`",
+                    file.path
+                );
+            }
+            self.moordyn.push(file);
+            return Ok(());
+        }
+        let xml = Xml::parse(file)?;
+        match xml.root().tag_name().name() {
+            "bodies_system" | "links" => self.bodies.push(xml),
+            "cables" => self.cables.push(xml),
+            "models" => self.wirex.push(xml),
+            "trajectories" | "operational_spaces" => {
+                self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
+            }
+            other => bail!(
+                "{}: the outermost element is <{other}>: CASPR's are <bodies_system> and <cables>, WireX's is <models>",
+                xml.place(xml.root())
+            ),
+        }
+        Ok(())
+    }
+
+    fn read(self, wanted: &Wanted) -> Result<Draft> {
+        let Self { bodies, cables, wirex, moordyn, aside } = self;
+        let is_caspr = !bodies.is_empty() || !cables.is_empty() || !aside.is_empty();
+        if [is_caspr, !wirex.is_empty(), !moordyn.is_empty()].into_iter().filter(|given| *given).count() > 1 {
+            bail!("the files are of more than one program; give the files of one robot");
+        }
+        if !is_caspr && wanted.cable_set.is_some() {
+            bail!("⟪cable_set⟫ chooses among the sets of a CASPR cables file, and there is none; leave it out");
+        }
+        if is_caspr {
+            let bodies = one(&bodies, "CASPR bodies file (<bodies_system>)")?;
+            let cables = one(&cables, "CASPR cables file (<cables>)")?;
+            let mut draft = caspr::read(bodies, cables, wanted.cable_set)?;
+            draft.lost.extend(aside.into_iter().map(|file| format!("{file}: it does not describe the robot")));
+            return Ok(draft);
+        }
+        if !wirex.is_empty() {
+            return wirex::read(one(&wirex, "WireX file (<models>)")?);
+        }
+        match moordyn[..] {
+            [file] => moordyn::read(file),
+            _ => bail!("{} MoorDyn input files are given; give the file of one robot", moordyn.len()),
+        }
+    }
+}
+
+/// The one file of a kind.
+fn one<'f, 'a>(files: &'f [Xml<'a>], kind: &str) -> Result<&'f Xml<'a>> {
+    match files {
+        [file] => Ok(file),
+        [] => bail!("there is no {kind} among the files; a CASPR robot is a bodies file and a cables file, give both"),
+        [first, second, ..] => {
+            bail!("{} and {} are both a {kind}; give the files of one robot", first.path(), second.path())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::{ImportPlatform, ImportRopes};
+
+    /// The example robot in every format.
+    const EXAMPLES: [&[(&str, &str)]; 3] = [
+        &[
+            ("bodies.xml", include_str!("../../../docs/import/tripod_bodies.xml")),
+            ("cables.xml", include_str!("../../../docs/import/tripod_cables.xml")),
+        ],
+        &[("tripod.wcrfx", include_str!("../../../docs/import/tripod.wcrfx"))],
+        &[("tripod.txt", include_str!("../../../docs/import/tripod.txt"))],
+    ];
+
+    fn whole(files: &[(&str, &str)]) -> Result<String> {
+        let files = files
+            .iter()
+            .map(|(name, text)| SourceFile::decode((*name).to_owned(), text.as_bytes()))
+            .collect::<Result<Vec<_>>>()?;
+        let mut draft = read(&files, &Wanted { cable_set: None })?;
+        let ropes = ImportRopes { mass_kg_per_m: Some(0.05), axial_stiffness_n: Some(1e6), ..ImportRopes::default() };
+        let platform = ImportPlatform::default();
+        draft.complete(&ropes, &platform)?;
+        draft.to_toml()
+    }
+
+    /// One text of an example replaced. What comes out is a robot or one line of message.
+    fn with(files: &[(&str, &str)], which: usize, text: &str) -> bool {
+        let mut files = files.to_vec();
+        files[which].1 = text;
+        match whole(&files) {
+            Ok(_) => true,
+            Err(error) => {
+                let message = format!("{error:#}");
+                assert!(!message.is_empty() && !message.contains('\n'), "{message}");
+                false
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_that_ends_anywhere_is_read_or_refused() {
+        for files in EXAMPLES {
+            whole(files).unwrap();
+            for (which, (name, text)) in files.iter().enumerate() {
+                let read =
+                    (0..text.len()).filter(|end| text.is_char_boundary(*end) && with(files, which, &text[..*end]));
+                // XML that is cut is no XML; of MoorDyn's file the end says little.
+                let is_xml = text.starts_with('<');
+                assert!(read.count() < if is_xml { 3 } else { text.len() / 3 }, "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_value_that_bad_luck_puts_into_a_file_makes_a_reader_panic() {
+        const LUCK: [&str; 14] = [
+            "",
+            "nan",
+            "-inf",
+            "1e999",
+            "1e-320",
+            "1e13",
+            "-1",
+            "0",
+            "1,5",
+            "<",
+            "&a;",
+            "\u{0}",
+            "é",
+            "99999999999999999999",
+        ];
+        for files in EXAMPLES {
+            for (which, (name, text)) in files.iter().enumerate() {
+                let mut at = 0;
+                while let Some(begin) = text[at..].find(|c: char| c.is_ascii_digit()).map(|i| at + i) {
+                    let rest = &text[begin..];
+                    let end = begin + rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+                    for luck in LUCK {
+                        with(files, which, &[&text[..begin], luck, &text[end..]].concat());
+                    }
+                    at = end;
+                }
+                assert!(at > text.len() / 2, "{name} has numbers to its end");
+            }
+        }
+    }
+
+    #[test]
+    fn no_line_that_is_lost_or_doubled_makes_a_reader_panic() {
+        for files in EXAMPLES {
+            for (which, (_, text)) in files.iter().enumerate() {
+                let lines: Vec<&str> = text.lines().collect();
+                for i in 0..lines.len() {
+                    let doubled = [&lines[..=i], &lines[i..]].concat().join("\n");
+                    let without = [&lines[..i], &lines[i + 1..]].concat().join("\n");
+                    with(files, which, &doubled);
+                    with(files, which, &without);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn line_ends_and_marks_change_nothing() {
+        for files in EXAMPLES {
+            let windows: Vec<(&str, String)> =
+                files.iter().map(|(name, text)| (*name, format!("\u{feff}{}", text.replace('\n', "\r\n")))).collect();
+            let windows: Vec<(&str, &str)> = windows.iter().map(|(name, text)| (*name, text.as_str())).collect();
+            assert_eq!(whole(&windows).unwrap(), whole(files).unwrap());
+        }
+    }
+
+    #[test]
+    fn xml_that_is_a_bomb_is_refused_at_once() {
+        let entities: String = (1..60)
+            .map(|i| format!("<!ENTITY a{i} \"{}\">", format!("&a{};", i - 1).repeat(10)))
+            .chain(["<!ENTITY a0 \"0123456789\">".to_owned()])
+            .collect();
+        let bomb = format!("<!DOCTYPE models [{entities}]><models>&a59;</models>");
+        let deep = "<models>".repeat(1_000_000);
+        let wide = format!("<models>{}</models>", "<a/>".repeat(2_000_000));
+        for text in [&bomb, &deep, &wide] {
+            let error = whole(&[("a.wcrfx", text)]).unwrap_err().to_string();
+            assert!(error.contains("not well-formed XML"), "{error}");
+        }
+    }
+}

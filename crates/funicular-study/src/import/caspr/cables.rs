@@ -1,0 +1,251 @@
+//! The file of cables: one of its sets.
+
+use crate::import::draft::{DraftCable, DraftRope, listed};
+use crate::import::text::clean;
+use crate::import::xml::{Xml, children, tag};
+use anyhow::{Result, bail};
+use funicular::math::Vec3;
+use roxmltree::Node;
+
+/// A set of cables.
+pub(super) struct Set {
+    pub(super) id: String,
+    /// Whether the file has no other.
+    pub(super) is_only: bool,
+    pub(super) cables: Vec<DraftCable>,
+    pub(super) lost: Vec<String>,
+}
+
+/// The set that is wanted, or the one that the file says is the default.
+pub(super) fn read(xml: &Xml, wanted: Option<&str>, center_of_mass_p: &Vec3) -> Result<Set> {
+    let root = xml.root();
+    let sets: Vec<Node> = children(root, "cable_set").collect();
+    let ids: Vec<String> = sets.iter().map(|set| clean(id_of(set))).collect();
+    let node = chosen(xml, &sets, &ids, wanted)?;
+    let id = clean(id_of(&node));
+    let mut left = Left::default();
+    let mut cables = Vec::new();
+    for cable in node.children().filter(Node::is_element) {
+        cables.push(read_cable(xml, cable, center_of_mass_p, &mut left)?);
+    }
+    if cables.is_empty() {
+        bail!(xml.error(node, format!("cable set \"{id}\" has no cables")));
+    }
+    let mut lost = left.lost();
+    let others: Vec<String> = sets.iter().zip(ids).filter(|(set, _)| **set != node).map(|(_, id)| id).collect();
+    if !others.is_empty() {
+        lost.push(format!("the other sets of cables, {}; ⟪cable_set⟫ chooses one", listed(&others)));
+    }
+    Ok(Set { is_only: sets.len() == 1, id, cables, lost })
+}
+
+/// The name of a set, as the file has it.
+fn id_of<'n>(set: &Node<'n, '_>) -> &'n str {
+    set.attribute("id").unwrap_or_default()
+}
+
+/// The set to read.
+fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: Option<&str>) -> Result<Node<'n, 'a>> {
+    let root = xml.root();
+    let (name, whose) = match (wanted, root.attribute("default_cable_set").map(str::trim)) {
+        (Some(name), _) => (name, "⟪cable_set⟫"),
+        (None, Some(name)) if !name.is_empty() => (name, "default_cable_set"),
+        _ => match sets {
+            [only] => return Ok(*only),
+            [] => bail!(xml.error(root, "<cables> has no <cable_set>")),
+            _ => bail!(xml.error(
+                root,
+                format!("the file says no default_cable_set; choose one with ⟪cable_set⟫: {}", listed(ids))
+            )),
+        },
+    };
+    // In full: names that are shown are cut, and two long ones may begin alike.
+    let is_wanted = |id: &str| id.split_whitespace().eq(name.split_whitespace());
+    let mut found = sets.iter().filter(|set| is_wanted(id_of(set))).copied();
+    match (found.next(), found.next()) {
+        (Some(set), None) => Ok(set),
+        (Some(_), Some(second)) => bail!(xml.error(second, format!("a second set is called \"{}\"", clean(name)))),
+        (None, _) if sets.is_empty() => bail!(xml.error(root, "<cables> has no <cable_set>")),
+        (None, _) => {
+            let near = ids
+                .iter()
+                .map(|id| (strsim::jaro_winkler(id, name), id))
+                .filter(|(likeness, _)| *likeness > 0.8)
+                .max_by(|a, b| a.0.total_cmp(&b.0))
+                .map(|(_, id)| format!("did you mean \"{id}\"? "))
+                .unwrap_or_default();
+            bail!(xml.error(
+                root,
+                format!("there is no set \"{}\", which {whose} names: {near}the file has {}", clean(name), listed(ids))
+            ))
+        }
+    }
+}
+
+fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, left: &mut Left) -> Result<DraftCable> {
+    let name = clean(node.attribute("name").unwrap_or_default());
+    let has_stiffness = match tag(node) {
+        "cable_ideal" => false,
+        "cable_linear_spring" => true,
+        other => {
+            let why = match other {
+                "cable_passive_linear_spring" => "a passive spring, which a robot file cannot hold",
+                "cable_vsd_torsion_spring" | "cable_vsd_flexure_linear" | "cable_vsd_polynomial" => {
+                    "a cable in series with a device of variable stiffness, which a robot file cannot hold"
+                }
+                "muscle_hill_type" | "pneumatic_artificial_muscle" => "a muscle, which a robot file cannot hold",
+                _ => "of a kind that is not known",
+            };
+            bail!(xml.error(
+                node,
+                format!("<{other}> \"{name}\" is {why}; cables are <cable_ideal> and <cable_linear_spring>")
+            ));
+        }
+    };
+    let from_center =
+        match node.attribute("attachment_reference").map(str::trim) {
+            Some("joint") => false,
+            Some("com") => true,
+            Some(other) => bail!(xml.error(
+                node,
+                format!(
+                    "attribute `attachment_reference` of cable \"{name}\" is `{}`, it must be joint or com",
+                    clean(other)
+                )
+            )),
+            None => bail!(xml.error(
+                node,
+                format!("cable \"{name}\" has no attribute `attachment_reference`, it must be joint or com")
+            )),
+        };
+    let mut rope = DraftRope::default();
+    let mut limits = [None; 2];
+    if let Some(properties) = xml.optional(node, "properties")? {
+        limits = [limit(xml, properties, "force_min")?, limit(xml, properties, "force_max")?];
+        left.diameters |= xml.optional(properties, "diameter")?.is_some();
+    }
+    if has_stiffness {
+        // CASPR divides it by the cable's length to get a stiffness in N/m: it is EA.
+        let stiffness = xml.required(xml.required(node, "properties")?, "K")?;
+        let value = xml.number(stiffness)?;
+        if value <= 0.0 {
+            bail!(xml.error(stiffness, format!("<K> of cable \"{name}\" is {value} N, it must be positive")));
+        }
+        rope.axial_stiffness = Some(value);
+    }
+    let [anchor_w, attachment_p] = ends(xml, xml.required(node, "attachments")?, &name, left)?;
+    let attachment_p = if from_center { attachment_p + center_of_mass_p } else { attachment_p };
+    Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None })
+}
+
+/// A tension limit; infinite is none.
+fn limit(xml: &Xml, properties: Node, name: &str) -> Result<Option<f64>> {
+    let Some(node) = xml.optional(properties, name)? else { return Ok(None) };
+    let infinite = node.text().is_some_and(|text| text.trim().parse::<f64>().is_ok_and(f64::is_infinite));
+    if infinite { Ok(None) } else { xml.number(node).map(Some) }
+}
+
+/// The end on the base, in world axes, and the end on the platform, in platform axes.
+fn ends(xml: &Xml, attachments: Node, cable: &str, left: &mut Left) -> Result<[Vec3; 2]> {
+    let points: Vec<Node> = attachments.children().filter(Node::is_element).collect();
+    let [first, second] = points[..] else {
+        let count = points.len();
+        let why = if count < 2 {
+            "it needs two"
+        } else {
+            "a cable of a robot file runs straight from its anchor to the platform, so one that is led over further points \
+             is refused"
+        };
+        bail!(xml.error(attachments, format!("cable \"{cable}\" has {count} attachments; {why}")));
+    };
+    let mut base = None;
+    let mut platform = None;
+    for node in [first, second] {
+        let (is_platform, point) = match tag(node) {
+            "attachment" => {
+                let link = xml.required(node, "link")?;
+                let number = link.text().unwrap_or_default().trim();
+                let Some(is_platform) = (match number {
+                    "0" => Some(false),
+                    "1" => Some(true),
+                    _ => None,
+                }) else {
+                    let shown = clean(number);
+                    let message =
+                        format!("<link> of cable \"{cable}\" is `{shown}`; 0 is the base and 1 the only link");
+                    bail!(xml.error(link, message));
+                };
+                (is_platform, xml.child_vector(node, "location")?)
+            }
+            "base_rotating_pulley" => (false, left.pulley(xml, node, cable, "fixed_location")?),
+            "screw_base_rotating_pulley" => (false, left.pulley(xml, node, cable, "constant_winch_point")?),
+            other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is no attachment that is known"))),
+        };
+        let end = if is_platform { &mut platform } else { &mut base };
+        if end.replace(point).is_some() {
+            let both = if is_platform { "the platform" } else { "the base" };
+            bail!(xml.error(node, format!("cable \"{cable}\" has both ends on {both}; it moves nothing")));
+        }
+    }
+    let (Some(anchor_w), Some(attachment_p)) = (base, platform) else {
+        bail!(xml.error(attachments, format!("cable \"{cable}\" does not run from the base to the platform")));
+    };
+    Ok([anchor_w, attachment_p])
+}
+
+/// What of the cables is not read, gathered so that it is said once. Of a pulley it is all but its fixed point.
+#[derive(Default)]
+struct Left {
+    /// Cables that run over pulleys.
+    cables: Vec<String>,
+    radii: Vec<f64>,
+    /// Whether a cable has a `<diameter>`: its unit is stated nowhere, and files have 0.367.
+    diameters: bool,
+}
+
+impl Left {
+    fn pulley(&mut self, xml: &Xml, node: Node, cable: &str, point: &str) -> Result<Vec3> {
+        self.cables.push(cable.to_owned());
+        if let Some(radius) = xml.optional(node, "pulley_radius")? {
+            let radius = xml.number(radius)?;
+            if !self.radii.contains(&radius) {
+                self.radii.push(radius);
+            }
+        }
+        xml.child_vector(node, point)
+    }
+
+    fn lost(&self) -> Vec<String> {
+        let mut lost = Vec::new();
+        if !self.cables.is_empty() {
+            let radii: Vec<String> = self.radii.iter().map(f64::to_string).collect();
+            lost.push(format!(
+                "the pulleys at the base, of radius {} m, of the cables {}: each anchor is the pulley's fixed point",
+                if radii.is_empty() { "unknown".to_owned() } else { radii.join(", ") },
+                listed(&self.cables)
+            ));
+        }
+        if self.diameters {
+            lost.push("<diameter> of the cables: its unit is not stated".to_owned());
+        }
+        lost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::import::text::SourceFile;
+
+    #[test]
+    fn a_limit_that_is_infinite_is_none() {
+        let file = SourceFile::decode("a.xml".into(), b"<p><a>Inf</a><b>-inf</b><c>5</c><d>x</d></p>").unwrap();
+        let xml = Xml::parse(&file).unwrap();
+        let of = |name| limit(&xml, xml.root(), name);
+        assert_eq!(
+            (of("a").unwrap(), of("b").unwrap(), of("c").unwrap(), of("e").unwrap()),
+            (None, None, Some(5.0), None)
+        );
+        assert!(of("d").unwrap_err().to_string().contains("a.xml:1:33: <d> is `x`, which is not a number"));
+    }
+}

@@ -1,0 +1,237 @@
+//! The draft as the text of a robot file.
+
+use super::{Draft, DraftCable, DraftFreedoms, DraftRope, DraftState};
+use crate::import::text::clean;
+use anyhow::{Result, anyhow};
+use funicular::math::{Mat3, Vec3, rotation};
+use funicular::robot::Robot;
+use std::fmt::Write;
+
+/// Width of comments.
+const WIDTH: usize = 118;
+
+impl Draft {
+    /// The robot file. What comes out has been read back.
+    ///
+    /// # Errors
+    ///
+    /// A robot that a robot file cannot hold, and why.
+    pub(crate) fn to_toml(&self) -> Result<String> {
+        let mut out = String::new();
+        self.head(&mut out);
+        self.tables(&mut out);
+        Robot::from_toml(&out).map_err(|error| {
+            let issues: Vec<String> = error.issues().iter().map(|issue| issue.message.clone()).collect();
+            let of_inertia = issues.iter().any(|issue| issue.contains("inertia_kg_m2"));
+            let hint = if of_inertia {
+                "; give ⟪inertia_kg_m2⟫ XX,YY,ZZ, or mend the source"
+            } else {
+                "; mend the source"
+            };
+            anyhow!("{}: a robot file cannot hold it: {}{hint}", self.platform.place, issues.join("; "))
+        })?;
+        Ok(out)
+    }
+
+    fn head(&self, out: &mut String) {
+        comment(out, "", &format!("Written by funicular {}, import.", env!("CARGO_PKG_VERSION")));
+        for (title, lines) in [
+            ("How it was read:", &self.notes),
+            ("ASSUMED, the source does not say it:", &self.assumed),
+            ("In the source and not here:", &self.lost),
+        ] {
+            if !lines.is_empty() {
+                out.push_str("#\n");
+                comment(out, "", title);
+                for line in lines {
+                    comment(out, "- ", line);
+                }
+            }
+        }
+    }
+
+    pub(super) fn tables(&self, out: &mut String) {
+        let mut line = |text: String| out.push_str(&(text + "\n"));
+        line(format!("\nname = {}", quoted(&self.name)));
+        line(format!("source = {}", quoted(&self.source)));
+        line(format!("gravity_m_s2 = {}", vector(&self.gravity_w)));
+        line("\n[platform]".to_owned());
+        line(format!("mass_kg = {}", float(self.platform.mass.unwrap_or_default())));
+        match self.platform.freedoms {
+            DraftFreedoms::PointMass => line("freedoms = \"point-mass\"".to_owned()),
+            of @ (DraftFreedoms::Rigid | DraftFreedoms::Planar { .. }) => {
+                if let DraftFreedoms::Planar { plane } = of {
+                    line(format!("freedoms = \"planar-{plane}\""));
+                    // The plane of a planar robot is the one that its pose is in.
+                    if let (DraftState::Pose(pose), Some(across)) = (&self.state, of.across()) {
+                        line(format!("plane_offset_m = {}", float(pose.position_w[across])));
+                    }
+                }
+                let inertia = self.platform.inertia_p.unwrap_or_default();
+                // Of planar robots the sources leave all but the moment about the normal at zero, which is no body's
+                // tensor; the robot file takes that moment alone.
+                line(match of.across() {
+                    Some(normal) => format!("inertia_kg_m2 = {}", float(inertia[(normal, normal)])),
+                    None => format!("inertia_kg_m2 = {}", tensor(&inertia)),
+                });
+                line(format!("center_of_mass_m = {}", vector(&self.platform.center_of_mass_p.unwrap_or_default())));
+            }
+        }
+        let ropes = self.ropes();
+        for (name, rope) in &ropes {
+            line(format!("\n[materials.{}]", key(name)));
+            if let Some(stiffness) = rope.axial_stiffness {
+                line(format!("axial_stiffness_n = {}", float(stiffness)));
+            } else {
+                line(format!("youngs_modulus_pa = {}", float(rope.youngs_modulus.unwrap_or_default())));
+                line(format!("diameter_m = {}", float(rope.diameter.unwrap_or_default())));
+            }
+            line(format!("mass_kg_per_m = {}", float(rope.mass_per_length.unwrap_or_default())));
+            if let Some(load) = rope.breaking_load {
+                line(format!("breaking_load_n = {}", float(load)));
+            }
+        }
+        for cable in &self.cables {
+            let material = ropes.iter().find(|(_, rope)| same(rope, &cable.rope)).map_or("", |(name, _)| name);
+            line(self.cable(cable, material));
+        }
+        if let DraftState::Pose(pose) = &self.state {
+            line("\n[state]".to_owned());
+            line(format!("position_m = {}", vector(&pose.position_w)));
+            let angles = Vec3::from(rotation::to_roll_pitch_yaw_deg(&pose.rot_wp));
+            if angles != Vec3::zeros() {
+                line(format!("roll_pitch_yaw_deg = {}", vector(&angles)));
+            }
+        }
+    }
+
+    fn cable(&self, cable: &DraftCable, material: &str) -> String {
+        let mut text = format!(
+            "\n[[cables]]\nname = {}\nmaterial = {}\nanchor_m = {}",
+            quoted(&cable.name),
+            quoted(material),
+            vector(&cable.anchor_w)
+        );
+        let mut line = |key: &str, value: String| {
+            let _ = write!(text, "\n{key} = {value}");
+        };
+        if self.platform.freedoms != DraftFreedoms::PointMass {
+            line("attachment_m", vector(&cable.attachment_p));
+        }
+        if let Some(length) = cable.unstrained_length {
+            line("unstrained_length_m", float(length));
+        }
+        for (key, limit) in ["minimum_tension_n", "maximum_tension_n"].into_iter().zip(cable.limits) {
+            if let Some(limit) = limit {
+                line(key, float(limit));
+            }
+        }
+        text
+    }
+
+    /// The different ropes, each with a name of its own.
+    fn ropes(&self) -> Vec<(String, &DraftRope)> {
+        let mut ropes: Vec<(String, &DraftRope)> = Vec::new();
+        for rope in self.cables.iter().map(|cable| &cable.rope) {
+            if ropes.iter().any(|(_, known)| same(known, rope)) {
+                continue;
+            }
+            let base = if rope.name.is_empty() { "rope" } else { &rope.name };
+            let mut name = base.to_owned();
+            let mut count = 1;
+            while ropes.iter().any(|(taken, _)| *taken == name) {
+                count += 1;
+                name = format!("{base} ({count})");
+            }
+            ropes.push((name, rope));
+        }
+        ropes
+    }
+}
+
+/// Whether two ropes can be one material: the file writes E and diameter only where there is no EA.
+fn same(a: &DraftRope, b: &DraftRope) -> bool {
+    let key = |rope: &DraftRope| match rope.axial_stiffness {
+        Some(_) => (rope.axial_stiffness, None, None),
+        None => (None, rope.youngs_modulus, rope.diameter),
+    };
+    let same = a.name == b.name && a.mass_per_length == b.mass_per_length && key(a) == key(b);
+    same && a.breaking_load == b.breaking_load
+}
+
+/// Lines of `# `, wrapped between words.
+fn comment(out: &mut String, bullet: &str, text: &str) {
+    let mut line = format!("# {bullet}");
+    let indent = " ".repeat(bullet.len());
+    let mut empty = true;
+    // Words one by one: a comment of TOML ends at the line's end, and control characters have no place in it.
+    for word in text.split_whitespace().map(clean) {
+        if !empty && line.chars().count() + word.chars().count() + 1 > WIDTH {
+            out.push_str(&line);
+            out.push('\n');
+            line = format!("# {indent}");
+            empty = true;
+        }
+        if !empty {
+            line.push(' ');
+        }
+        line.push_str(&word);
+        empty = false;
+    }
+    out.push_str(&line);
+    out.push('\n');
+}
+
+/// A basic string.
+fn quoted(text: &str) -> String {
+    toml_edit::Value::from(text).to_string()
+}
+
+/// A key: bare where it can be.
+fn key(text: &str) -> String {
+    let bare = !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'));
+    if bare { text.to_owned() } else { quoted(text) }
+}
+
+/// The shortest digits that are read back as the same number.
+fn float(value: f64) -> String {
+    // No −0: it prints a sign where nothing is meant by it.
+    let value = value + 0.0;
+    let plain = value == 0.0 || (1e-4..1e6).contains(&value.abs());
+    if plain { format!("{value:?}") } else { format!("{value:e}") }
+}
+
+fn vector(v: &Vec3) -> String {
+    format!("[{}, {}, {}]", float(v.x), float(v.y), float(v.z))
+}
+
+fn tensor(tensor: &Mat3) -> String {
+    if *tensor == Mat3::from_diagonal(&tensor.diagonal()) {
+        return vector(&tensor.diagonal());
+    }
+    let row = |i: usize| format!("    {},\n", vector(&tensor.row(i).transpose()));
+    format!("[\n{}{}{}]", row(0), row(1), row(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_are_wrapped_and_hold_no_control_characters() {
+        let mut out = String::new();
+        comment(&mut out, "- ", &format!("{} end\u{1b}[31m\nname = 3", "word ".repeat(60)));
+        assert!(out.lines().all(|line| line.starts_with("# ") && line.chars().count() <= WIDTH), "{out}");
+        assert!(out.ends_with("end[31m name = 3\n") && !out.contains('\u{1b}'));
+    }
+
+    #[test]
+    fn numbers_are_read_back_as_they_were() {
+        for value in [0.1, -13.332e-3, 1e12, 2.5e-300, 1.0 / 3.0, 7.0] {
+            let text = format!("x = {}", float(value));
+            let table: toml_edit::DocumentMut = text.parse().unwrap();
+            assert_eq!(table["x"].as_float(), Some(value), "{text}");
+        }
+        assert_eq!(float(-0.0), "0.0");
+    }
+}

@@ -1,0 +1,259 @@
+//! WireX: `.wcrfx`, a robot with its cables and winches.
+//!
+//! # References
+//!
+//! A. Pott, Cable-Driven Parallel Robots, Springer 2018. What the attributes mean is as WireX itself takes them
+//! (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
+
+use super::draft::{Draft, DraftCable, DraftFreedoms, DraftPlatform, DraftRope, DraftState, listed};
+use super::text::clean;
+use super::xml::{Xml, children, tag};
+use anyhow::{Result, bail};
+use funicular::math::{Mat3, Vec3};
+use roxmltree::Node;
+
+/// Gravity [m/s²]: WireX has none of its own, its rope weights are taken with this.
+const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
+
+/// Moments of inertia that WireX takes where a file has no complete tensor [kg m²].
+const DEFAULT_MOMENTS: Vec3 = Vec3::new(2.0, 3.0, 4.0);
+
+/// Centre of gravity that WireX writes for a robot whose own it does not know [m].
+const DEFAULT_CENTER: Vec3 = Vec3::new(0.0, 1.0, 0.2);
+
+/// Density of a rope, mass over volume of the circle around it [kg/m³]: a loose rope of fibres has 500, a strand of steel
+/// 6000, solid steel 7850. Beyond, one of the two numbers is something else.
+const DENSITIES: std::ops::Range<f64> = 400.0..9000.0;
+
+/// The robot of a file.
+///
+/// # Errors
+///
+/// What is wrong in which line; or what the robot has that a robot file cannot hold.
+pub(crate) fn read(xml: &Xml) -> Result<Draft> {
+    let root = xml.root();
+    let robots: Vec<Node> = children(root, "robot").collect();
+    let Some(&robot) = robots.first() else {
+        let old = children(root, "wireRobot").next();
+        match old {
+            Some(old) => {
+                bail!(xml.error(old, "<wireRobot> is the old format of WireX; open it there and save it as .wcrfx"))
+            }
+            None => bail!(xml.error(root, "<models> has no <robot>")),
+        }
+    };
+    let mut assumed = Vec::new();
+    let mut lost = Vec::new();
+    if robots.len() > 1 {
+        lost.push(format!("{} more robots of the file: the first is read, as WireX does", robots.len() - 1));
+    }
+    let freedoms = freedoms(xml, robot)?;
+    let rope = rope(xml, root, &mut assumed, &mut lost)?;
+    let cables = cables(xml, root, robot, &rope, &mut lost)?;
+    let platform = platform(xml, robot, freedoms, &mut assumed)?;
+    if children(robot, "application").next().is_some() {
+        lost.push("<application>, its load and its limits".to_owned());
+    }
+    if children(root, "winch").next().is_some() {
+        lost.push("<winch>: motors, drums, limits of speed".to_owned());
+    }
+    let name = clean(robot.attribute("name").unwrap_or_default());
+    Ok(Draft {
+        name: if name.is_empty() { xml.file().stem() } else { name },
+        source: source(xml, robot),
+        gravity_w: GRAVITY,
+        platform,
+        cables,
+        state: DraftState::Unknown,
+        notes: vec![
+            "The file has no pose: ⟪pose⟫ of import or of an analysis gives one. Gravity 9.81 m/s² along -z".to_owned(),
+        ],
+        assumed,
+        lost,
+    })
+}
+
+fn source(xml: &Xml, robot: Node) -> String {
+    let mut source = format!("WireX model, {}", xml.file().name());
+    for key in ["author", "description"] {
+        let text = clean(robot.attribute(key).unwrap_or_default());
+        if !text.is_empty() {
+            source.push_str("; ");
+            source.push_str(&text);
+        }
+    }
+    source
+}
+
+fn freedoms(xml: &Xml, robot: Node) -> Result<DraftFreedoms> {
+    match robot.attribute("motionpattern").map_or("3R3T", str::trim) {
+        "3R3T" => Ok(DraftFreedoms::Rigid),
+        "3T" => Ok(DraftFreedoms::PointMass),
+        "1R2T" => Ok(DraftFreedoms::Planar { plane: "xy" }),
+        pattern @ ("1T" | "2T" | "2R3T") => bail!(xml.error(
+            robot,
+            format!(
+                "motion pattern {pattern} is none that a robot file can hold; it knows 3R3T (rigid platform), 3T (point \
+                 mass) and 1R2T (planar)"
+            )
+        )),
+        other => bail!(xml.error(
+            robot,
+            format!("attribute `motionpattern` is `{}`; WireX has 1T, 2T, 3T, 1R2T, 2R3T and 3R3T", clean(other))
+        )),
+    }
+}
+
+fn platform(xml: &Xml, robot: Node, freedoms: DraftFreedoms, assumed: &mut Vec<String>) -> Result<DraftPlatform> {
+    let Some(node) = xml.optional(robot, "platform")? else {
+        return Ok(DraftPlatform {
+            mass: None,
+            inertia_p: None,
+            center_of_mass_p: None,
+            freedoms,
+            place: xml.place(robot),
+        });
+    };
+    let mass = xml.optional_attribute_number(node, "mass")?;
+    if let Some(mass) = mass.filter(|mass| *mass < 0.0) {
+        bail!(xml.error(node, format!("attribute `mass` is {mass} kg, it must be positive")));
+    }
+    let center = xml.optional(node, "centerofgravity")?.map(|center| xml.attribute_vector(center)).transpose()?;
+    let tensor = xml.optional(node, "inertiatensor")?.map(|tensor| inertia(xml, tensor)).transpose()?.flatten();
+    if freedoms != DraftFreedoms::PointMass {
+        if center == Some(DEFAULT_CENTER) {
+            assumed.push(
+                "the centre of gravity (0, 1, 0.2) m: it is in the file, but it is the one that WireX writes for robots \
+                 whose own it does not know; ⟪center_of_mass_m⟫ X,Y,Z gives another"
+                    .to_owned(),
+            );
+        }
+        if tensor.is_none() {
+            assumed.push(
+                "the inertia tensor diag(2, 3, 4) kg m²: the file has no complete one, and this is what WireX takes in its \
+                 place. Statics does not depend on it, natural frequencies do; ⟪inertia_kg_m2⟫ XX,YY,ZZ gives another"
+                    .to_owned(),
+            );
+        }
+    }
+    Ok(DraftPlatform {
+        mass: mass.filter(|mass| *mass > 0.0),
+        inertia_p: Some(tensor.unwrap_or(Mat3::from_diagonal(&DEFAULT_MOMENTS))),
+        center_of_mass_p: center,
+        freedoms,
+        place: xml.place(node),
+    })
+}
+
+/// The tensor about the centre of gravity, if all nine entries are there.
+fn inertia(xml: &Xml, node: Node) -> Result<Option<Mat3>> {
+    let mut tensor = Mat3::zeros();
+    let mut complete = true;
+    for (i, row) in ["x", "y", "z"].into_iter().enumerate() {
+        for (j, column) in ["x", "y", "z"].into_iter().enumerate() {
+            match xml.optional_attribute_number(node, &format!("I{row}{column}"))? {
+                Some(value) => tensor[(i, j)] = value,
+                None => complete = false,
+            }
+        }
+    }
+    Ok(complete.then_some(tensor))
+}
+
+/// The rope that WireX takes for every chain: the first `<cable>` of the file.
+fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>) -> Result<DraftRope> {
+    let all: Vec<Node> = children(root, "cable").collect();
+    let Some(&node) = all.first() else { return Ok(DraftRope::default()) };
+    if all.len() > 1 {
+        let names: Vec<String> =
+            all[1..].iter().map(|n| clean(n.attribute("name").unwrap_or("without name"))).collect();
+        lost.push(format!("<cable> {}: the first one is read, for all chains, as WireX does", listed(&names)));
+    }
+    let quantity = |name| -> Result<Option<f64>> {
+        let value = xml.optional_attribute_number(node, name)?;
+        match value.filter(|value| *value < 0.0) {
+            Some(value) => {
+                bail!(xml.error(node, format!("attribute `{name}` of <cable> is {value}, it cannot be negative")))
+            }
+            None => Ok(value),
+        }
+    };
+    let rope = DraftRope {
+        name: clean(node.attribute("name").unwrap_or_default()),
+        mass_per_length: quantity("weight")?,
+        axial_stiffness: None,
+        youngs_modulus: quantity("elasticity")?.filter(|modulus| *modulus > 0.0),
+        diameter: quantity("radius")?.filter(|radius| *radius > 0.0).map(|radius| 2.0 * radius),
+        breaking_load: quantity("breaking_load")?.filter(|load| *load > 0.0),
+    };
+    if let (Some(mass), Some(diameter)) = (rope.mass_per_length.filter(|mass| *mass > 0.0), rope.diameter) {
+        let density = mass / (std::f64::consts::FRAC_PI_4 * diameter * diameter);
+        if !DENSITIES.contains(&density) {
+            assumed.push(format!(
+                "that `radius` is the radius: with `weight` it makes a rope of {density:.0} kg/m³, which no rope has; if it \
+                 is the diameter, give ⟪diameter_m⟫ {}",
+                diameter / 2.0
+            ));
+        }
+    }
+    for (name, what) in [
+        ("damping", "a damping per length of unknown unit"),
+        ("max_length", "the greatest length [m]"),
+        ("min_length", "the least length [m]"),
+    ] {
+        if let Some(value) = xml.optional_attribute_number(node, name)?.filter(|value| *value != 0.0) {
+            lost.push(format!("`{name}` {value} of <cable>, {what}"));
+        }
+    }
+    Ok(rope)
+}
+
+fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<String>) -> Result<Vec<DraftCable>> {
+    let geometry = xml.required(robot, "geometry")?;
+    let minimum = children(root, "cable").next().map(|node| xml.optional_attribute_number(node, "minimum_load"));
+    let minimum = minimum.transpose()?.flatten().filter(|limit| *limit > 0.0);
+    let mut cables = Vec::new();
+    let mut radii: Vec<f64> = Vec::new();
+    for chain in geometry.children().filter(Node::is_element) {
+        if tag(chain) != "chain" {
+            // WireX reads over it, too.
+            lost.push(format!("<{}> in <geometry>, which is not known", tag(chain)));
+            continue;
+        }
+        let base = xml.required(chain, "base")?;
+        if let Some(radius) = xml.optional_attribute_number(base, "radius")?.filter(|radius| *radius != 0.0)
+            && !radii.contains(&radius)
+        {
+            radii.push(radius);
+        }
+        cables.push(DraftCable {
+            name: clean(chain.attribute("id").unwrap_or_default()),
+            anchor_w: xml.attribute_vector(base)?,
+            attachment_p: xml.attribute_vector(xml.required(chain, "platform")?)?,
+            rope: rope.clone(),
+            limits: [minimum, greatest_force(xml, root, chain)?],
+            unstrained_length: None,
+        });
+    }
+    if cables.is_empty() {
+        bail!(xml.error(geometry, "<geometry> has no <chain>: the robot has no cables"));
+    }
+    if !radii.is_empty() {
+        let radii: Vec<String> = radii.iter().map(f64::to_string).collect();
+        lost.push(format!(
+            "the pulleys at the base, of radius {} m: each cable ends at the point of its <base>",
+            radii.join(", ")
+        ));
+    }
+    Ok(cables)
+}
+
+/// What the winch of a chain can pull [N]; a winch without a number has none.
+fn greatest_force(xml: &Xml, root: Node, chain: Node) -> Result<Option<f64>> {
+    let Some(kind) = chain.attribute("winchtype") else { return Ok(None) };
+    let Some(winch) = children(root, "winch").find(|winch| winch.attribute("name") == Some(kind)) else {
+        return Ok(None);
+    };
+    let Some(cable) = children(winch, "cable").next() else { return Ok(None) };
+    Ok(xml.optional_attribute_number(cable, "f_max")?.filter(|force| *force > 0.0))
+}

@@ -1,0 +1,115 @@
+//! JSON: one line a key, every digit, and no `null`.
+
+use serde::Serialize;
+use serde_json::ser::{CharEscape, Formatter};
+use std::io::{self, Write};
+
+/// Every result, with the keys that all have.
+#[derive(Serialize)]
+struct Envelope<'a, R> {
+    schema: &'static str,
+    command: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    robot: &'a str,
+    #[serde(flatten)]
+    results: &'a R,
+    warnings: &'a [String],
+}
+
+/// Writes results of a command for a robot.
+///
+/// # Errors
+/// A result that is not finite (JSON has no word for it), or what `out` reports.
+pub fn write<R: Serialize>(
+    out: &mut impl Write,
+    command: &'static str,
+    robot: &str,
+    results: &R,
+    warnings: &[String],
+) -> io::Result<()> {
+    let envelope = Envelope { schema: "funicular/1", command, robot, results, warnings };
+    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Lines { depth: 0 });
+    envelope.serialize(&mut serializer)?;
+    out.write_all(b"\n")
+}
+
+/// One line a key of an object, arrays on one line.
+struct Lines {
+    depth: usize,
+}
+
+impl Lines {
+    fn new_line<W: ?Sized + Write>(&self, out: &mut W) -> io::Result<()> {
+        write!(out, "\n{:width$}", "", width = 2 * self.depth)
+    }
+}
+
+impl Formatter for Lines {
+    /// serde_json writes a number that is not finite as `null`, and no key of ours is ever absent that way.
+    fn write_null<W: ?Sized + Write>(&mut self, _: &mut W) -> io::Result<()> {
+        Err(io::Error::other("a result is not a finite number"))
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
+        if first { Ok(()) } else { out.write_all(b", ") }
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.depth += 1;
+        out.write_all(b"{")
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
+        if !first {
+            out.write_all(b",")?;
+        }
+        self.new_line(out)
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        out.write_all(b": ")
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.depth -= 1;
+        self.new_line(out)?;
+        out.write_all(b"}")
+    }
+
+    fn write_char_escape<W: ?Sized + Write>(&mut self, out: &mut W, escape: CharEscape) -> io::Result<()> {
+        serde_json::ser::CompactFormatter.write_char_escape(out, escape)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Serialize)]
+    struct Sample {
+        values: Vec<f64>,
+        rows: Vec<Row>,
+    }
+
+    #[derive(Serialize)]
+    struct Row {
+        x: f64,
+    }
+
+    #[test]
+    fn arrays_take_one_line_and_objects_one_a_key() {
+        let mut out = Vec::new();
+        let sample = Sample { values: vec![0.1, 2.0], rows: vec![Row { x: 1.0 }] };
+        write(&mut out, "modes", "r \"1\"", &sample, &[]).unwrap();
+        let expected = "{\n  \"schema\": \"funicular/1\",\n  \"command\": \"modes\",\n  \"robot\": \"r \\\"1\\\"\",\n  \
+            \"values\": [0.1, 2.0],\n  \"rows\": [{\n    \"x\": 1.0\n  }],\n  \"warnings\": []\n}\n";
+        assert_eq!(String::from_utf8(out).unwrap(), expected);
+    }
+
+    #[test]
+    fn a_result_that_is_not_finite_is_an_error() {
+        for value in [f64::NAN, f64::INFINITY] {
+            assert!(write(&mut io::sink(), "c", "r", &Row { x: value }, &[]).is_err());
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Requests and results of funicular as plain data.
+//!
+//! A [`Request`] says everything about one analysis: the text of the robot file, its changes, state, loads, limits, models and
+//! the question itself. [`run`] answers it with [`Results`]. Both are serde data with one vocabulary: the names of the keys
+//! are those of the program's options, of Python's keywords and of the plan inside the file of a sweep. The front ends
+//! (program, Python package, browser) translate into a request and out of the results, and decide nothing themselves.
+//!
+//! This crate has no disk and no threads; it compiles for WebAssembly. Beside the analyses it holds all that turns results
+//! into other forms: [`import`] and [`export`] of other programs' files, [`pages`] in HTML, and [`validation`].
+//!
+//! # Example
+//! ```
+//! use funicular_study::{Request, Results, Silent, run};
+//!
+//! let text = include_str!("../../../robots/cogiro.toml");
+//! let request = serde_json::json!({
+//!     "command": "statics",
+//!     "robot": {"name": "cogiro", "text": text},
+//!     "pose": [1.0, 2.0, 1.5],
+//!     "max_tension_n": 1200.0,
+//!     "tension_rule": "middle",
+//! });
+//! let request = Request::from_json(&request.to_string())?;
+//! let Results::Statics(found) = run(&request, &mut Silent)? else { panic!("statics was requested") };
+//! assert!(found.cables.iter().all(|cable| cable.tension_platform_n < 1200.0));
+//! # Ok::<(), funicular_study::Error>(())
+//! ```
+
+#[expect(missing_docs, reason = "fields are the keys of the JSON: quantity and unit are their names")]
+pub mod analyses;
+pub mod at_rest;
+mod error;
+pub mod export;
+pub mod frequency_range;
+pub mod import;
+pub mod json;
+pub mod names;
+pub mod pages;
+pub mod request;
+pub mod robot_file;
+mod run;
+pub mod set_values;
+pub mod sweep;
+pub mod text;
+pub mod validation;
+pub mod values;
+mod watch;
+pub mod wording;
+
+pub use error::{Error, ErrorKind, NoSolution};
+pub use request::Request;
+pub use run::{Results, run};
+pub use watch::{Silent, Watch};

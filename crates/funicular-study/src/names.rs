@@ -1,0 +1,154 @@
+//! Choices by name: how models, rules and terms stand in requests, on the command line and in Python.
+
+use funicular::cable::CableModel;
+use funicular::dynamics::Assembly;
+use funicular::statics::{StaticModel, TensionRule};
+use serde::{Deserialize, Deserializer, Serializer};
+
+/// Likeness (Jaro-Winkler) from which a known name is suggested; typing errors of one or two letters are above it.
+const ALIKE: f64 = 0.8;
+
+/// A closed set of choices, each with a name.
+pub trait Named: Copy + PartialEq + Sized + 'static {
+    /// Noun for the set, as in "static model".
+    const WHAT: &'static str;
+
+    /// All choices, in the order in which they are listed.
+    const ALL: &'static [Self];
+
+    /// The name of the choice.
+    fn name(self) -> &'static str;
+
+    /// The choice of a name.
+    ///
+    /// # Errors
+    /// The names there are, with the nearest first if one is near.
+    fn from_name(name: &str) -> Result<Self, String> {
+        if let Some(found) = Self::ALL.iter().find(|choice| choice.name() == name) {
+            return Ok(*found);
+        }
+        let all: Vec<String> = Self::ALL.iter().map(|choice| choice.name().to_owned()).collect();
+        Err(format!("there is no {} `{name}`{}", Self::WHAT, suggestion(name, &all)))
+    }
+}
+
+/// `; did you mean …` for a near name, else `; there are …` with the first names there are.
+pub fn suggestion(word: &str, names: &[String]) -> String {
+    let nearest = names
+        .iter()
+        .map(|name| (strsim::jaro_winkler(word, name), name))
+        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    match nearest {
+        Some((_, name)) => format!("; did you mean `{name}`?"),
+        None => listed(names),
+    }
+}
+
+/// The names there are, the first of many.
+pub(crate) fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 12;
+    if names.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    format!(
+        "; there {} {}{}",
+        if names.len() == 1 { "is" } else { "are" },
+        shown.join(", "),
+        if names.len() > SHOWN { ", …" } else { "" }
+    )
+}
+
+impl Named for StaticModel {
+    const WHAT: &'static str = "static model";
+    const ALL: &'static [Self] = &StaticModel::ALL;
+
+    fn name(self) -> &'static str {
+        StaticModel::name(self)
+    }
+}
+
+impl Named for CableModel {
+    const WHAT: &'static str = "cable model";
+    const ALL: &'static [Self] = &CableModel::ALL;
+
+    fn name(self) -> &'static str {
+        CableModel::name(self)
+    }
+}
+
+impl Named for Assembly {
+    const WHAT: &'static str = "assembly";
+    const ALL: &'static [Self] = &Assembly::ALL;
+
+    fn name(self) -> &'static str {
+        Assembly::name(self)
+    }
+}
+
+/// Names of [`TensionRule`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TensionRuleName {
+    /// Least sum of squares of the tensions above their minimum.
+    Lowest,
+    /// Least sum of squares of the differences from wanted tensions.
+    Closest,
+    /// Farthest from the limits, relative to the distance between them.
+    Middle,
+    /// Largest minimum eigenvalue of the scaled stiffness.
+    Stiffest,
+}
+
+impl Named for TensionRuleName {
+    const WHAT: &'static str = "tension rule";
+    const ALL: &'static [Self] = &[Self::Lowest, Self::Closest, Self::Middle, Self::Stiffest];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Lowest => TensionRule::Lowest.name(),
+            Self::Closest => TensionRule::Closest(Vec::new()).name(),
+            Self::Middle => TensionRule::Middle.name(),
+            Self::Stiffest => TensionRule::Stiffest.name(),
+        }
+    }
+}
+
+impl From<&TensionRule> for TensionRuleName {
+    fn from(rule: &TensionRule) -> Self {
+        match rule {
+            TensionRule::Lowest => Self::Lowest,
+            TensionRule::Closest(_) => Self::Closest,
+            TensionRule::Middle => Self::Middle,
+            TensionRule::Stiffest => Self::Stiffest,
+        }
+    }
+}
+
+/// Serialises a choice as its name: for `#[serde(with = "…")]`.
+pub(crate) fn serialize<T: Named, S: Serializer>(choice: &T, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(choice.name())
+}
+
+/// Reads a choice from its name.
+pub(crate) fn deserialize<'de, T: Named, D: Deserializer<'de>>(from: D) -> Result<T, D::Error> {
+    T::from_name(&String::deserialize(from)?).map_err(serde::de::Error::custom)
+}
+
+/// Choices that may be left open.
+pub(crate) mod optional {
+    use super::{Deserialize, Deserializer, Named, Serializer};
+
+    #[expect(clippy::ref_option, reason = "serde calls it so")]
+    pub(crate) fn serialize<T: Named, S: Serializer>(choice: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
+        match choice {
+            Some(choice) => to.serialize_some(choice.name()),
+            None => to.serialize_none(),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, T: Named, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
+        let name = Option::<String>::deserialize(from)?;
+        name.map(|name| T::from_name(&name).map_err(serde::de::Error::custom)).transpose()
+    }
+}

@@ -1,0 +1,230 @@
+//! Pages in HTML that open offline: one file with its figures, its numbers and the library that draws them.
+//!
+//! A page is a template of prose ([`report`], [`paper`], [`plot`]) into which [`figure::Figure`]s and [`table::Table`]s are set.
+//! Nothing on it depends on the time, on chance or on the network: two runs write the same bytes.
+
+pub(crate) mod figure;
+pub mod paper;
+pub mod plot;
+pub mod report;
+pub(crate) mod table;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::Write as _;
+
+/// plotly.js, [`packed`] when the program was built.
+const PLOTLY: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.js.gz.base64"));
+
+/// What every page has around its own content.
+pub(crate) struct Shell {
+    /// Title of the page.
+    pub(crate) title: String,
+    /// (id, name) of the sections, for the list of contents.
+    pub(crate) contents: &'static [(&'static str, &'static str)],
+    version: &'static str,
+    style: &'static str,
+    script: &'static str,
+    plotly: &'static str,
+}
+
+impl Shell {
+    /// Of a page with this title and these sections.
+    pub(crate) fn new(title: String, contents: &'static [(&'static str, &'static str)]) -> Self {
+        Self {
+            title,
+            contents,
+            version: env!("CARGO_PKG_VERSION"),
+            style: include_str!("../templates/page.css"),
+            script: include_str!("../templates/page.js"),
+            plotly: PLOTLY,
+        }
+    }
+}
+
+/// Bytes as the page's script unpacks them: gzip, as text in base64, which no element of a page can be ended by.
+pub(crate) fn packed(bytes: &[u8]) -> String {
+    const INTO_MEMORY: &str = "memory takes all that is written";
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes).expect(INTO_MEMORY);
+    BASE64.encode(encoder.finish().expect(INTO_MEMORY))
+}
+
+/// The inverse of [`packed`].
+#[cfg(test)]
+pub(crate) fn unpacked(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let packed = BASE64.decode(text.trim()).unwrap();
+    std::io::Read::read_to_end(&mut flate2::read::GzDecoder::new(packed.as_slice()), &mut bytes).unwrap();
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::figure::shapes::Shapes;
+    use super::paper::paper;
+    use super::report::{ReportInput, report};
+    use super::{PLOTLY, unpacked};
+    use crate::at_rest::AtRest;
+    use funicular::cable::CableModel;
+    use funicular::dynamics::{Dynamics, Linearisation};
+    use funicular::math::Vec3;
+    use funicular::modes;
+    use funicular::response::{Direction, Quantity};
+    use funicular::robot::{Robot, State};
+    use funicular::statics::{Equilibrium, StaticModel, forward};
+
+    const YUAN: &str = include_str!("../../../robots/yuan2014-4mm.toml");
+    const COGIRO: &str = include_str!("../../../robots/cogiro.toml");
+    const POINT_MASS: &str = include_str!("../../../robots/sap2000-8-cable-point-mass.toml");
+
+    fn rest(robot: &Robot, model: StaticModel) -> Equilibrium {
+        let State::Lengths(lengths) = &robot.state else { panic!("the file gives lengths") };
+        forward(robot, lengths, model, None).unwrap()
+    }
+
+    fn page_of(text: &str, model: StaticModel) -> String {
+        page_with(text, model, Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() })
+    }
+
+    fn page_with(text: &str, model: StaticModel, linearisation: Linearisation) -> String {
+        let robot = Robot::from_toml(text).unwrap();
+        let equilibrium = rest(&robot, model);
+        let up = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+        let u = up.vector(&equilibrium.pose);
+        report(&ReportInput {
+            at_rest: &AtRest { robot, equilibrium, instead_of: None, rule: None },
+            file_label: "robot.toml",
+            robot_text: text,
+            linearisation,
+            below_hz: 20.0,
+            frf_input: ("a vertical force".to_owned(), u),
+            frf_output: ("the vertical acceleration".to_owned(), u, Quantity::Acceleration),
+            frf_unit: "(m/s²)/N",
+            command_line: "funicular report robot.toml".to_owned(),
+        })
+        .unwrap()
+        .html
+    }
+
+    /// The page without plotly.js, after a check that it is there once.
+    fn own_part(page: &str) -> String {
+        let parts: Vec<&str> = page.split(PLOTLY).collect();
+        assert_eq!(parts.len(), 2, "plotly.js is on the page once");
+        parts.concat()
+    }
+
+    #[test]
+    fn plotly_is_packed_whole_and_alone() {
+        let script = String::from_utf8(unpacked(PLOTLY)).unwrap();
+        assert!(script.trim_start().starts_with("/**\n* plotly.js v"), "{}", &script[..80]);
+        assert!(script.contains("scatter3d") && !script.contains("MathJax = {"));
+        assert!(PLOTLY.len() < 2_000_000, "{}", PLOTLY.len());
+    }
+
+    fn loads_nothing(own: &str) {
+        for banned in ["<script src", "<link", "@import", "url(", "<img", "<iframe", "src=\"", "href=\"http"] {
+            assert!(!own.contains(banned), "{banned}");
+        }
+    }
+
+    #[test]
+    fn a_report_carries_all_it_needs_and_has_every_section() {
+        for text in [YUAN, COGIRO, POINT_MASS] {
+            let page = page_of(text, StaticModel::Catenary);
+            assert!(page.len() < 5_000_000, "{}", page.len());
+            let own = own_part(&page);
+            loads_nothing(&own);
+            for (id, _) in super::report::CONTENTS {
+                assert!(own.contains(&format!("<section id=\"{id}\">")), "{id}");
+            }
+            for id in
+                ["figure-robot", "figure-platform", "figure-tensions", "figure-sag", "figure-modes", "figure-response"]
+            {
+                assert!(own.contains(&format!("id=\"{id}-plot\"")), "{id}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_paper_carries_all_it_needs_and_has_every_section() {
+        let page = paper("funicular paper".to_owned()).unwrap();
+        assert!(page.len() < 5_000_000, "{}", page.len());
+        let own = own_part(&page);
+        loads_nothing(&own);
+        for (id, _) in super::paper::CONTENTS {
+            assert!(own.contains(&format!("<section id=\"{id}\">")), "{id}");
+        }
+        assert!(own.contains("identified by us"));
+    }
+
+    #[test]
+    fn two_runs_write_the_same_bytes() {
+        assert_eq!(page_of(YUAN, StaticModel::Catenary), page_of(YUAN, StaticModel::Catenary));
+        assert_eq!(paper("funicular paper".to_owned()).unwrap(), paper("funicular paper".to_owned()).unwrap());
+    }
+
+    #[test]
+    fn names_from_the_robot_file_stay_text() {
+        let text = YUAN
+            .replace("INSA Rennes", "</script><script>alert(1)</script>")
+            .replace("name = \"1\"", "name = \"</script><b>&\"");
+        let own = own_part(&page_of(&text, StaticModel::Catenary));
+        assert!(!own.contains("<script>alert") && !own.contains("<b>"));
+        assert!(own.contains("&#60;script&#62;alert(1)"));
+        // Every element that a figure's description opens is closed by its own end tag.
+        assert_eq!(own.matches("<script").count(), own.matches("</script>").count());
+    }
+
+    #[test]
+    fn every_model_has_a_report() {
+        let page = page_of(YUAN, StaticModel::Spring);
+        assert!(own_part(&page).contains("straight elastic cables"));
+        for cable_model in CableModel::ALL {
+            let linearisation = Linearisation { cable_model, in_plane_only: true, ..Linearisation::default() };
+            let page = page_with(YUAN, StaticModel::Catenary, linearisation);
+            assert!(own_part(&page).contains("cables stiff in their planes only"), "{cable_model}");
+        }
+        // The closed form knows cable ends only; the page says what does better.
+        let closed_form = own_part(&page_of(YUAN, StaticModel::Catenary));
+        assert!(
+            closed_form.contains("Mode shapes are not shown") && closed_form.contains("--cable-model exact</code>")
+        );
+        assert!(!closed_form.contains("id=\"shapes-data\""));
+        // Ideal cables have no stiffness of their own; the model that needs none of statics takes them.
+        let linearisation = Linearisation { cable_model: CableModel::Spring, ..Linearisation::default() };
+        let page = page_with(YUAN, StaticModel::Ideal, linearisation);
+        assert!(own_part(&page).contains("Ideal cables are rigid"));
+    }
+
+    #[test]
+    fn a_page_with_many_modes_is_cut_to_size_and_says_so() {
+        let robot = Robot::from_toml(YUAN).unwrap();
+        let equilibrium = rest(&robot, StaticModel::Catenary);
+        let dynamics = Dynamics::about(&robot, &equilibrium, Linearisation::default(), 150.0).unwrap();
+        let found = modes::below(&dynamics, 150.0);
+        let shapes = Shapes::new(&robot, &equilibrium, &dynamics, &found).unwrap().unwrap().to_string();
+        assert!(shapes.len() < 2_000_000, "{}", shapes.len());
+        let note = shapes.split_once("room for the shapes of the lowest ").unwrap().1;
+        let shown: usize = note.split(' ').next().unwrap().parse().unwrap();
+        assert!(shown > 200 && shown < found.modes.len(), "{shown} of {}", found.modes.len());
+        assert!(note.starts_with(&format!("{shown} of {} modes.", found.modes.len())));
+    }
+
+    #[test]
+    fn every_figure_is_json_with_traces() {
+        for page in [page_of(COGIRO, StaticModel::Catenary), paper("funicular paper".to_owned()).unwrap()] {
+            let own = own_part(&page);
+            let mut figures = 0;
+            for part in own.split("<script type=\"application/json\"").skip(1) {
+                let json = part.split_once('>').unwrap().1.split("</script>").next().unwrap();
+                let figure: serde_json::Value = serde_json::from_str(json).unwrap();
+                assert!(!figure["data"].as_array().unwrap().is_empty());
+                figures += 1;
+            }
+            assert!(figures >= 6);
+        }
+    }
+}

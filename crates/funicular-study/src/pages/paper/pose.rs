@@ -1,0 +1,194 @@
+//! The paper's Tables I and II and Fig. 6: geometry, ideal poses, and how far simpler static models are off.
+
+use super::published::{IDEAL_POSITION, MOORPY};
+use crate::pages::figure::{Figure, axis, colour, line, points, with};
+use crate::pages::table::{Table, fixed};
+use funicular::pose_error::{PoseErrorPoint, Threshold, threshold};
+use funicular::robot::{Robot, State};
+use serde_json::{Value, json};
+
+/// Lightest and heaviest load of the paper [kg].
+const MASS_RANGE: (f64, f64) = (10.55, 86.35);
+/// Points of a curve.
+const POINTS: u32 = 60;
+/// Tolerances of the thresholds [m].
+const TOLERANCES: [f64; 4] = [0.001, 0.002, 0.005, 0.01];
+/// Names of the cable sets, as in every table.
+const SET_NAMES: [&str; 2] = ["4 mm", "8 mm"];
+
+/// One cable set over the range of masses.
+pub(crate) struct Sweep {
+    robot: Robot,
+    lengths: Vec<f64>,
+    points: Vec<PoseErrorPoint>,
+}
+
+impl Sweep {
+    /// Of a robot whose file gives lengths.
+    pub(crate) fn of(robot: &Robot) -> Self {
+        let lengths = lengths(robot);
+        let step = (MASS_RANGE.1 - MASS_RANGE.0) / f64::from(POINTS - 1);
+        let points =
+            (0..POINTS).map(|k| PoseErrorPoint::at_mass(robot, &lengths, MASS_RANGE.0 + step * f64::from(k))).collect();
+        Self { robot: robot.clone(), lengths, points }
+    }
+}
+
+/// Unstrained lengths that the file gives [m]; none if it gives a pose.
+pub(crate) fn lengths(robot: &Robot) -> Vec<f64> {
+    match &robot.state {
+        State::Lengths(lengths) => lengths.clone(),
+        State::Pose(_) | State::Unknown => Vec::new(),
+    }
+}
+
+/// Tables I and II, with the ideal pose as a check of the closure.
+pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> Table {
+    let mut table = Table::new(
+        "table-geometry",
+        "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained lengths of \
+         both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 kg/m (8 mm).",
+        &["<cable", "anchor x|m", "y|m", "z|m", "attachment x|m", "y|m", "z|m", "length, 4 mm|m", "length, 8 mm|m"],
+    );
+    for (i, cable) in sweeps[0].robot.cables.iter().enumerate() {
+        let (b, a) = (cable.anchor_w, cable.attachment_p);
+        let mut cells = vec![cable.name.clone()];
+        cells.extend([b.x, b.y, b.z, a.x, a.y, a.z].map(|v| fixed(v, 3)));
+        cells.extend(sweeps.iter().map(|s| fixed(s.lengths[i], 3)));
+        table.row(cells);
+    }
+    table
+}
+
+/// The ideal pose of both sets, against an independent closure.
+pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> Table {
+    let mut table = Table::new(
+        "table-ideal",
+        "Ideal pose (rigid straight cables): ours, and from closing the six lengths |B − (p + R A)| = L0 independently. Six \
+         lengths determine six coordinates, so this checks the solution, not the data.",
+        &["<cable set", "<", "x|m", "y|m", "z|m", "largest error of closure|m"],
+    );
+    for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(IDEAL_POSITION) {
+        if let Ok(ideal) = &sweep.points[0].ideal {
+            let p = ideal.pose.position_w;
+            let closure = ideal.cables.iter().zip(&sweep.lengths).map(|(c, l)| (c.chord() - l).abs());
+            let mut cells = vec![name.to_owned(), "ours".to_owned()];
+            cells.extend([p.x, p.y, p.z].map(|v| fixed(v, 4)));
+            cells.push(format!("{:.0e}", closure.fold(0.0, f64::max)).replace('-', "−"));
+            table.marked_row("rule", cells);
+        }
+        let mut cells = vec![name.to_owned(), "independent".to_owned()];
+        cells.extend(theirs.map(|v| fixed(v, 4)));
+        cells.push("–".to_owned());
+        table.row(cells);
+    }
+    table
+}
+
+/// Fig. 6: distance of the platform from its ideal position. First cable set 0, then 1.
+pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+    let sweep = &sweeps[set];
+    let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+    let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
+        sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.distance)).collect::<Vec<_>>()
+    };
+    let mut data = vec![
+        line("catenary", &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour::BLUE, "solid"),
+        line("spring", &masses, &curve(PoseErrorPoint::spring_from_ideal), colour::GREEN, "dot"),
+        line("spring from catenary", &masses, &curve(PoseErrorPoint::spring_from_catenary), colour::ORANGE, "dash"),
+    ];
+    data.push(independent(sweep, set));
+    let id = ["figure-pose-4mm", "figure-pose-8mm"][set];
+    let caption = format!(
+        "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. Circles: \
+         MoorPy 1.3.0.",
+        SET_NAMES[set]
+    );
+    let layout = json!({
+        "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
+        "yaxis": axis("distance [mm]", json!({"type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200]})),
+    });
+    Figure::new(id, 380, caption, &data, layout)
+}
+
+/// Distances that MoorPy's equilibria have from the ideal position [mm].
+fn independent(sweep: &Sweep, set: usize) -> Value {
+    let ideal = sweep.points[0].ideal.as_ref().map(|e| e.pose.position_w).unwrap_or_default();
+    let (mut x, mut y) = (Vec::new(), Vec::new());
+    for theirs in &MOORPY[set] {
+        x.push(theirs.mass);
+        y.push(1e3 * (funicular::math::Vec3::from(theirs.position) - ideal).norm());
+    }
+    points("MoorPy, catenary", &x, &y, colour::BLACK, "circle-open")
+}
+
+/// Fig. 6 by axis.
+pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+    let sweep = &sweeps[set];
+    let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+    let mut data = Vec::new();
+    for (k, (name, colour)) in
+        [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
+    {
+        let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
+            sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.translation[k])).collect::<Vec<_>>()
+        };
+        data.push(line(name, &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour, "solid"));
+        data.push(with(
+            line(&format!("{name}, spring"), &masses, &curve(PoseErrorPoint::spring_from_ideal), colour, "dot"),
+            json!({"line": {"width": 2.2}, "showlegend": false}),
+        ));
+    }
+    let id = ["figure-axes-4mm", "figure-axes-8mm"][set];
+    let caption = format!(
+        "The same by axis, {} cables: displacement from the ideal position in world axes; solid: catenary, dotted: spring.",
+        SET_NAMES[set]
+    );
+    let layout = json!({
+        "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
+        "yaxis": axis("displacement [mm]", json!({"zeroline": true, "zerolinecolor": "#aaaaaa"})),
+    });
+    Figure::new(id, 380, caption, &data, layout)
+}
+
+/// From which mass on the spring model is within a tolerance of the catenary.
+pub(crate) fn thresholds(sweeps: &[Sweep; 2]) -> Table {
+    let mut table = Table::new(
+        "table-thresholds",
+        "Platform mass from which on, up to 86.35 kg, the spring model's position stays within a tolerance of the catenary's.",
+        &["tolerance|mm", "4 mm cables|kg", "8 mm cables|kg"],
+    );
+    for tolerance in TOLERANCES {
+        let mut cells = vec![fixed(1e3 * tolerance, 0)];
+        cells.extend(sweeps.iter().map(|s| match threshold(&s.robot, &s.lengths, &s.points, tolerance) {
+            Threshold::Everywhere => format!("all from {}", fixed(MASS_RANGE.0, 2)),
+            Threshold::From(mass) => fixed(mass, 2),
+            Threshold::Nowhere => "none".to_owned(),
+        }));
+        table.row(cells);
+    }
+    table
+}
+
+/// Our equilibria against MoorPy's.
+pub(crate) fn against_moorpy(sweeps: &[Sweep; 2]) -> Table {
+    let mut table = Table::new(
+        "table-moorpy",
+        "Equilibrium with catenaries: ours against MoorPy 1.3.0 (printed there to 0.01 mm).",
+        &["<cable set", "mass|kg", "x, ours|m", "y|m", "z|m", "x, MoorPy|m", "y|m", "z|m", "distance|mm"],
+    );
+    for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(&MOORPY) {
+        for theirs in theirs {
+            let Ok(ours) = PoseErrorPoint::at_mass(&sweep.robot, &sweep.lengths, theirs.mass).catenary else {
+                continue;
+            };
+            let p = ours.pose.position_w;
+            let mut cells = vec![name.to_owned(), fixed(theirs.mass, 2)];
+            cells.extend([p.x, p.y, p.z].map(|v| fixed(v, 5)));
+            cells.extend(theirs.position.map(|v| fixed(v, 5)));
+            cells.push(fixed(1e3 * (p - funicular::math::Vec3::from(theirs.position)).norm(), 3));
+            table.row(cells);
+        }
+    }
+    table
+}

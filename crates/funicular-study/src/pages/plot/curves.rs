@@ -1,0 +1,288 @@
+//! Rows along one value, or one after the other: curves, and natural frequencies by their modes.
+
+use super::rows::{Rows, Series, label, with_unit};
+use super::{Tracking, axis_title};
+use crate::pages::figure::{Figure, axis, colour, line, plain, rounded, with};
+use funicular::sweep::CODES;
+use serde_json::{Value, json};
+
+/// What the figures are drawn over.
+struct Along {
+    title: String,
+    x: Vec<f64>,
+    /// In front of the value where the pointer is.
+    short: String,
+}
+
+const COLOURS: [&str; 7] =
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
+const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
+
+/// Most figures of a page; a quantity beyond them is in the table.
+const MOST_FIGURES: usize = 16;
+
+/// Relative difference of frequencies that are the same.
+const SAME: f64 = 1e-9;
+
+/// Modes computed again, if they are those of the file.
+///
+/// # Errors
+/// Where they are not.
+pub(super) fn checked<'a>(tracking: &'a Tracking, rows: &Rows) -> Result<&'a Tracking, String> {
+    let ours = |place: usize, k: usize| tracking.modes.get(place)?.get(k).map(|mode| mode.frequency_hz);
+    for (k, series) in frequencies(rows).into_iter().enumerate() {
+        for (at, value) in rows.places.iter().zip(&series.values).filter(|(_, value)| value.is_finite()) {
+            let found = ours(at - rows.places[0], k);
+            if found.is_none_or(|found| (found - value).abs() > SAME * value.abs()) {
+                return Err(format!(
+                    "computed again, {} of row {} is {}, the file has {value} Hz: another version wrote it",
+                    series.name,
+                    at + 1,
+                    found.map_or_else(|| "missing".to_owned(), |found| format!("{found} Hz"))
+                ));
+            }
+        }
+    }
+    Ok(tracking)
+}
+
+/// The columns of `frequencies:N`, in order.
+fn frequencies(rows: &Rows) -> Vec<&Series> {
+    rows.series.iter().filter(|series| is_frequency(series)).collect()
+}
+
+fn is_frequency(series: &Series) -> bool {
+    let middle = series.name.strip_prefix("frequency_").and_then(|rest| rest.strip_suffix("_hz"));
+    middle.is_some_and(|middle| middle.parse::<usize>().is_ok())
+}
+
+/// One figure for each kind of quantity, the natural frequencies first.
+pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
+    let along = along(rows);
+    let mut figures = Vec::new();
+    if let Some(tracking) = tracking {
+        figures.push(campbell(rows, &along, tracking));
+    }
+    let mut families: Vec<(String, Vec<&Series>)> = Vec::new();
+    for series in &rows.series {
+        if series.count == 0 || (tracking.is_some() && is_frequency(series)) {
+            continue;
+        }
+        let family = family(series);
+        match families.iter_mut().find(|(known, _)| *known == family) {
+            Some((_, members)) => members.push(series),
+            None => families.push((family, vec![series])),
+        }
+    }
+    let ids = (1..=MOST_FIGURES).map(|number| format!("figure-{number}"));
+    figures.extend(families.iter().zip(ids).map(|((_, members), id)| curves(id, rows, &along, members)));
+    figures
+}
+
+/// Quantities that share a figure: of one unit, and the same thing of several cables, modes, coordinates or models.
+fn family(series: &Series) -> String {
+    let name = &series.name;
+    let stem = ["tension_platform", "unstrained_length", "frequency", "stiffness", "pose", "tension"];
+    let stem = stem.iter().find(|stem| name.starts_with(&format!("{stem}_"))).map_or_else(
+        || {
+            let ends = ["distance_m"].iter().find(|end| name.ends_with(*end));
+            ends.map_or_else(|| name.clone(), |end| (*end).to_owned())
+        },
+        |stem| (*stem).to_owned(),
+    );
+    // The least eigenvalue is none of the coordinates.
+    let stem = if name.starts_with("stiffness_min") { "stiffness_min".to_owned() } else { stem };
+    format!("{stem} {}", series.unit)
+}
+
+/// What the rows are drawn over: the value that varies; of a list of poses the length of the path, or the number of the
+/// row if the positions do not differ.
+fn along(rows: &Rows) -> Along {
+    if let [axis] = &rows.axes[..] {
+        let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
+        return Along { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
+    }
+    let positions: Vec<&Vec<f64>> = rows
+        .coordinates
+        .iter()
+        .filter(|(name, ..)| ["x_m", "y_m", "z_m"].contains(&name.as_str()))
+        .map(|c| &c.2)
+        .collect();
+    let mut length = 0.0;
+    let path: Vec<f64> = (0..rows.places.len())
+        .map(|i| {
+            let steps = positions.iter().map(|values| if i > 0 { values[i] - values[i - 1] } else { 0.0 });
+            length += steps.map(|step| step * step).sum::<f64>().sqrt();
+            length
+        })
+        .collect();
+    if rows.is_list && length > 0.0 {
+        Along { title: "length of the path [m]".to_owned(), x: path, short: "path".to_owned() }
+    } else {
+        let x = rows.places.iter().map(|place| *place as f64 + 1.0).collect();
+        Along { title: "row".to_owned(), x, short: "row".to_owned() }
+    }
+}
+
+/// Where rows are infeasible: bands from half way before to half way behind.
+fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
+    let infeasible =
+        |i: usize| CODES.get(usize::from(rows.status[i])).is_some_and(|code| code.1.starts_with("infeasible"));
+    let x = &along.x;
+    let last = x.len().saturating_sub(1);
+    let middle = |a: usize, b: usize| 0.5 * (x[a] + x[b]);
+    let mut bands = Vec::new();
+    let mut i = 0;
+    while i < x.len() {
+        if !infeasible(i) {
+            i += 1;
+            continue;
+        }
+        let begin = i;
+        while i < last && infeasible(i + 1) {
+            i += 1;
+        }
+        let (from, to) = (middle(begin.saturating_sub(1), begin), middle(i, (i + 1).min(last)));
+        bands.push(json!({
+            "type": "rect", "x0": from, "x1": to, "yref": "paper", "y0": 0, "y1": 1, "layer": "below",
+            "fillcolor": "#e4e4e4", "line": {"width": 0},
+        }));
+        i += 1;
+    }
+    bands
+}
+
+fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
+    let ends = [
+        along.x.iter().copied().fold(f64::INFINITY, f64::min),
+        along.x.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ];
+    let room = if ends[1] > ends[0] { 0.015 * (ends[1] - ends[0]) } else { 0.5 };
+    let base = json!({
+        "xaxis": axis(&plain(&along.title), json!({"range": [ends[0] - room, ends[1] + room]})),
+        // Thousands as numbers: a letter behind a number is no unit of a paper.
+        "yaxis": axis(&plain(y), json!({"exponentformat": "power", "minexponent": 6})),
+        "shapes": bands(rows, along),
+    });
+    with(base, more)
+}
+
+fn shading(rows: &Rows, along: &Along) -> &'static str {
+    if bands(rows, along).is_empty() { "" } else { " Grey: infeasible." }
+}
+
+/// Points of numbers between two that are missing: a line has no length there.
+fn alone(along: &Along, series: &Series, colour: &str) -> Value {
+    let there = |i: Option<usize>| i.and_then(|i| series.values.get(i)).is_some_and(|value| value.is_finite());
+    let alone = (0..series.values.len()).filter(|&i| there(Some(i)) && !there(i.checked_sub(1)) && !there(Some(i + 1)));
+    let (x, y): (Vec<f64>, Vec<f64>) = alone.map(|i| (along.x[i], series.values[i])).unzip();
+    json!({
+        "type": "scatter", "mode": "markers", "name": plain(&label(&series.name)), "x": rounded(&x), "y": rounded(&y),
+        "showlegend": false, "marker": {"size": 5, "color": colour},
+    })
+}
+
+/// Lines through the numbers; broken where there is none.
+fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure {
+    let few = along.x.len() <= 60;
+    let data: Vec<Value> = members
+        .iter()
+        .enumerate()
+        .map(|(i, series)| {
+            let colour = COLOURS[i % COLOURS.len()];
+            let dash = DASHES[i / COLOURS.len() % DASHES.len()];
+            let mut trace = line(&plain(&label(&series.name)), &along.x, &series.values, colour, dash);
+            if few {
+                trace = with(trace, json!({"mode": "lines+markers", "marker": {"size": 4, "color": colour}}));
+            }
+            let hover = format!("{} %{{x}}<br>%{{y:.5g}} {}", plain(&along.short), plain(&series.unit));
+            let more = json!({"hovertemplate": hover, "connectgaps": false, "legendgroup": series.name});
+            let trace = with(trace, more.clone());
+            if few {
+                return vec![trace];
+            }
+            let alone = with(alone(along, series, colour), more);
+            [Some(trace), Some(alone).filter(|alone| alone["x"] != json!([]))].into_iter().flatten().collect()
+        })
+        .collect::<Vec<_>>()
+        .concat();
+    let unit = &members[0].unit;
+    let (y, caption) = match members {
+        [one] => (with_unit(&label(&one.name), unit), format!("{}: {}.", label(&one.name), one.about)),
+        several => {
+            let first = label(&several[0].name);
+            let word = first.split(' ').next().unwrap_or_default().to_owned();
+            let word = if word == "unstrained" { "unstrained length".to_owned() } else { word };
+            let word = if several[0].name.ends_with("distance_m") { "distance".to_owned() } else { word };
+            let mut said: Vec<String> = Vec::new();
+            for series in several {
+                let same = several.iter().all(|other| other.about == series.about);
+                let name = if same { word.clone() } else { label(&series.name) };
+                let one = format!("{name}: {}", series.about);
+                if !said.contains(&one) {
+                    said.push(one);
+                }
+            }
+            (with_unit(&word, unit), format!("{}.", said.join("; ")))
+        }
+    };
+    let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
+    // Above the legend there is room for the buttons of a figure.
+    let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
+    Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
+}
+
+/// A caption begins with a capital.
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Natural frequencies, every branch of modes a line, coloured by the platform's share of the energy.
+fn campbell(rows: &Rows, along: &Along, tracking: &Tracking) -> Figure {
+    let count = frequencies(rows).len();
+    let branches = tracking.branches.iter().flatten().max().map_or(0, |last| last + 1);
+    let mut data = Vec::new();
+    let (mut x, mut y, mut share, mut text) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for branch in 0..branches {
+        let (mut line_x, mut line_y) = (Vec::new(), Vec::new());
+        for (at, place) in rows.places.iter().enumerate() {
+            let step = place - rows.places[0];
+            let of_step = tracking.branches.get(step).map_or(&[][..], Vec::as_slice);
+            let modes = tracking.modes.get(step).map_or(&[][..], Vec::as_slice);
+            let Some(k) = of_step.iter().position(|of| *of == branch).filter(|k| *k < count) else {
+                line_x.push(along.x[at]);
+                line_y.push(f64::NAN);
+                continue;
+            };
+            line_x.push(along.x[at]);
+            line_y.push(modes[k].frequency_hz);
+            x.push(along.x[at]);
+            y.push(modes[k].frequency_hz);
+            share.push(100.0 * modes[k].platform_energy_fraction);
+            text.push(format!("mode {} of its row, branch {}, {}", k + 1, branch + 1, modes[k].kind.name()));
+        }
+        if line_y.iter().filter(|y| y.is_finite()).count() > 1 {
+            let trace = line("", &line_x, &line_y, "#6b6b6b", "solid");
+            data.push(with(trace, json!({"showlegend": false, "hoverinfo": "skip", "line": {"width": 1.1}})));
+        }
+    }
+    let size = if along.x.len() > 120 { 4.0 } else { 6.0 };
+    data.push(json!({
+        "type": "scatter", "mode": "markers", "x": rounded(&x), "y": rounded(&y), "text": text, "showlegend": false,
+        "hovertemplate": format!("{} %{{x}}<br>%{{y:.4f}} Hz<br>platform %{{marker.color:.0f}} % of the energy<br>%{{text}}<extra></extra>", plain(&along.short)),
+        "marker": {
+            "size": size, "color": rounded(&share), "cmin": 0, "cmax": 100, "line": {"width": 0},
+            "colorscale": [[0.0, "#fdd56a"], [0.25, "#f89540"], [0.5, "#d5536f"], [0.75, "#8f0da4"], [1.0, "#0d0887"]],
+            "colorbar": {"title": {"text": "platform's share of the energy [%]", "side": "right", "font": {"size": 12}}, "thickness": 14, "outlinewidth": 0, "tickfont": {"size": 11}},
+        },
+    }));
+    let caption = format!(
+        "The lowest {count} natural frequencies. A line joins the modes whose motions are most alike from one value to the next \
+         (modal assurance criterion over the whole robot, weighted by mass, at least one half). Where two lines cross, each \
+         keeps its motion; where they bend away from each other, steps are fine enough to show how they exchange it: \
+         the colours, the platform's share of the kinetic energy, change along them.{}",
+        shading(rows, along)
+    );
+    Figure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))
+}

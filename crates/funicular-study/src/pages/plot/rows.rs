@@ -1,0 +1,379 @@
+//! Rows of a sweep on their way into pictures: counted and binned all of them, kept as many as a page carries.
+
+use crate::sweep::{SweepRows, axes_of};
+use anyhow::{Context as _, Result, bail};
+use funicular::sweep::{CODES, Chunk, Column, Kind, MOST_POINTS, Steps, Values};
+use serde_json::Value;
+
+/// Numbers that a page carries of a grid, packed: some two megabytes.
+const MOST_NUMBERS: usize = 450_000;
+/// The same of curves, which are text.
+const MOST_OF_CURVES: usize = 80_000;
+/// Bars of a histogram.
+pub(super) const BINS: usize = 40;
+/// In place of a status where a row is not there yet.
+pub(super) const NOT_COMPUTED: u8 = u8::MAX;
+
+/// An axis of a grid.
+pub(super) struct Axis {
+    pub(super) name: String,
+    pub(super) unit: String,
+    /// All its values, as the file has them.
+    pub(super) steps: Steps,
+    /// Their places in ascending order; none where they ascend.
+    rank: Vec<usize>,
+    /// Every which of these is kept.
+    pub(super) every: usize,
+}
+
+impl Axis {
+    /// Number of values kept.
+    pub(super) fn kept(&self) -> usize {
+        self.steps.count().div_ceil(self.every)
+    }
+
+    /// The values kept, ascending.
+    pub(super) fn values(&self) -> Vec<f64> {
+        let mut all: Vec<f64> = (0..self.steps.count()).map(|i| self.steps.at(i)).collect();
+        all.sort_by(f64::total_cmp);
+        all.into_iter().step_by(self.every).collect()
+    }
+
+    fn new(name: String, unit: String, steps: Steps) -> Self {
+        let mut rank = Vec::new();
+        if let Steps::List(values) = &steps
+            && !values.is_sorted()
+        {
+            let mut order: Vec<usize> = (0..values.len()).collect();
+            order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
+            rank = vec![0; values.len()];
+            order.into_iter().enumerate().for_each(|(place, i)| rank[i] = place);
+        }
+        Self { name, unit, steps, rank, every: 1 }
+    }
+}
+
+/// A column of numbers behind the coordinates.
+pub(super) struct Series {
+    pub(super) name: String,
+    pub(super) unit: String,
+    pub(super) about: String,
+    /// How many rows have a number, of all.
+    pub(super) count: usize,
+    /// Least and greatest, with their rows.
+    pub(super) least: (f64, usize),
+    pub(super) greatest: (f64, usize),
+    /// Of all rows, in equal steps between least and greatest.
+    pub(super) bins: [usize; BINS],
+    /// Kept ones; NaN where there is none.
+    pub(super) values: Vec<f64>,
+}
+
+/// What a code of the status says, and how many rows have it.
+pub(super) struct StatusCount {
+    /// Place in [`CODES`].
+    pub(super) code: u8,
+    pub(super) rows: usize,
+    pub(super) first_reason: String,
+}
+
+/// The rows of a file.
+pub(super) struct Rows {
+    /// The axes of a grid that vary, the fastest first; none for a list.
+    pub(super) axes: Vec<Axis>,
+    /// Name, unit and value of those that do not.
+    pub(super) fixed: Vec<Fixed>,
+    pub(super) is_list: bool,
+    /// Coordinates of kept rows of a list: name, unit, values.
+    pub(super) coordinates: Vec<(String, String, Vec<f64>)>,
+    /// Row of each kept one, of a list or of one axis.
+    pub(super) places: Vec<usize>,
+    /// Every which row of a list is kept.
+    pub(super) every: usize,
+    pub(super) feasible: usize,
+    pub(super) counts: Vec<StatusCount>,
+    /// Place in [`CODES`] of kept rows, or [`NOT_COMPUTED`].
+    pub(super) status: Vec<u8>,
+    pub(super) series: Vec<Series>,
+    /// Columns of words, which have no picture.
+    pub(super) words: Vec<String>,
+    /// Rows of the whole plan, and those that are there.
+    pub(super) planned: usize,
+    #[expect(clippy::struct_field_names, reason = "the number of rows that are there")]
+    pub(super) rows: usize,
+    first_row: usize,
+}
+
+impl Rows {
+    /// Reads a file, twice: the range of numbers has to be known before they are binned.
+    ///
+    /// # Errors
+    /// A damaged file, or one without a number to show.
+    pub(super) fn read(file: &dyn SweepRows) -> Result<Self> {
+        let mut rows = Self::empty(file)?;
+        let of_series = series_columns(&file.record().columns);
+        let mut at = file.first_row();
+        file.each(&mut |chunk| {
+            rows.count(chunk, at, &of_series, &file.record().columns);
+            at += chunk.rows();
+        })?;
+        let texts = rows.words.join(", ");
+        if rows.series.is_empty() {
+            bail!("the file has no numbers to plot, only {texts}: ask for a quantity that is one, as first-frequency");
+        }
+        let mut at = file.first_row();
+        file.each(&mut |chunk| {
+            rows.keep(chunk, at, &of_series);
+            at += chunk.rows();
+        })?;
+        rows.counts.sort_by_key(|count| count.code);
+        Ok(rows)
+    }
+
+    fn empty(file: &dyn SweepRows) -> Result<Self> {
+        let record = file.record();
+        let columns = &record.columns;
+        let damaged = "the file's plan does not fit its rows: it is damaged, or of another program";
+        let coordinates = columns.iter().take_while(|column| column.kind == Kind::Real).count();
+        let head = columns.get(coordinates..coordinates + 3);
+        if head.is_none_or(|head| head.iter().map(|c| c.kind).ne([Kind::Flag, Kind::Text, Kind::Text]))
+            || record.rows > MOST_POINTS
+        {
+            bail!(damaged);
+        }
+        let numbers = columns.iter().skip(coordinates + 3);
+        let (numbers, words): (Vec<&Column>, Vec<&Column>) = numbers.partition(|column| column.kind == Kind::Real);
+        let is_list = record.plan.contains_key("poses");
+        let grid = if is_list { None } else { Some(grid_of(&record.plan).with_context(|| damaged)?) };
+        if grid.as_ref().is_some_and(|grid| points_of(grid) != record.rows) {
+            bail!(damaged);
+        }
+        let (mut axes, fixed) = grid.map_or_else(Default::default, |grid| split(grid, &columns[..coordinates]));
+        let mut every = 1;
+        if axes.len() < 2 {
+            let rows = file.rows().max(1);
+            every = (rows * (numbers.len() + 1)).div_ceil(MOST_OF_CURVES).max(1);
+        } else {
+            while axes.iter().map(Axis::kept).product::<usize>() * (numbers.len() + 1) > MOST_NUMBERS {
+                let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.kept()) else { break };
+                longest.every += 1;
+            }
+        }
+        let kept = if axes.len() < 2 { 0 } else { axes.iter().map(Axis::kept).product() };
+        let series = numbers.into_iter().map(|column| Series {
+            name: column.name.clone(),
+            unit: column.unit.to_string(),
+            about: column.about.clone(),
+            count: 0,
+            least: (f64::INFINITY, 0),
+            greatest: (f64::NEG_INFINITY, 0),
+            bins: [0; BINS],
+            values: vec![f64::NAN; kept],
+        });
+        let coordinate = |column: &Column| (column.name.clone(), column.unit.to_string(), Vec::new());
+        Ok(Self {
+            axes,
+            fixed,
+            is_list,
+            coordinates: columns[..coordinates].iter().map(coordinate).collect(),
+            places: Vec::new(),
+            every,
+            feasible: 0,
+            counts: Vec::new(),
+            status: vec![NOT_COMPUTED; kept],
+            series: series.collect(),
+            words: words.iter().map(|column| column.name.clone()).collect(),
+            planned: record.rows,
+            rows: file.rows(),
+            first_row: file.first_row(),
+        })
+    }
+
+    /// Counts the rows of a chunk in, the first of which has a place.
+    fn count(&mut self, chunk: &Chunk, first: usize, of_series: &[usize], columns: &[Column]) {
+        let head = self.coordinates.len();
+        if let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3] {
+            debug_assert_eq!(columns[head].kind, Kind::Flag);
+            self.feasible += feasible.iter().filter(|feasible| **feasible).count();
+            for (status, reason) in status.iter().zip(reasons) {
+                let code = code_of(status.as_deref());
+                if let Some(count) = self.counts.iter_mut().find(|count| count.code == code) {
+                    count.rows += 1;
+                } else {
+                    let first_reason = reason.as_deref().unwrap_or_default().to_owned();
+                    self.counts.push(StatusCount { code, rows: 1, first_reason });
+                }
+            }
+        }
+        for (series, column) in self.series.iter_mut().zip(of_series) {
+            let Values::Real(values) = &chunk.columns[*column] else { continue };
+            for (i, value) in values.iter().enumerate() {
+                let Some(value) = value.filter(|value| value.is_finite()) else { continue };
+                series.count += 1;
+                if value < series.least.0 {
+                    series.least = (value, first + i);
+                }
+                if value > series.greatest.0 {
+                    series.greatest = (value, first + i);
+                }
+            }
+        }
+    }
+
+    /// Bins the rows of a chunk, and keeps those that are to be kept.
+    fn keep(&mut self, chunk: &Chunk, first: usize, of_series: &[usize]) {
+        let head = self.coordinates.len();
+        let real = |column: usize, row: usize| match &chunk.columns[column] {
+            Values::Real(values) => values[row].unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        };
+        for row in 0..chunk.rows() {
+            let kept = self.slot(first + row);
+            let slot = match kept {
+                Some(Slot::Cell(cell)) => Some(cell),
+                Some(Slot::Next) => {
+                    self.places.push(first + row);
+                    self.status.push(NOT_COMPUTED);
+                    for (i, coordinate) in self.coordinates.iter_mut().enumerate() {
+                        coordinate.2.push(real(i, row));
+                    }
+                    self.series.iter_mut().for_each(|series| series.values.push(f64::NAN));
+                    Some(self.places.len() - 1)
+                }
+                None => None,
+            };
+            if let (Some(slot), Values::Text(status)) = (slot, &chunk.columns[head + 1]) {
+                self.status[slot] = code_of(status[row].as_deref());
+            }
+            for (series, column) in self.series.iter_mut().zip(of_series) {
+                let value = real(*column, row);
+                if value.is_finite() {
+                    series.bins[bin(value, series.least.0, series.greatest.0)] += 1;
+                }
+                if let Some(slot) = slot {
+                    series.values[slot] = value;
+                }
+            }
+        }
+    }
+
+    /// Where a row goes, if it is kept.
+    fn slot(&self, place: usize) -> Option<Slot> {
+        if self.axes.len() < 2 {
+            // The first and the last are always there.
+            let at = place - self.first_row;
+            return (at.is_multiple_of(self.every) || at + 1 == self.rows).then_some(Slot::Next);
+        }
+        let (mut rest, mut cell, mut stride) = (place, 0, 1);
+        for axis in &self.axes {
+            let digit = rest % axis.steps.count();
+            rest /= axis.steps.count();
+            let digit = axis.rank.get(digit).copied().unwrap_or(digit);
+            if digit % axis.every != 0 {
+                return None;
+            }
+            cell += digit / axis.every * stride;
+            stride *= axis.kept();
+        }
+        Some(Slot::Cell(cell))
+    }
+
+    /// Values along the axes that vary, of a row of a grid.
+    pub(super) fn at(&self, place: usize) -> Vec<f64> {
+        let mut rest = place;
+        self.axes
+            .iter()
+            .map(|axis| {
+                let digit = rest % axis.steps.count();
+                rest /= axis.steps.count();
+                axis.steps.at(digit)
+            })
+            .collect()
+    }
+
+    /// Rows or cells that the pictures show.
+    pub(super) fn shown(&self) -> usize {
+        self.status.len()
+    }
+}
+
+/// Names and values of the axes of a grid.
+type Grid = Vec<(String, Steps)>;
+
+/// The grid of a plan; none if the plan has no axes, or one without values.
+fn grid_of(plan: &serde_json::Map<String, Value>) -> Option<Grid> {
+    axes_of(plan)?.iter().map(|axis| Some((axis.name().to_owned(), axis.steps().ok()?))).collect()
+}
+
+/// Number of points of a grid.
+fn points_of(grid: &Grid) -> usize {
+    grid.iter().fold(1, |product, axis| product.saturating_mul(axis.1.count()))
+}
+
+/// Name, unit and value of an axis that does not vary.
+type Fixed = (String, String, f64);
+
+/// The axes of a grid that vary, and those that do not.
+fn split(grid: Grid, coordinates: &[Column]) -> (Vec<Axis>, Vec<Fixed>) {
+    let (mut axes, mut fixed) = (Vec::new(), Vec::new());
+    for (name, steps) in grid {
+        let column = coordinates.iter().find(|column| column.name == name || short_name(column) == name);
+        let unit = column.map_or_else(String::new, |column| column.unit.to_string());
+        match steps.count() {
+            1 => fixed.push((name, unit, steps.at(0))),
+            _ => axes.push(Axis::new(name, unit, steps)),
+        }
+    }
+    // A point mass has axes of its grid that are no columns.
+    fixed.retain(|(_, unit, _)| !unit.is_empty());
+    (axes, fixed)
+}
+
+enum Slot {
+    Cell(usize),
+    Next,
+}
+
+/// Places of the columns of numbers behind the coordinates.
+fn series_columns(columns: &[Column]) -> Vec<usize> {
+    let begin = columns.iter().position(|column| column.kind != Kind::Real).unwrap_or(columns.len());
+    (begin..columns.len()).filter(|&i| columns[i].kind == Kind::Real).collect()
+}
+
+/// The name of a coordinate without its unit, as a grid has it.
+fn short_name(column: &Column) -> &str {
+    column.name.strip_suffix(&format!("_{}", column.unit)).unwrap_or(&column.name)
+}
+
+/// Place of a status among the codes; that of an unknown one, from another version, is the last.
+fn code_of(status: Option<&str>) -> u8 {
+    let place = CODES.iter().position(|known| Some(known.0) == status);
+    u8::try_from(place.unwrap_or(CODES.len())).unwrap_or(NOT_COMPUTED)
+}
+
+/// The bar of a value.
+fn bin(value: f64, least: f64, greatest: f64) -> usize {
+    let part = (value - least) / (greatest - least);
+    if part.is_finite() { ((part * BINS as f64) as usize).min(BINS - 1) } else { 0 }
+}
+
+/// What is the name of a quantity in a figure: `tension_max_n` is tension max.
+pub(super) fn label(name: &str) -> String {
+    const SUFFIXES: [&str; 9] = ["_n_m_per_rad", "_n_per_m", "_n_per_rad", "_m", "_n", "_hz", "_deg", "_j", "_rad"];
+    let stem = SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix)).unwrap_or(name);
+    stem.replace('_', " ")
+}
+
+/// A unit in brackets behind a name; nothing for a pure number.
+pub(super) fn with_unit(name: &str, unit: &str) -> String {
+    match unit {
+        "" | "1" => name.to_owned(),
+        "deg" => format!("{name} [°]"),
+        unit => format!("{name} [{unit}]"),
+    }
+}
+
+/// The name of the robot that a plan is about.
+pub(super) fn robot_name(plan: &serde_json::Map<String, Value>) -> String {
+    plan.get("robot").and_then(Value::as_str).unwrap_or("a robot").to_owned()
+}

@@ -1,0 +1,114 @@
+//! Grids of two axes and more: what the page's own script draws slices, sets and points from.
+
+use super::rows::{NOT_COMPUTED, Rows, label, with_unit};
+use super::{axis_title, status};
+use crate::pages::figure::colour;
+use crate::pages::packed;
+use askama::Template;
+use funicular::sweep::CODES;
+use serde_json::json;
+
+/// The part of the page with a choice of quantity and slice.
+#[derive(Template)]
+#[template(path = "slices.html")]
+pub(super) struct Slices {
+    packed: String,
+    /// Names of the quantities.
+    quantities: Vec<String>,
+    /// Pairs of axes that a slice can have, by number.
+    planes: Vec<(String, usize)>,
+    /// Names of the axes; the script hides the two of the slice.
+    axes: Vec<String>,
+    in_space: bool,
+    points: usize,
+}
+
+impl Slices {
+    /// Of rows on a grid.
+    pub(super) fn new(rows: &Rows, is_sweep: bool) -> Self {
+        let axes = &rows.axes;
+        let title = |i: usize| axis_title(&axes[i].name, &axes[i].unit);
+        // The two longest axes first, each pair in the order of the file.
+        let mut pairs: Vec<(usize, usize)> =
+            (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j))).collect();
+        pairs.sort_by_key(|(i, j)| std::cmp::Reverse(axes[*i].kept() * axes[*j].kept()));
+        let position = |name: &str| axes.iter().position(|axis| axis.name == name);
+        let space = if is_sweep { None } else { position("x").zip(position("y")).zip(position("z")) };
+        let space = space.map(|((x, y), z)| [x, y, z]);
+        let header = json!({
+            "axes": (0..axes.len()).map(|i| json!({
+                "name": axes[i].name, "title": title(i), "unit": axes[i].unit, "values": axes[i].values(),
+            })).collect::<Vec<_>>(),
+            "pairs": pairs,
+            "space": space,
+            "quantities": rows.series.iter().map(|series| json!({
+                "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit), "unit": series.unit,
+                "count": series.count, "bins": series.bins.to_vec(),
+                "least": if series.count > 0 { series.least.0 } else { 0.0 },
+                "greatest": if series.count > 0 { series.greatest.0 } else { 0.0 },
+            })).collect::<Vec<_>>(),
+            "statuses": rows.counts.iter().map(|count| json!({
+                "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code),
+            })).collect::<Vec<_>>(),
+            "feasible": CODES.iter().filter(|code| !code.1.starts_with("infeasible")).map(|code| code.0).collect::<Vec<_>>(),
+        });
+        // Length of the header, the header, the status of every cell, and the quantities, one after the other.
+        let header = header.to_string();
+        let mut bytes = u32::try_from(header.len()).unwrap_or(u32::MAX).to_le_bytes().to_vec();
+        bytes.extend(header.as_bytes());
+        bytes.extend(&rows.status);
+        // Seven digits are more than a picture shows.
+        bytes.extend(
+            rows.series.iter().flat_map(|series| &series.values).flat_map(|value| (*value as f32).to_le_bytes()),
+        );
+        Self {
+            packed: packed(&bytes),
+            quantities: rows.series.iter().map(|series| label(&series.name)).collect(),
+            planes: pairs
+                .iter()
+                .enumerate()
+                .map(|(k, (i, j))| (format!("{}, {}", axes[*i].name, axes[*j].name), k))
+                .collect(),
+            axes: (0..axes.len()).map(title).collect(),
+            in_space: space.is_some(),
+            points: rows.status.iter().filter(|code| **code != NOT_COMPUTED).count(),
+        }
+    }
+}
+
+/// Light for what is feasible, strong colours for what is not; the same for a status on every page.
+fn colour_of(code: u8) -> &'static str {
+    match super::status(code).0 {
+        "ok" => "#cfe8f7",
+        "slack" => "#8fcdf0",
+        "unstable" => "#a6dcc8",
+        "no-frequency" => "#f5d9a0",
+        "not-certified" => "#faecc9",
+        "no-comparison" => "#e3d9ee",
+        "would-push" => colour::VERMILION,
+        "beyond-limits" => colour::PURPLE,
+        "not-found" => "#8b2f6b",
+        "not-converged" => colour::BLACK,
+        "singular" => colour::BLUE,
+        "out-of-plane" => colour::GREEN,
+        "coinciding-ends" => colour::ORANGE,
+        "bad-robot" => "#7a4b1e",
+        _ => colour::GREY,
+    }
+}
+
+/// What draws them.
+pub(super) const SCRIPT: &str = include_str!("../../../templates/plot.js");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_status_has_a_colour_of_its_own() {
+        let colours: Vec<&str> = (0..CODES.len()).map(|code| colour_of(u8::try_from(code).unwrap())).collect();
+        for (i, colour) in colours.iter().enumerate() {
+            assert!(!colours[..i].contains(colour), "{}: {colour}", CODES[i].0);
+        }
+    }
+}

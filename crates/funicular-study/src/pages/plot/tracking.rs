@@ -1,0 +1,54 @@
+//! The modes of a sweep of one value, followed from row to row.
+
+use super::Tracking;
+use crate::Watch;
+use crate::sweep::{PreparedSweep, Record, SweepRows};
+use crate::text::counted;
+use funicular::modes::Mode;
+use funicular::modes::track::{Tracked, branches};
+use funicular::sweep::{Quantity, lowest_modes};
+
+/// Maximum number of rows whose modes are computed again to be followed: a minute of work.
+const MAX_TRACKED: usize = 2000;
+
+/// The modes of a sweep of one value, followed from row to row, or why they are not; `None` where there are none to follow.
+pub(super) fn tracking(file: &dyn SweepRows, watch: &mut dyn Watch) -> Option<Result<Tracking, String>> {
+    let record = file.record();
+    let varied = record.plan.get("vary")?.as_array()?.iter().filter(|axis| {
+        axis["count"].as_u64().unwrap_or(1) > 1 || axis["values"].as_array().is_some_and(|values| values.len() > 1)
+    });
+    if varied.count() != 1 {
+        return None;
+    }
+    let quantities = record.plan.get("quantities")?.as_array()?.iter();
+    let count = quantities.filter_map(|name| match name.as_str()?.parse() {
+        Ok(Quantity::Frequencies(count)) => Some(count),
+        _ => None,
+    });
+    let count = count.max().filter(|count| *count > 1)?;
+    Some(follow(file, record, count, watch))
+}
+
+fn follow(file: &dyn SweepRows, record: &Record, count: usize, watch: &mut dyn Watch) -> Result<Tracking, String> {
+    if file.rows() > MAX_TRACKED {
+        return Err(format!(
+            "{} are more than the {MAX_TRACKED} whose modes are followed: sweep in larger steps",
+            counted(file.rows(), "value")
+        ));
+    }
+    let again = PreparedSweep::of_record(record).map_err(|error| format!("{error:#}"))?;
+    let mut steps: Vec<Vec<(Mode, Tracked)>> = Vec::with_capacity(file.rows());
+    for i in file.first_row()..file.first_row() + file.rows() {
+        // A row without modes says why in the file.
+        let found = lowest_modes(&again.points().point(i), count, again.options());
+        steps.push(found.map_or_else(|_| Vec::new(), |found| found.modes.into_iter().zip(found.tracked).collect()));
+        watch.progress(steps.len(), file.rows(), "values with their modes");
+        if watch.is_cancelled() {
+            return Err("stopped before the end".to_owned());
+        }
+    }
+    let (modes, tracked): (Vec<Vec<Mode>>, Vec<Vec<Tracked>>) =
+        steps.into_iter().map(|step| step.into_iter().unzip()).unzip();
+    let branches = branches(&tracked);
+    Ok(Tracking { modes, branches })
+}

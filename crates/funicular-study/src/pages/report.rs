@@ -1,0 +1,325 @@
+//! The report of one robot at one state: everything the program knows about it, on one page.
+
+mod of_request;
+mod parts;
+
+pub use of_request::{about, of_request};
+
+use super::Shell;
+use super::figure::response::{Curve, Marks, sampled};
+use super::figure::shapes::{self, Shapes};
+use super::figure::{Figure, model_name, model_style, response, robot as drawing};
+use super::table::{Table, fixed, significant};
+use crate::analyses::check::{LoadRow, WindRow};
+use crate::at_rest::AtRest;
+use anyhow::Context as _;
+use askama::Template;
+use funicular::cable::CableModel;
+use funicular::cable_motion::CableMotionError;
+use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::math::{Vec6, rotation};
+use funicular::modes::{self, Kind, Modes};
+use funicular::response::{Peak, Quantity, peaks};
+use funicular::robot::Robot;
+use funicular::statics::{Equilibrium, Stability, StaticModel};
+
+/// Prominence from which on a peak is named [dB].
+const PEAK_PROMINENCE_DB: f64 = 3.0;
+
+/// Most modes of a page: a browser still scrolls their table with ease.
+const MOST_MODES: usize = 2000;
+
+/// What a report is about.
+pub(crate) struct ReportInput<'a> {
+    /// The robot and its state.
+    pub(crate) at_rest: &'a AtRest,
+    /// Where its file is, or what stands for it.
+    pub(crate) file_label: &'a str,
+    /// The file itself.
+    pub(crate) robot_text: &'a str,
+    /// How the robot is linearised about it.
+    pub(crate) linearisation: Linearisation,
+    /// Upper limit of the frequencies [Hz].
+    pub(crate) below_hz: f64,
+    /// Name and 6-vector of the force or moment that excites.
+    pub(crate) frf_input: (String, Vec6),
+    /// Name, 6-vector and kind of the motion that is measured.
+    pub(crate) frf_output: (String, Vec6, Quantity),
+    /// Unit of motion over excitation.
+    pub(crate) frf_unit: &'a str,
+    /// The command that writes this page again.
+    pub(crate) command_line: String,
+}
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct ReportPage<'a> {
+    shell: Shell,
+    source: &'a str,
+    key: Vec<(&'static str, String)>,
+    state: String,
+    robot_figure: Figure,
+    platform_figure: Figure,
+    tension_table: Table,
+    tension_figure: Figure,
+    sag_figure: Figure,
+    stiffness_table: Option<Table>,
+    modes_text: String,
+    modes_figure: Figure,
+    shapes: Result<Shapes, String>,
+    modes_table: Table,
+    response_figure: Figure,
+    peaks_table: Table,
+    response_notes: Vec<String>,
+    comparison: Result<parts::ComparisonPart, String>,
+    warnings: Vec<String>,
+    command_line: &'a str,
+    file_label: &'a str,
+    robot_text: &'a str,
+}
+
+/// Sections: id and name.
+pub(crate) const CONTENTS: &[(&str, &str)] = &[
+    ("robot", "Robot"),
+    ("tensions", "Tensions and sag"),
+    ("stiffness", "Static stiffness"),
+    ("modes", "Natural frequencies"),
+    ("response", "Frequency response"),
+    ("comparison", "Cable models"),
+    ("warnings", "Warnings"),
+    ("repeat", "How to repeat"),
+];
+
+/// A page, and what its reader should know before trusting it.
+pub struct Report {
+    /// HTML.
+    pub html: String,
+    /// Sentences that the user should know; they stand on the page, too.
+    pub warnings: Vec<String>,
+}
+
+/// The page.
+///
+/// # Errors
+/// If the robot cannot be linearised at this state with the model asked, or has no finite response there.
+pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
+    let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
+    modes::check_count(&dynamics, below_hz, MOST_MODES)?;
+    let found = modes::below(&dynamics, below_hz);
+    warnings.extend(found.doubt());
+    let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
+    let page = ReportPage {
+        shell: Shell::new(robot.name.clone(), CONTENTS),
+        source: robot.source.trim_end_matches('.'),
+        key: key_numbers(robot, equilibrium, &found),
+        state: state_text(equilibrium),
+        robot_figure: drawing::whole(robot, equilibrium),
+        platform_figure: drawing::near(robot, equilibrium),
+        tension_table: parts::tension_table(robot, equilibrium),
+        tension_figure: parts::tension_figure(robot, equilibrium),
+        sag_figure: parts::sag_figure(robot, equilibrium),
+        stiffness_table: parts::stiffness_table(robot, equilibrium),
+        modes_text: modes_text(linearisation, &found),
+        modes_figure: response::strip(&found),
+        shapes: shapes_of(robot, equilibrium, &dynamics, &found),
+        modes_table: parts::modes_table(robot, &found),
+        response_figure,
+        peaks_table,
+        response_notes,
+        comparison: parts::comparison(robot, equilibrium, below_hz, linearisation),
+        warnings: warnings.iter().map(|warning| prose(&sentence(warning))).collect(),
+        command_line: &input.command_line,
+        file_label: input.file_label,
+        robot_text: input.robot_text,
+    };
+    let html = page.render().context("the report could not be written as HTML")?;
+    Ok(Report { html, warnings })
+}
+
+/// Text of the core, which quotes what one types in backticks.
+#[derive(Template)]
+#[template(
+    source = "{% for (code, text) in parts %}{% if *code %}<code>{{ text }}</code>{% else %}{{ text }}{% endif %}{% endfor %}",
+    ext = "html"
+)]
+struct Prose<'a> {
+    parts: Vec<(bool, &'a str)>,
+}
+
+/// Rendered as HTML.
+fn prose(text: &str) -> String {
+    Prose { parts: text.split('`').enumerate().map(|(i, text)| (i % 2 == 1, text)).collect() }.to_string()
+}
+
+/// First letter large, full stop at the end: the core speaks in lower case.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}.", letters.as_str())
+}
+
+fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(&'static str, String)> {
+    let p = equilibrium.pose.position_w;
+    let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
+    let (least, most) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
+    let mut key = vec![
+        ("platform mass", format!("{} kg", significant(robot.platform.mass, 4))),
+        ("position x, y, z", format!("{}, {}, {} m", fixed(p.x, 4), fixed(p.y, 4), fixed(p.z, 4))),
+    ];
+    if robot.platform.freedoms.can_turn() {
+        let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&equilibrium.pose.rot_wp);
+        key.push(("roll, pitch, yaw", format!("{}, {}, {} °", fixed(roll, 2), fixed(pitch, 2), fixed(yaw, 2))));
+    }
+    if let Some(load) = LoadRow::of(&robot.load) {
+        key.push(("load", load.text()));
+    }
+    if let Some(wind) = WindRow::of(&robot.wind) {
+        key.push(("wind", wind.text()));
+    }
+    key.push(("tensions at the platform", format!("{} to {} N", significant(least, 4), significant(most, 4))));
+    if let Some(first) = found.modes.first() {
+        key.push(("first natural frequency", format!("{} Hz", significant(first.frequency_hz, 4))));
+    }
+    let count = found.modes.len();
+    let certified = if found.certified { "certified complete" } else { "not certified" };
+    key.push(("natural frequencies", format!("{count} below {} Hz, {certified}", found.below_hz)));
+    key
+}
+
+fn state_text(equilibrium: &Equilibrium) -> String {
+    let model = match equilibrium.model {
+        StaticModel::Ideal => "ideal cables (straight, massless, rigid in length)",
+        StaticModel::Spring => "straight elastic cables without weight",
+        StaticModel::Catenary => "elastic catenaries",
+    };
+    let stability = match equilibrium.stability {
+        Stability::Stable { least_stiffness } => {
+            format!("stable (least eigenvalue of the scaled stiffness {} N/m)", significant(least_stiffness, 3))
+        }
+        Stability::Unstable { directions, least_stiffness: 0.0 } => {
+            format!("indifferent in {directions} of its directions")
+        }
+        Stability::Unstable { directions, .. } => format!("unstable in {directions} of its directions"),
+        Stability::Rigid => "rigid".to_owned(),
+    };
+    format!(
+        "Static equilibrium with {model}, found to a scaled residual of {}; it is {stability}.",
+        significant(equilibrium.residual, 1)
+    )
+}
+
+fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
+    let of = |kind: Kind| found.modes.iter().filter(|m| m.kind == kind).count();
+    let assembly = match linearisation.assembly {
+        Assembly::Consistent => "consistent assembly",
+        Assembly::Paper => "assembly without the turning of static forces, as in Yuan et al. 2014",
+    };
+    let plane = if linearisation.in_plane_only { ", cables stiff in their planes only" } else { "" };
+    let certified = if found.certified {
+        format!(
+            "The Wittrick–Williams count gives {} below {} Hz, and all of them are listed: none is missing",
+            found.count_below, found.below_hz
+        )
+    } else {
+        format!(
+            "The Wittrick–Williams count gives {} below {} Hz, {} are listed: the list is not certified",
+            found.count_below,
+            found.below_hz,
+            found.modes.len()
+        )
+    };
+    format!(
+        "Cable model: {}; {assembly}{plane}. {certified}. {} are vibrations of the platform, {} of cables, {} of both.",
+        model_name(linearisation.cable_model),
+        of(Kind::Platform),
+        of(Kind::Cable),
+        of(Kind::Mixed)
+    )
+}
+
+/// The view of the mode shapes, or why there is none and how to get it.
+fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, found: &Modes) -> Result<Shapes, String> {
+    let reason = match Shapes::new(robot, equilibrium, dynamics, found) {
+        Ok(Some(shapes)) => return Ok(shapes),
+        Ok(None) if found.modes.is_empty() => "there is no mode below the limit. Raise `--below-hz`".to_owned(),
+        Ok(None) => "one of them needs more room than a page has".to_owned(),
+        Err(error @ CableMotionError::Model(_)) => format!("{error}. Write this page with `--cable-model exact`"),
+        Err(error) => error.to_string(),
+    };
+    Err(prose(&format!("Mode shapes are not shown: {reason}.")))
+}
+
+/// The response with the model asked, and with the other ones that there are at this state.
+fn respond(
+    input: &ReportInput<'_>,
+    dynamics: &Dynamics,
+    found: &Modes,
+) -> anyhow::Result<(Figure, Table, Vec<String>)> {
+    let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
+        *input;
+    let (force, u) = &input.frf_input;
+    let (motion, v, quantity) = &input.frf_output;
+    let draw = |dynamics: &Dynamics, found: &Modes| {
+        let model = dynamics.linearisation.cable_model;
+        let at = (dynamics, sampled(below_hz, &found.modes));
+        Curve::of(model_name(model), model_style(model), at, u, &[*v], *quantity)
+    };
+    let mut curves = vec![draw(dynamics, found)?];
+    let mut notes = Vec::new();
+    for cable_model in [CableModel::Exact, CableModel::ClosedForm, CableModel::StaticSag, CableModel::Spring] {
+        if cable_model == linearisation.cable_model {
+            continue;
+        }
+        let other = Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
+        match other.map_err(|e| e.to_string()).and_then(|other| {
+            let found = modes::below(&other, below_hz);
+            draw(&other, &found).map_err(|e| e.to_string())
+        }) {
+            Ok(curve) => curves.push(curve),
+            Err(reason) => {
+                notes.push(prose(&format!("Without the model {}: {reason}.", model_name(cable_model))));
+            }
+        }
+    }
+    let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);
+    let caption = format!(
+        "Response of {motion} to {force}, magnitude and phase. Ticks are the natural frequencies with the {} model, \
+         numbers the frequencies [Hz] of its most prominent peaks. Models without frequency-dependent cables have no \
+         damping; their resonances leave the figure.",
+        model_name(linearisation.cable_model)
+    );
+    let marks = Marks { modes: &found.modes, peaks: &tops, published: None, phase: true };
+    let figure = response::figure("figure-response", caption, unit, below_hz, &curves, &marks);
+    Ok((figure, peaks_table(&tops, found, unit), notes))
+}
+
+fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> Table {
+    let mut table = Table::new(
+        "table-peaks",
+        format!(
+            "Peaks of the response with a prominence of at least {PEAK_PROMINENCE_DB} dB. They are fewer than the natural \
+             frequencies: a mode shows only where force and sensor reach it and damping leaves it apart from its neighbours.",
+        ),
+        &[
+            "frequency|Hz",
+            "prominence|dB",
+            &format!("magnitude|{unit}"),
+            "nearest natural frequency|Hz",
+            "<kind of that mode",
+        ],
+    );
+    for peak in tops {
+        let distance = |f: f64| (f - peak.frequency_hz).abs();
+        let nearest = found.modes.iter().min_by(|a, b| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz)));
+        table.row(vec![
+            fixed(peak.frequency_hz, 3),
+            fixed(peak.prominence_db, 1),
+            significant(peak.magnitude, 3),
+            nearest.map_or_else(|| "–".to_owned(), |m| fixed(m.frequency_hz, 3)),
+            nearest.map_or("–", |m| m.kind.name()).to_owned(),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,109 @@
+//! The report of a request: the robot at its state, and a response where none is requested.
+
+use super::{Report, ReportInput, report};
+use crate::analyses::frf;
+use crate::at_rest::{self, AtRest};
+use crate::pages::table::listed;
+use crate::request::{self, Tensions};
+use crate::robot_file::RobotFile;
+use anyhow::{Result, bail};
+use funicular::math::Vec3;
+use funicular::ports::{Input, Output};
+use funicular::response::Quantity;
+use funicular::robot::Robot;
+
+/// The page of a request, whose robot was read; `command_line` writes it again.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, a robot without that equilibrium, or no finite response there.
+pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_line: String) -> Result<Report> {
+    request::check_positive("below_hz", request.below_hz)?;
+    let RobotFile { robot, name, text } = file;
+    // Signals that mean nothing are refused before the work.
+    let (from, to) = response(request, &robot)?;
+    at_rest::directions(&robot, &from, &to, &request.points)?;
+    let at_rest = at_rest::equilibrium(robot, &request.state, &Tensions::default())?;
+    about(&at_rest, request, &name, &text, command_line)
+}
+
+/// The page of a robot that is at rest already, whatever the state of the request; `name` and `text` are those of its file.
+///
+/// # Errors
+/// As of [`of_request`].
+pub fn about(
+    at_rest: &AtRest,
+    request: &request::ReportRequest,
+    name: &str,
+    text: &str,
+    command_line: String,
+) -> Result<Report> {
+    request::check_positive("below_hz", request.below_hz)?;
+    let (from, to) = response(request, &at_rest.robot)?;
+    if let Some(signal) = [(&from.on_cable, &from.name), (&to.on_cable, &to.name)]
+        .into_iter()
+        .find_map(|(place, name)| place.is_some().then_some(name))
+    {
+        bail!("{signal} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
+    }
+
+    let (input, output) = at_rest::directions(&at_rest.robot, &from, &to, &request.points)?;
+    let pose = &at_rest.equilibrium.pose;
+    report(&ReportInput {
+        at_rest,
+        file_label: name,
+        robot_text: text,
+        linearisation: at_rest::linearisation(&request.model, at_rest.equilibrium.model),
+        below_hz: request.below_hz,
+        frf_input: (input_in_words(&from, request.points.input_point_m), input.vector(pose)),
+        frf_output: (output_in_words(&to, request.points.output_point_m), output.vector(pose), to.quantity),
+        frf_unit: &frf::unit(&from, &to),
+        command_line,
+    })
+}
+
+/// Input and output of the response: those of the request, else along z, or along x where a guide holds z.
+fn response(request: &request::ReportRequest, robot: &Robot) -> Result<(Input, Output)> {
+    const Z: usize = 2;
+    let (force, acceleration) =
+        if robot.platform.freedoms.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };
+    let input = request::input(request.input.as_deref().unwrap_or(force))?;
+    let output = request::output(request.output.as_deref().unwrap_or(acceleration))?;
+    Ok((input, output))
+}
+
+fn input_in_words(input: &Input, point: Option<[f64; 3]>) -> String {
+    let along = axis_in_words(input.direction_w);
+    if input.is_moment {
+        format!("a moment about {along}")
+    } else {
+        format!("a force along {along} {}", at("at", point))
+    }
+}
+
+fn output_in_words(output: &Output, point: Option<[f64; 3]>) -> String {
+    let along = axis_in_words(output.direction_w);
+    let of_platform = || at("of", point);
+    match (output.is_rotation, output.quantity) {
+        (false, Quantity::Displacement) => format!("the displacement along {along} {}", of_platform()),
+        (false, Quantity::Velocity) => format!("the velocity along {along} {}", of_platform()),
+        (false, Quantity::Acceleration) => format!("the acceleration along {along} {}", of_platform()),
+        (true, Quantity::Displacement) => format!("the rotation about {along}"),
+        (true, Quantity::Velocity) => format!("the angular velocity about {along}"),
+        (true, Quantity::Acceleration) => format!("the angular acceleration about {along}"),
+    }
+}
+
+fn axis_in_words(direction_w: Vec3) -> String {
+    let axes = [(Vec3::x(), "x"), (Vec3::y(), "y"), (Vec3::z(), "z")];
+    match axes.iter().find(|(axis, _)| *axis == direction_w) {
+        Some((_, name)) => (*name).to_owned(),
+        None => format!("({})", listed(direction_w.as_slice(), 3)),
+    }
+}
+
+fn at(preposition: &str, point: Option<[f64; 3]>) -> String {
+    match point {
+        None => format!("{preposition} the platform origin"),
+        Some(point) => format!("{preposition} the platform's point ({}) m", listed(&point, 3)),
+    }
+}

@@ -1,0 +1,511 @@
+//! What a user wants to know, as plain data.
+//!
+//! In JSON a request is one flat object. `command` names the analysis, `robot` holds the text of the robot file, and every
+//! other key is an option with the name that the program (`--mass-kg`) and Python (`mass_kg=`) have for it. What is left
+//! out keeps its default.
+
+mod keys;
+mod parts;
+
+pub use keys::KEYS;
+pub use parts::{
+    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Points, Pose, RobotText, State,
+    Tensions, Terms,
+};
+
+use crate::error::Error;
+use crate::import::SourceFile;
+use crate::names::suggestion;
+use crate::values::{not_negative, positive};
+use anyhow::{anyhow, bail};
+use funicular::ports::{Input, Output};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// Name and version of the vocabulary of requests; a change of a key's meaning is another version.
+pub const SCHEMA: &str = "funicular-request/1";
+
+/// One question about one robot (or, for a few commands, about files).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "command", rename_all = "kebab-case")]
+pub enum Request {
+    /// The robot file, checked.
+    Check(CheckRequest),
+    /// Equilibrium: pose, tensions, sag.
+    Statics(StaticsRequest),
+    /// The 6×6 stiffness at one frequency.
+    Stiffness(StiffnessRequest),
+    /// Every natural frequency below a limit.
+    Modes(ModesRequest),
+    /// One frequency response and its peaks.
+    Frf(FrfRequest),
+    /// Every cable model side by side.
+    Compare(CompareRequest),
+    /// Spring and catenary cables against ideal ones over platform mass.
+    PoseError(PoseErrorRequest),
+    /// Dynamic stiffness of one cable over frequency.
+    Cable(CableRequest),
+    /// A second-order model for control design.
+    Reduce(ReduceRequest),
+    /// Quantities over poses.
+    Map(MapRequest),
+    /// Quantities over values of the robot file.
+    Sweep(SweepRequest),
+    /// One page about one robot.
+    Report(ReportRequest),
+    /// The page about the starting paper.
+    Paper(PaperRequest),
+    /// A robot file from files of other programs.
+    Import(ImportRequest),
+    /// The robot at rest as a file of another program.
+    Export(ExportRequest),
+    /// The program against published and independent numbers.
+    Validate(ValidateRequest),
+    /// Parts of a map or sweep made one file.
+    Merge(MergeRequest),
+    /// The page about a map or sweep.
+    Plot(PlotRequest),
+}
+
+/// Request of `check`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CheckRequest {
+    /// The robot file.
+    pub robot: RobotText,
+}
+
+/// Request of `statics`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StaticsRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
+    /// Search for all equilibria of the unstrained lengths.
+    #[serde(default)]
+    pub all: bool,
+}
+
+/// Request of `stiffness`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StiffnessRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Frequency [Hz]; at 0 the tangent of the static model unless a cable model is named.
+    #[serde(default)]
+    pub at_hz: f64,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+/// Request of `modes`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ModesRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Limit of the frequencies [Hz].
+    pub below_hz: f64,
+    /// Input of a response in which the modes take part; needs an output.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub input: Option<String>,
+    /// Output of that response; needs an input.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// Points of that response.
+    #[serde(flatten)]
+    pub points: Points,
+    /// Number of points along every cable whose displacements are wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stations: Option<usize>,
+    /// Seek the damped partner of every mode; else damping ratios are of first order in the damping.
+    #[serde(default = "yes")]
+    pub damped: bool,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+/// Request of `frf`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FrfRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Frequencies.
+    #[serde(flatten)]
+    pub range: FrequencyRange,
+    /// Input signal, as `fz` or `cable:3@0.5:fz`.
+    pub input: String,
+    /// Output signal, as `ay` or `cable:3@0.5:az`.
+    pub output: String,
+    /// Points of the platform.
+    #[serde(flatten)]
+    pub signal_points: Points,
+    /// Minimum height of a peak above the valleys beside it [dB].
+    #[serde(default = "one")]
+    pub prominence_db: f64,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+/// Request of `compare`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CompareRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Limit of the frequencies [Hz].
+    pub below_hz: f64,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Terms of the stiffness.
+    #[serde(flatten)]
+    pub terms: Terms,
+}
+
+/// Request of `pose-error`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PoseErrorRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Platform masses: first [kg], last [kg], number of them in equal steps.
+    pub mass_kg: (f64, f64, usize),
+    /// Unstrained lengths [m], one per cable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lengths_m: Option<Vec<f64>>,
+    /// Distance between spring and catenary pose from which on the spring is good enough [mm].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance_mm: Option<f64>,
+}
+
+/// Request of `cable`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CableRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Name of the cable.
+    pub name: String,
+    /// Frequencies.
+    #[serde(flatten)]
+    pub range: FrequencyRange,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Cable model.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
+    pub cable_model: Option<funicular::cable::CableModel>,
+    /// Leave out the stiffness out of the cable's plane.
+    #[serde(default)]
+    pub in_plane_only: bool,
+}
+
+/// Request of `reduce`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReduceRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Highest frequency that the model is for [Hz].
+    pub below_hz: f64,
+    /// Input signals; none stands for all forces and moments on the platform.
+    #[serde(default)]
+    pub input: Vec<String>,
+    /// Output signals; none stands for all displacements and rotations of the platform.
+    #[serde(default)]
+    pub output: Vec<String>,
+    /// Points of the platform.
+    #[serde(flatten)]
+    pub points: Points,
+    /// Maximum relative error of the responses by modes left out.
+    #[serde(default = "one_thousandth")]
+    pub tolerance: f64,
+    /// Frequency at which constant damping ratios are right when made viscous [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_at_hz: Option<f64>,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+/// Request of `map`: quantities over poses, from a grid or a list.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MapRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Axes of the grid, each once; axes that it lacks are those of the state.
+    #[serde(default)]
+    pub grid: Vec<Axis>,
+    /// Poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poses: Option<Vec<[f64; 6]>>,
+    /// Quantities and options of every point.
+    #[serde(flatten)]
+    pub point: EachPoint,
+}
+
+/// Request of `sweep`: quantities over all combinations of values of the robot file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Values that vary, the first fastest; an axis is a path into the robot file.
+    pub vary: Vec<Axis>,
+    /// Quantities and options of every point.
+    #[serde(flatten)]
+    pub point: EachPoint,
+}
+
+/// Request of `report`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReportRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// Limit of the frequencies [Hz].
+    #[serde(default = "twenty")]
+    pub below_hz: f64,
+    /// Force or moment of the response; default `fz`, or `fx` of a platform that cannot move along z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub input: Option<String>,
+    /// Motion of the response; default `az`, or `ax` of a platform that cannot move along z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// Points of the platform.
+    #[serde(flatten)]
+    pub points: Points,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+/// Request of `paper`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PaperRequest {}
+
+/// Request of `validate`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ValidateRequest {}
+
+/// Request of `import`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ImportRequest {
+    /// The files of one robot.
+    pub files: Vec<SourceFile>,
+    /// Set of cables of a CASPR file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cable_set: Option<String>,
+    /// Numbers of ropes that the files lack.
+    #[serde(flatten)]
+    pub ropes: ImportRopes,
+    /// Numbers of the platform that the files lack.
+    #[serde(flatten)]
+    pub platform: ImportPlatform,
+}
+
+/// Request of `export`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExportRequest {
+    /// The robot file.
+    pub robot: RobotText,
+    /// The program that the file is for.
+    #[serde(with = "crate::names")]
+    pub to: crate::export::ExportFormat,
+    /// Elements per cable.
+    #[serde(default = "twenty_segments")]
+    pub segments: usize,
+    /// Limit of the modes in the file [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes_below_hz: Option<f64>,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
+}
+
+/// Request of `merge`; only a front end with a disk can run it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MergeRequest {
+    /// Paths of the parts.
+    pub parts: Vec<String>,
+}
+
+/// Request of `plot`; only a front end with a disk can run it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlotRequest {
+    /// Path of the file of a map or sweep.
+    pub file: String,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn one_thousandth() -> f64 {
+    1e-3
+}
+
+fn twenty() -> f64 {
+    20.0
+}
+
+fn twenty_segments() -> usize {
+    20
+}
+
+impl Request {
+    /// The name of the command.
+    pub fn command(&self) -> &'static str {
+        match self {
+            Self::Check(_) => "check",
+            Self::Statics(_) => "statics",
+            Self::Stiffness(_) => "stiffness",
+            Self::Modes(_) => "modes",
+            Self::Frf(_) => "frf",
+            Self::Compare(_) => "compare",
+            Self::PoseError(_) => "pose-error",
+            Self::Cable(_) => "cable",
+            Self::Reduce(_) => "reduce",
+            Self::Map(_) => "map",
+            Self::Sweep(_) => "sweep",
+            Self::Report(_) => "report",
+            Self::Paper(_) => "paper",
+            Self::Import(_) => "import",
+            Self::Export(_) => "export",
+            Self::Validate(_) => "validate",
+            Self::Merge(_) => "merge",
+            Self::Plot(_) => "plot",
+        }
+    }
+
+    /// The robot file of the request, if it has one.
+    pub fn robot(&self) -> Option<&RobotText> {
+        match self {
+            Self::Check(request) => Some(&request.robot),
+            Self::Statics(request) => Some(&request.robot),
+            Self::Stiffness(request) => Some(&request.robot),
+            Self::Modes(request) => Some(&request.robot),
+            Self::Frf(request) => Some(&request.robot),
+            Self::Compare(request) => Some(&request.robot),
+            Self::PoseError(request) => Some(&request.robot),
+            Self::Cable(request) => Some(&request.robot),
+            Self::Reduce(request) => Some(&request.robot),
+            Self::Map(request) => Some(&request.robot),
+            Self::Sweep(request) => Some(&request.robot),
+            Self::Report(request) => Some(&request.robot),
+            Self::Export(request) => Some(&request.robot),
+            Self::Paper(_) | Self::Import(_) | Self::Validate(_) | Self::Merge(_) | Self::Plot(_) => None,
+        }
+    }
+
+    /// Reads a request from JSON; a key that its command does not have is refused, with the nearest that it has.
+    ///
+    /// # Errors
+    /// Text that is no JSON, another schema, an unknown command or key, a value of another type.
+    pub fn from_json(text: &str) -> Result<Self, Error> {
+        let value: Value = serde_json::from_str(text).map_err(|error| anyhow!("the request is no JSON: {error}"))?;
+        Self::from_value(value)
+    }
+
+    /// Reads a request from a JSON value, as [`Request::from_json`].
+    ///
+    /// # Errors
+    /// Another schema, an unknown command or key, a value of another type.
+    pub fn from_value(value: Value) -> Result<Self, Error> {
+        let Value::Object(mut given) = value else { return Err(anyhow!("a request is a JSON object").into()) };
+        match given.remove("schema") {
+            None => {}
+            Some(Value::String(schema)) if schema == SCHEMA => {}
+            Some(other) => return Err(anyhow!("the request's schema is {other}, this program reads {SCHEMA}").into()),
+        }
+        // `null` says nothing, as a key that is not there.
+        given.retain(|_, value| !value.is_null());
+        let request: Self = parsed(&given).map_err(|error| anyhow!("the request cannot be read: {error}"))?;
+        // Whatever was understood is written again; a key that is not was nobody's.
+        let Value::Object(understood) = request.to_value() else { unreachable!("a request is written as an object") };
+        if let Some(unknown) = given.keys().find(|key| !understood.contains_key(*key)) {
+            let names: Vec<String> = KEYS.iter().map(|(key, _)| (*key).to_owned()).collect();
+            let nearest = suggestion(unknown, &names);
+            return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());
+        }
+        Ok(request)
+    }
+
+    /// The request as JSON, with its schema; what has no default and is not given is not there.
+    pub fn to_value(&self) -> Value {
+        let mut object = Map::from_iter([("schema".to_owned(), Value::from(SCHEMA))]);
+        if let Ok(Value::Object(keys)) = serde_json::to_value(self) {
+            object.extend(keys);
+        }
+        Value::Object(object)
+    }
+}
+
+/// Serde's reading, with an error that does not repeat itself.
+fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> {
+    if !given.contains_key("command") {
+        bail!("it has no `command`");
+    }
+    Ok(serde_json::from_value(Value::Object(given.clone()))?)
+}
+
+/// Reads the name of an input signal.
+///
+/// # Errors
+/// A name that is none, in the name of its key.
+pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
+    Input::parse(name).map_err(|reason| anyhow!("⟪input⟫ {name}: {reason}"))
+}
+
+/// Reads the name of an output signal.
+///
+/// # Errors
+/// A name that is none, in the name of its key.
+pub(crate) fn output(name: &str) -> anyhow::Result<Output> {
+    Output::parse(name).map_err(|reason| anyhow!("⟪output⟫ {name}: {reason}"))
+}
+
+/// Checks a number that has to be positive.
+pub(crate) fn check_positive(key: &str, value: f64) -> anyhow::Result<()> {
+    parts::check(key, Some(value), positive)
+}
+
+/// Checks a number that must not be negative.
+pub(crate) fn check_not_negative(key: &str, value: f64) -> anyhow::Result<()> {
+    parts::check(key, Some(value), not_negative)
+}
+
+/// Maximum number of points along a cable whose displacements are listed.
+pub const MAX_STATIONS: usize = 1000;
+
+/// Checks a number of points along a cable, both ends included.
+pub(crate) fn check_stations(count: usize) -> anyhow::Result<()> {
+    if !(2..=MAX_STATIONS).contains(&count) {
+        bail!("⟪stations⟫: `{count}` is not a number of points: a whole number from 2 to {MAX_STATIONS}");
+    }
+    Ok(())
+}

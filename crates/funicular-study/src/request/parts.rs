@@ -1,0 +1,406 @@
+//! Groups of keys that several commands share.
+
+use crate::names::{TensionRuleName, optional};
+use crate::values::{finite, not_negative, positive};
+use anyhow::{Result, anyhow, bail};
+use funicular::cable::CableModel;
+use funicular::dynamics::Assembly;
+use funicular::math::{Quaternion, Rotation, rotation};
+use funicular::statics::StaticModel;
+use funicular::sweep::Steps;
+use serde::{Deserialize, Serialize};
+
+/// The text of a robot file with its changes.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotText {
+    /// Where the text is from, for messages and pages.
+    #[serde(default)]
+    pub name: String,
+    /// The robot file (TOML).
+    pub text: String,
+    /// Changes of the text, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<Change>,
+}
+
+/// One value of the robot file, set to another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// Keys from the root of the file, as in `platform.mass_kg` or `cables.3.anchor_m`.
+    pub path: String,
+    /// The value: a number, a text, a truth value, or a list of these.
+    pub value: serde_json::Value,
+}
+
+/// A pose of the platform.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "PoseForm", into = "PoseForm")]
+pub enum Pose {
+    /// Position x, y, z [m] and roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
+    Angles([f64; 6]),
+    /// Position [m] and unit quaternion w, x, y, z from platform to world axes, every digit kept.
+    Quaternion([f64; 3], [f64; 4]),
+}
+
+/// Ways to write a pose.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "a pose is [x, y, z], [x, y, z, roll, pitch, yaw] or {position_m, quaternion_wxyz}")]
+enum PoseForm {
+    Position([f64; 3]),
+    Angles([f64; 6]),
+    Quaternion { position_m: [f64; 3], quaternion_wxyz: [f64; 4] },
+}
+
+impl From<PoseForm> for Pose {
+    fn from(form: PoseForm) -> Self {
+        match form {
+            PoseForm::Position([x, y, z]) => Self::Angles([x, y, z, 0.0, 0.0, 0.0]),
+            PoseForm::Angles(numbers) => Self::Angles(numbers),
+            PoseForm::Quaternion { position_m, quaternion_wxyz } => Self::Quaternion(position_m, quaternion_wxyz),
+        }
+    }
+}
+
+impl From<Pose> for PoseForm {
+    fn from(pose: Pose) -> Self {
+        match pose {
+            Pose::Angles(numbers) => Self::Angles(numbers),
+            Pose::Quaternion(position_m, quaternion_wxyz) => Self::Quaternion { position_m, quaternion_wxyz },
+        }
+    }
+}
+
+impl Pose {
+    /// The pose for the analyses.
+    ///
+    /// # Errors
+    /// A number that is not finite, or a matrix that is no rotation.
+    pub fn to_robot(self) -> Result<funicular::robot::Pose> {
+        let checked = |values: &[f64]| values.iter().try_for_each(|value| check("pose", Some(*value), finite));
+        match self {
+            Self::Angles(numbers) => {
+                checked(&numbers)?;
+                let [x, y, z, roll, pitch, yaw] = numbers;
+                Ok(funicular::robot::Pose::new([x, y, z], [roll, pitch, yaw]))
+            }
+            Self::Quaternion(position_m, wxyz) => {
+                // Seven printed digits of a unit quaternion are within this.
+                const MAX_NORM_ERROR: f64 = 1e-6;
+
+                checked(&position_m)?;
+                checked(&wxyz)?;
+                let [w, x, y, z] = wxyz;
+                let quaternion = Quaternion::new(w, x, y, z);
+                let norm = quaternion.norm();
+                if (norm - 1.0).abs() > MAX_NORM_ERROR {
+                    bail!("⟪pose⟫: `quaternion_wxyz` has the norm {norm}: a rotation is a unit quaternion");
+                }
+                // Unit to rounding is taken as it is, so that a pose written and read is the same pose.
+                let is_unit = (norm - 1.0).abs() <= 4.0 * f64::EPSILON;
+                let rot_wp =
+                    if is_unit { Rotation::new_unchecked(quaternion) } else { Rotation::from_quaternion(quaternion) };
+                Ok(funicular::robot::Pose { position_w: position_m.into(), rot_wp })
+            }
+        }
+    }
+}
+
+impl From<&funicular::robot::Pose> for Pose {
+    fn from(pose: &funicular::robot::Pose) -> Self {
+        Self::Quaternion(pose.position_w.into(), rotation::quaternion_wxyz(&pose.rot_wp))
+    }
+}
+
+/// The state and the loads of the robot: what is not given is as the robot file says.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Unstrained lengths [m], one per cable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lengths_m: Option<Vec<f64>>,
+    /// Pose of the platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
+    /// Mass of the platform [kg].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg: Option<f64>,
+    /// How cables carry their static load.
+    #[serde(default, with = "crate::names")]
+    pub static_model: StaticModel,
+    /// Loads besides weight.
+    #[serde(flatten)]
+    pub load: Load,
+}
+
+/// Forces on platform and cables besides their weight, fixed in the world.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Load {
+    /// Force on the platform [N].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<[f64; 3]>,
+    /// Moment on the platform [N m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_n_m: Option<[f64; 3]>,
+    /// Point where the force acts, platform frame [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_point_m: Option<[f64; 3]>,
+    /// Velocity of the wind [m/s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind_m_s: Option<[f64; 3]>,
+    /// Load per metre of every cable [N/m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cable_load_n_per_m: Option<[f64; 3]>,
+}
+
+/// Rule and limits of the tensions at a pose.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tensions {
+    /// Rule.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "optional")]
+    pub tension_rule: Option<TensionRuleName>,
+    /// Tensions to come close to [N], one for all or one per cable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wanted_tension_n: Option<Vec<f64>>,
+    /// Minimum tension anywhere in a cable [N].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_tension_n: Option<f64>,
+    /// Maximum tension anywhere in a cable [N].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_tension_n: Option<f64>,
+}
+
+/// How the robot is linearised.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    /// Cable model; the default depends on the static model.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "optional")]
+    pub cable_model: Option<CableModel>,
+    /// Terms of the stiffness.
+    #[serde(flatten)]
+    pub terms: Terms,
+}
+
+/// Terms of the stiffness.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Terms {
+    /// All terms, or the cables' end stiffness only.
+    #[serde(default, with = "crate::names")]
+    pub assembly: Assembly,
+    /// Leave out the stiffness of cables out of their planes.
+    #[serde(default)]
+    pub in_plane_only: bool,
+}
+
+/// Points of the platform where a response begins and ends, platform frame [m].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Points {
+    /// Point where the force acts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub input_point_m: Option<[f64; 3]>,
+    /// Point whose motion is measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output_point_m: Option<[f64; 3]>,
+}
+
+/// A range of frequencies, ends included.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FrequencyRange {
+    /// First frequency [Hz].
+    pub from_hz: f64,
+    /// Last frequency [Hz].
+    pub to_hz: f64,
+    /// Number of frequencies.
+    pub points: usize,
+    /// Equal ratios instead of equal steps.
+    #[serde(default)]
+    pub log: bool,
+}
+
+/// One axis of a grid: equal steps, or values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Axis {
+    /// Equal steps, ends included.
+    Range {
+        /// Name of the axis, or path into the robot file.
+        axis: String,
+        /// First value.
+        from: f64,
+        /// Last value.
+        to: f64,
+        /// Number of values.
+        count: usize,
+    },
+    /// Values.
+    List {
+        /// Name of the axis, or path into the robot file.
+        axis: String,
+        /// The values.
+        values: Vec<f64>,
+    },
+}
+
+impl Axis {
+    /// An axis from its name and its values.
+    pub fn new(axis: String, steps: &Steps) -> Self {
+        match steps {
+            Steps::Range { from, to, count } => Self::Range { axis, from: *from, to: *to, count: *count },
+            Steps::List(values) => Self::List { axis, values: values.clone() },
+        }
+    }
+
+    /// Name of the axis.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Range { axis, .. } | Self::List { axis, .. } => axis,
+        }
+    }
+
+    /// The values along the axis.
+    ///
+    /// # Errors
+    /// A range that does not ascend, values that are not finite, or none.
+    pub fn steps(&self) -> Result<Steps, String> {
+        match self {
+            Self::Range { from, to, count, .. } => Steps::range(finite(*from)?, finite(*to)?, *count),
+            Self::List { values, .. } if values.is_empty() => Err("it has no values".to_owned()),
+            Self::List { values, .. } => {
+                Ok(Steps::List(values.iter().map(|value| finite(*value)).collect::<Result<_, _>>()?))
+            }
+        }
+    }
+}
+
+/// Quantities and options of every point of a map or sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EachPoint {
+    /// Names of the quantities.
+    #[serde(default = "EachPoint::default_quantities")]
+    pub quantities: Vec<String>,
+    /// Where the search for natural frequencies ends [Hz].
+    #[serde(default = "default_up_to_hz")]
+    pub up_to_hz: f64,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+impl EachPoint {
+    /// Quantities where none are named.
+    pub fn default_quantities() -> Vec<String> {
+        vec!["tension-min".to_owned(), "tension-max".to_owned()]
+    }
+}
+
+fn default_up_to_hz() -> f64 {
+    funicular::sweep::HIGHEST_HZ
+}
+
+/// Numbers of ropes that files of other programs may lack; given, they win over the files.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ImportRopes {
+    /// Mass per unstrained length [kg/m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg_per_m: Option<f64>,
+    /// Axial stiffness EA [N].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_stiffness_n: Option<f64>,
+    /// Young's modulus of the full circular section [Pa].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus_pa: Option<f64>,
+    /// Diameter [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diameter_m: Option<f64>,
+}
+
+/// Numbers of the platform that files of other programs may lack; given, they win over the files.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ImportPlatform {
+    /// Mass [kg].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg: Option<f64>,
+    /// Inertia tensor about the centre of mass, platform axes [kg m²]: xx, yy, zz, xy, xz, yz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_kg_m2: Option<[f64; 6]>,
+    /// Centre of mass in the platform frame [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub center_of_mass_m: Option<[f64; 3]>,
+    /// Pose of the state.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
+}
+
+/// Checks a number that is given, in the name of its key.
+pub(crate) fn check(key: &str, value: Option<f64>, rule: fn(f64) -> Result<f64, String>) -> Result<()> {
+    value.map_or(Ok(()), |value| rule(value).map(drop).map_err(|reason| anyhow!("⟪{key}⟫: {reason}")))
+}
+
+/// Checks three numbers that are given, in the name of their key.
+pub(crate) fn check_vector(key: &str, vector: Option<[f64; 3]>) -> Result<()> {
+    vector.iter().flatten().try_for_each(|value| check(key, Some(*value), finite))
+}
+
+impl State {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        for length in self.lengths_m.iter().flatten() {
+            check("lengths_m", Some(*length), positive)?;
+        }
+        check("mass_kg", self.mass_kg, positive)?;
+        let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = self.load;
+        check_vector("force_n", force_n)?;
+        check_vector("moment_n_m", moment_n_m)?;
+        check_vector("load_point_m", load_point_m)?;
+        check_vector("wind_m_s", wind_m_s)?;
+        check_vector("cable_load_n_per_m", cable_load_n_per_m)
+    }
+}
+
+impl Points {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        check_vector("input_point_m", self.input_point_m)?;
+        check_vector("output_point_m", self.output_point_m)
+    }
+}
+
+impl Tensions {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        for tension in self.wanted_tension_n.iter().flatten() {
+            check("wanted_tension_n", Some(*tension), not_negative)?;
+        }
+        check("min_tension_n", self.min_tension_n, not_negative)?;
+        check("max_tension_n", self.max_tension_n, positive)
+    }
+}
+
+impl ImportRopes {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        check("mass_kg_per_m", self.mass_kg_per_m, not_negative)?;
+        check("axial_stiffness_n", self.axial_stiffness_n, positive)?;
+        check("youngs_modulus_pa", self.youngs_modulus_pa, positive)?;
+        check("diameter_m", self.diameter_m, positive)?;
+        if self.axial_stiffness_n.is_some() && (self.youngs_modulus_pa.is_some() || self.diameter_m.is_some()) {
+            bail!("⟪axial_stiffness_n⟫ is EA: leave out ⟪youngs_modulus_pa⟫ and ⟪diameter_m⟫, which give it, too");
+        }
+        Ok(())
+    }
+}
+
+impl ImportPlatform {
+    /// Checks the numbers.
+    pub(crate) fn check(&self) -> Result<()> {
+        check("mass_kg", self.mass_kg, positive)?;
+        self.inertia_kg_m2.iter().flatten().try_for_each(|value| check("inertia_kg_m2", Some(*value), finite))?;
+        check_vector("center_of_mass_m", self.center_of_mass_m)
+    }
+}

@@ -1,0 +1,96 @@
+//! The robot file of a request: changed as requested, read, checked.
+
+use crate::request::{Change, RobotText};
+use crate::set_values::{self, Assignment};
+use anyhow::{Result, anyhow, bail};
+use funicular::robot::Robot;
+use funicular::robot::spec::SpecError;
+use thiserror::Error;
+
+/// Name and text of the robot that every front end carries.
+pub const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", include_str!("../../../robots/yuan2014-4mm.toml"));
+
+/// Maximum size of a robot file [bytes]. A cable takes some 200, so a larger file is another one given by mistake.
+pub const MAX_BYTES: usize = 16 << 20;
+
+/// A robot with the text that describes it.
+#[derive(Debug, Clone)]
+pub struct RobotFile {
+    /// The robot.
+    pub robot: Robot,
+    /// Where the text is from, for messages and pages.
+    pub name: String,
+    /// The text with its changes.
+    pub text: String,
+}
+
+/// A robot file that the reader refuses, with all its errors and the text they point into.
+#[derive(Debug, Error)]
+#[error("{}", .error.render(name, text, false).trim_end())]
+pub struct Refused {
+    /// Where the text is from.
+    pub name: String,
+    /// The text with its changes.
+    pub text: String,
+    /// What the reader found.
+    pub error: SpecError,
+}
+
+/// The text of a robot file from its bytes.
+///
+/// # Errors
+/// More than [`MAX_BYTES`] of them, or bytes that are not UTF-8.
+pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String> {
+    if bytes.len() > MAX_BYTES {
+        bail!("{name} is larger than {} MiB: it is no robot file", MAX_BYTES >> 20);
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        anyhow!("{name} is no text: byte {} is not UTF-8; a robot file is TOML in UTF-8", at + 1)
+    })
+}
+
+impl RobotText {
+    /// The robot that the front ends carry.
+    pub fn embedded() -> Self {
+        Self { name: EMBEDDED.0.to_owned(), text: EMBEDDED.1.to_owned(), set: Vec::new() }
+    }
+
+    /// Reads the robot.
+    ///
+    /// # Errors
+    /// A change of a value that the file does not have, or [`Refused`].
+    pub fn read(&self) -> Result<RobotFile> {
+        let mut name = if self.name.is_empty() { "<request>".to_owned() } else { self.name.clone() };
+        if !self.set.is_empty() {
+            name.push_str(" with changes");
+        }
+        let text = self.changed_text()?;
+        match Robot::from_toml(&text) {
+            Ok(robot) => Ok(RobotFile { robot, name, text }),
+            Err(error) => Err(Refused { name, text, error }.into()),
+        }
+    }
+}
+
+impl RobotText {
+    /// The text with its changes.
+    ///
+    /// # Errors
+    /// A change of a value that the file does not have.
+    pub fn changed_text(&self) -> Result<String> {
+        if self.set.is_empty() {
+            return Ok(self.text.clone());
+        }
+        let changes = self.set.iter().map(Change::assignment).collect::<Result<Vec<_>>>()?;
+        Ok(set_values::apply(&self.text, &changes)?)
+    }
+}
+
+impl Change {
+    /// The change as the editor of robot files takes it.
+    fn assignment(&self) -> Result<Assignment> {
+        let Self { path, value } = self;
+        set_values::of_json(path, value).map_err(|reason| anyhow!("⟪set⟫ {path}: {reason}"))
+    }
+}

@@ -1,0 +1,321 @@
+//! `PATH=VALUE`: changes the text of a robot file before it is read, so that every check of the reader holds and its
+//! errors point at the changed line.
+
+use crate::names::{listed, suggestion};
+use crate::request::Change;
+use std::str::FromStr;
+use thiserror::Error;
+use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
+
+/// One value, and where it goes.
+#[derive(Debug, Clone)]
+pub struct Assignment {
+    /// As the user wrote it.
+    text: String,
+    /// The option that asked for it, between ⟪ and ⟫.
+    option: &'static str,
+    path: Vec<String>,
+    value: Value,
+}
+
+impl Assignment {
+    /// As the user wrote it.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// Name of the option that sets values, in messages.
+const OPTION: &str = "⟪set⟫";
+
+/// Why a value cannot be set: which, and what there is instead.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{0}")]
+pub struct EditError(String);
+
+type Result<T, E = EditError> = std::result::Result<T, E>;
+
+macro_rules! bail {
+    ($($format:tt)*) => { return Err(EditError(format!($($format)*))) };
+}
+
+/// Keys of a robot file, from its root to a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// As the user wrote it.
+    pub text: String,
+    keys: Vec<String>,
+}
+
+impl Path {
+    /// The last key, whose ending is the unit.
+    pub fn last(&self) -> &str {
+        self.keys.last().map_or("", String::as_str)
+    }
+
+    /// Whether another leads to the same value, however it is quoted.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.keys == other.keys
+    }
+
+    /// A number for the value there, as the user's `option` asked.
+    pub fn with(&self, option: &'static str, value: f64) -> Assignment {
+        let text = format!("{}={value}", self.text);
+        Assignment { text, option, path: self.keys.clone(), value: Value::from(value) }
+    }
+}
+
+/// Parses `path.to.key`: keys separated by dots, quoted where they hold anything but letters, digits, _ and -.
+///
+/// # Errors
+/// A text for the user.
+pub fn path(text: &str) -> Result<Path, String> {
+    let keys = Key::parse(text).map_err(|_| {
+        format!(
+            "`{text}` is not a path: keys separated by dots, quoted if they hold anything but letters, digits, _ and -"
+        )
+    })?;
+    Ok(Path { text: text.trim().to_owned(), keys: keys.iter().map(|key| key.get().to_owned()).collect() })
+}
+
+/// Parses `path.to.key=value`; the value is TOML, and a bare word is text. For `--set`.
+///
+/// # Errors
+/// A text for the user.
+///
+/// # Example
+/// ```
+/// use funicular_study::set_values;
+///
+/// let change = set_values::assignment("platform.mass_kg=20")?;
+/// assert_eq!(set_values::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # set: platform.mass_kg=20\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn assignment(text: &str) -> Result<Assignment, String> {
+    let (at, value) = split(text).ok_or("it has no `=`: write PATH=VALUE, as in platform.mass_kg=20")?;
+    let path = path(at)?.keys;
+    let value = value.trim();
+    let value = match Value::from_str(value) {
+        Ok(value) => value,
+        // A shell takes the quotes off `"point-mass"`; nobody means anything but text by such a word.
+        Err(_) if is_word(value) => Value::from(value),
+        Err(_) => return Err(format!("`{value}` is not a TOML value: a number, \"text\" or an [array]")),
+    };
+    Ok(Assignment { text: text.to_owned(), option: OPTION, path, value })
+}
+
+/// The change that a text like `platform.mass_kg=20` asks for, as a request has it.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn change(text: &str) -> Result<Change, String> {
+    let Assignment { value, .. } = assignment(text)?;
+    let (path, _) = split(text).unwrap_or((text, ""));
+    Ok(Change { path: path.trim().to_owned(), value: to_json(&value)? })
+}
+
+/// The assignment of a value in JSON to a path.
+///
+/// # Errors
+/// A path that is none, or a value that a robot file cannot hold.
+pub fn of_json(at: &str, value: &serde_json::Value) -> Result<Assignment, String> {
+    let value = from_json(value)?;
+    let text = format!("{at}={}", value.to_string().trim());
+    Ok(Assignment { text, option: OPTION, path: path(at)?.keys, value })
+}
+
+fn to_json(value: &Value) -> Result<serde_json::Value, String> {
+    Ok(match value {
+        Value::String(text) => text.value().as_str().into(),
+        Value::Integer(number) => (*number.value()).into(),
+        Value::Float(number) if number.value().is_finite() => (*number.value()).into(),
+        Value::Float(number) => {
+            return Err(format!("{} is no value of a robot file: it must be finite", number.value()));
+        }
+        Value::Boolean(truth) => (*truth.value()).into(),
+        Value::Array(items) => items.iter().map(to_json).collect::<Result<Vec<_>, _>>()?.into(),
+        Value::Datetime(_) | Value::InlineTable(_) => {
+            return Err("only a number, \"text\", true, false or an [array] can be set".to_owned());
+        }
+    })
+}
+
+/// A value in JSON as a robot file holds it.
+///
+/// # Errors
+/// A value that no robot file holds.
+pub fn from_json(value: &serde_json::Value) -> Result<Value, String> {
+    use serde_json::Value as Json;
+    Ok(match value {
+        Json::String(text) => Value::from(text.as_str()),
+        Json::Bool(truth) => Value::from(*truth),
+        Json::Number(number) => match (number.as_i64(), number.as_f64()) {
+            (Some(whole), _) => Value::from(whole),
+            (None, Some(number)) => Value::from(number),
+            (None, None) => return Err(format!("{number} is not a number of a robot file")),
+        },
+        Json::Array(items) => items.iter().map(from_json).collect::<Result<toml_edit::Array, _>>()?.into(),
+        Json::Null | Json::Object(_) => {
+            return Err("only a number, a text, a truth value or a list of these can be set".to_owned());
+        }
+    })
+}
+
+/// The parts before and after the first `=` outside quotes.
+pub fn split(text: &str) -> Option<(&str, &str)> {
+    let mut quote = None;
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (None, '=') => return Some((&text[..at], &text[at + 1..])),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), _) if c == open => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn is_word(value: &str) -> bool {
+    value.starts_with(|c: char| c.is_alphabetic()) && value.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_')
+}
+
+/// The text with all assignments made, in order.
+///
+/// # Errors
+/// [`EditError`] for a place that the file does not have.
+pub fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
+    // The reader explains a file that is no TOML better than this parser would.
+    let Ok(mut document) = text.trim_start_matches('\u{feff}').parse::<DocumentMut>() else {
+        return Ok(text.to_owned());
+    };
+    for assignment in assignments {
+        assign(&mut document, assignment)
+            .map_err(|reason| EditError(format!("{} {}: {reason}", assignment.option, assignment.text)))?;
+    }
+    Ok(document.to_string())
+}
+
+fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
+    let Some((key, parents)) = assignment.path.split_last() else { bail!("the path is empty") };
+    let mut table: &mut dyn TableLike = document.as_table_mut();
+    let mut parents = parents.iter();
+    let mut walked: Vec<&str> = Vec::new();
+    // A comment can follow a value that has a line of its own.
+    let mut in_lines = true;
+    while let Some(parent) = parents.next() {
+        walked.push(parent);
+        let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
+        let Some(item) = table.get_mut(parent) else {
+            bail!("the robot file has no `{}`{}", walked.join("."), suggestion(parent, &names))
+        };
+        in_lines &= !item.is_value();
+        table = if walked == ["cables"] {
+            let Some(name) = parents.next() else { bail!("name a cable and a key, as in cables.1.anchor_m=[0,0,4]") };
+            walked.push(name);
+            cable(item, name)?
+        } else {
+            match item.as_table_like_mut() {
+                Some(inner) => inner,
+                None => bail!("`{}` is a value, it has no keys", walked.join(".")),
+            }
+        };
+    }
+    put(table, key, in_lines, assignment)
+}
+
+/// The cable of that name, in `[[cables]]` or `cables = [{ … }]`.
+fn cable<'d>(item: &'d mut Item, name: &str) -> Result<&'d mut dyn TableLike> {
+    let mut names = Vec::new();
+    let tables: Vec<&mut dyn TableLike> = match item {
+        Item::ArrayOfTables(tables) => tables.iter_mut().map(|table| table as &mut dyn TableLike).collect(),
+        Item::Value(Value::Array(values)) => values
+            .iter_mut()
+            .filter_map(|value| value.as_inline_table_mut().map(|table| table as &mut dyn TableLike))
+            .collect(),
+        _ => bail!("`cables` is no list of tables in the robot file"),
+    };
+    for table in tables {
+        match table.get("name").and_then(Item::as_str) {
+            Some(found) if found == name => return Ok(table),
+            Some(other) => names.push(other.to_owned()),
+            None => {}
+        }
+    }
+    bail!("the robot file has no cable \"{name}\"{}", suggestion(name, &names))
+}
+
+fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assignment) -> Result<()> {
+    let mut value = assignment.value.clone();
+    if in_lines {
+        // An error shows the line, and so where it comes from.
+        let origin: String = assignment.text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        *value.decor_mut() = Decor::new(" ", format!(" # set: {origin}"));
+    }
+    match table.get_mut(key) {
+        Some(item @ (Item::Table(_) | Item::ArrayOfTables(_))) => {
+            let keys: Vec<String> = match item.as_table_like() {
+                Some(inner) => inner.iter().map(|(name, _)| name.to_owned()).collect(),
+                None => Vec::new(),
+            };
+            bail!("it names a table; set one of its values{}", listed(&keys))
+        }
+        Some(item) => *item = Item::Value(value),
+        // A key that the reader does not know is refused there, with the nearest that it knows.
+        None => drop(table.insert(key, Item::Value(value))),
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "name = \"r\"\n[platform]\nmass_kg = 1 # light\n[[cables]]\nname = \"a.b\"\nx = 1\n";
+
+    fn set(text: &str) -> Result<String> {
+        apply(FILE, &[assignment(text).map_err(EditError)?])
+    }
+
+    #[test]
+    fn a_changed_value_says_where_it_comes_from() {
+        let changed = set("platform.mass_kg=20").unwrap();
+        assert!(changed.contains("mass_kg = 20 # set: platform.mass_kg=20\n"), "{changed}");
+    }
+
+    #[test]
+    fn cables_are_found_by_name_quoted_where_needed() {
+        assert!(set("cables.\"a.b\".x=[1, 2]").unwrap().contains("x = [1, 2] # set:"));
+        let error = set("cables.a.x=1").unwrap_err().to_string();
+        assert!(error.contains("no cable \"a\"") && error.contains("a.b"), "{error}");
+    }
+
+    #[test]
+    fn inline_cables_are_found_too() {
+        let text = "cables = [{ name = \"1\", x = 1 }]";
+        let changed = apply(text, &[assignment("cables.1.x=-2").unwrap()]).unwrap();
+        assert_eq!(changed.trim_end(), "cables = [{ name = \"1\", x =-2 }]".replace("=-", "= -"));
+    }
+
+    #[test]
+    fn a_bare_word_is_text_and_a_new_key_is_left_to_the_reader() {
+        assert!(set("platform.freedoms=point-mass").unwrap().contains("freedoms = \"point-mass\""));
+    }
+
+    #[test]
+    fn what_cannot_be_set_is_refused() {
+        for (text, reason) in [
+            ("platform", "no `=`"),
+            ("platform.=1", "not a path"),
+            ("platform.mass_kg=", "not a TOML value"),
+            ("platform.mass_kg=[1", "not a TOML value"),
+            ("platfrom.mass_kg=1", "did you mean `platform`"),
+            ("platform=1", "names a table"),
+            ("cables=1", "names a table"),
+            ("cables.x=1", "as in cables.1.anchor_m"),
+            ("name.x=1", "is a value"),
+        ] {
+            let error = set(text).unwrap_err().to_string();
+            assert!(error.contains(reason), "{text}: {error}");
+        }
+    }
+}

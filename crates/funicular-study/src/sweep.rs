@@ -1,0 +1,281 @@
+//! Maps and sweeps: a request made ready to run, what its file says of itself, and rows for a page.
+//!
+//! The rows are computed by [`funicular::sweep::Plan`], which a front end runs with its own threads and keeps in its own
+//! files.
+
+mod digest;
+mod record;
+mod robot_values;
+
+pub use record::{Difference, Part, Record, SCHEMA, kind_name};
+pub use robot_values::{RobotValues, ValueAxis};
+
+use crate::at_rest::{self, refuse_no_state};
+use crate::names::TensionRuleName;
+use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest};
+use crate::values::positive;
+use anyhow::{Context as _, Result, anyhow, bail};
+use funicular::math::rotation;
+use funicular::robot::{Freedoms, Pose, Robot, State};
+use funicular::statics;
+use funicular::sweep::{AXES, Chunk, Options, Plan, Points, Poses, Quantity, Steps, SweepError};
+use serde_json::{Map, Value, json};
+
+/// A map or sweep that is ready to run.
+pub struct PreparedSweep {
+    /// The request with its open choices made: the same rows, and the same words in their file, whoever asked.
+    request: Request,
+    /// One of the robots.
+    robot: Robot,
+    /// Text of the robot file, with its changes.
+    robot_file: String,
+    points: Box<dyn Points + Send>,
+    /// Orientation at which axes of a grid stay that it does not have, every digit kept.
+    base: Option<Pose>,
+    quantities: Vec<Quantity>,
+    options: Options,
+}
+
+impl PreparedSweep {
+    /// Prepares a request of `map` or `sweep`.
+    ///
+    /// # Errors
+    /// A request of another command, or one that contradicts itself or the robot.
+    pub fn new(request: &Request) -> Result<Self> {
+        match request {
+            Request::Map(map) => Self::of_map(map),
+            Request::Sweep(sweep) => Self::of_sweep(sweep),
+            other => bail!("`{}` is no map and no sweep", other.command()),
+        }
+    }
+
+    fn of_map(request: &MapRequest) -> Result<Self> {
+        let file = request.robot.read()?;
+        let robot = adjusted(file.robot, &request.point)?;
+        let mut request = request.clone();
+
+        // The poses: a list, or a grid around the pose of the state.
+        let mut base = None;
+        let points = match &request.poses {
+            Some(_) if !request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫, not both"),
+            Some(_) if request.point.state.pose.is_some() || request.point.state.lengths_m.is_some() => {
+                bail!("⟪poses⟫ says where the robot is: leave out ⟪pose⟫ and ⟪lengths_m⟫")
+            }
+            Some(poses) => {
+                check_poses(poses, &robot)?;
+                Poses::list(robot.clone(), poses.clone())
+            }
+            None if request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫: a map needs poses"),
+            None => {
+                let axes = steps_of(&request.grid, "grid")?;
+                base = self::base(&robot, &request)?;
+                Poses::grid(robot.clone(), &axes, base.as_ref())?
+            }
+        };
+        if let Some(axes) = points.axes() {
+            request.grid = AXES.iter().zip(axes).map(|(name, steps)| Axis::new((*name).to_owned(), steps)).collect();
+        }
+
+        let (quantities, options) = resolve(&robot, &mut request.point)?;
+        let (request, points) = (Request::Map(request), Box::new(points));
+        Ok(Self { request, robot, robot_file: file.text, points, base, quantities, options })
+    }
+
+    fn of_sweep(request: &SweepRequest) -> Result<Self> {
+        let text = request.robot.changed_text()?;
+        let mut request = request.clone();
+        if request.vary.is_empty() {
+            bail!("give ⟪vary⟫: a sweep needs a value that varies");
+        }
+        let axes = steps_of(&request.vary, "vary")?
+            .into_iter()
+            .map(|(path, steps)| ValueAxis::new(&path, steps))
+            .collect::<Result<Vec<_>, String>>()
+            .map_err(|reason| anyhow!("⟪vary⟫: {reason}"))?;
+        let point = request.point.clone();
+        let adjust = Box::new(move |robot| adjusted(robot, &point).map_err(|error| format!("{error:#}")));
+        let points = RobotValues::new(text.clone(), axes, adjust).map_err(|reason| anyhow!("{reason}"))?;
+        let robot = points.first().map_err(|reason| anyhow!("{reason}"))?;
+        refuse_no_state(&robot)?;
+
+        let (quantities, options) = resolve(&robot, &mut request.point)?;
+        let (request, points) = (Request::Sweep(request), Box::new(points));
+        Ok(Self { request, robot, robot_file: text, points, base: None, quantities, options })
+    }
+
+    /// The sweep of a file again, from what the file says of itself.
+    ///
+    /// # Errors
+    /// A plan that this version does not know in full.
+    pub fn of_record(record: &Record) -> Result<Self> {
+        let mut plan = record.plan.clone();
+        let robot = RobotText { name: String::new(), text: record.robot_file.clone(), set: Vec::new() };
+        plan.insert("robot".to_owned(), serde_json::to_value(robot)?);
+        plan.remove("orientation_wxyz");
+        let prepared = Self::new(&Request::from_value(Value::Object(plan)).map_err(|error| anyhow!("{error}"))?)?;
+
+        // The proof that nothing was left out.
+        if prepared.description() != record.plan {
+            bail!("its plan is not one of this program");
+        }
+        Ok(prepared)
+    }
+
+    /// The request with its open choices made.
+    pub fn request(&self) -> &Request {
+        &self.request
+    }
+
+    /// One of the robots.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// The points.
+    pub fn points(&self) -> &dyn Points {
+        self.points.as_ref()
+    }
+
+    /// The options of every point.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// The rows to compute.
+    ///
+    /// # Errors
+    /// [`SweepError`]: quantities that the robot or the models do not have, or too many points.
+    pub fn plan(&self) -> Result<Plan<'_>, SweepError> {
+        Plan::new(self.points.as_ref(), &self.robot, &self.quantities, &self.options)
+    }
+
+    /// What a file of these rows says of itself.
+    pub fn record(&self, plan: &Plan, part: Option<Part>) -> Record {
+        Record {
+            robot_file: self.robot_file.clone(),
+            plan: self.description(),
+            columns: plan.columns().to_vec(),
+            rows: plan.rows(),
+            chunk_rows: plan.chunk_rows(),
+            part,
+        }
+    }
+
+    /// The request as the file keeps it: the robot by its name, since its text stands elsewhere, and a list of poses by
+    /// its digest.
+    fn description(&self) -> Map<String, Value> {
+        let Value::Object(mut keys) = self.request.to_value() else { return Map::new() };
+        keys.remove("schema");
+        keys.insert("robot".to_owned(), json!(self.robot.name));
+        if let Request::Map(MapRequest { poses, .. }) = &self.request {
+            if let Some(poses) = poses {
+                keys.remove("grid");
+                let description = json!({ "count": poses.len(), "sha256": digest::of_poses(poses) });
+                keys.insert("poses".to_owned(), description);
+            }
+            if let Some(base) = &self.base {
+                keys.insert("orientation_wxyz".to_owned(), json!(rotation::quaternion_wxyz(&base.rot_wp)));
+            }
+        }
+        keys
+    }
+}
+
+/// Rows of a map or sweep, wherever they are kept, on their way into a page.
+pub trait SweepRows {
+    /// What the rows say of themselves.
+    fn record(&self) -> &Record;
+
+    /// Number of rows.
+    fn rows(&self) -> usize;
+
+    /// Place of the first row among those of all parts.
+    fn first_row(&self) -> usize;
+
+    /// Whether all rows are there.
+    fn is_complete(&self) -> bool;
+
+    /// Hands out the rows in chunks, in order.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    fn each(&self, take: &mut dyn FnMut(&Chunk)) -> Result<()>;
+}
+
+/// Axes of a plan that a file holds: those of a grid of poses, or values of the robot file.
+pub fn axes_of(plan: &Map<String, Value>) -> Option<Vec<Axis>> {
+    let axes = plan.get("grid").or_else(|| plan.get("vary"))?;
+    serde_json::from_value(axes.clone()).ok()
+}
+
+/// The robot of a point with what the request sets.
+fn adjusted(robot: Robot, point: &EachPoint) -> Result<Robot> {
+    at_rest::with_limits(&at_rest::with_state(robot, &point.state)?, &point.tensions)
+}
+
+/// Quantities and options of every point; the open choices of the request are made in it, too.
+fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Options)> {
+    positive(point.up_to_hz).map_err(|reason| anyhow!("⟪up_to_hz⟫: {reason}"))?;
+    let quantities = (point.quantities.iter())
+        .map(|name| name.parse().map_err(|error| anyhow!("⟪quantities⟫ {name}: {error}")))
+        .collect::<Result<Vec<Quantity>>>()?;
+    point.quantities = quantities.iter().map(Quantity::name).collect();
+
+    let rule = at_rest::rule(&point.tensions)?;
+    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    if rule.is_some() && cables <= freedoms {
+        bail!(
+            "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
+             pose; leave out ⟪tension_rule⟫ and ⟪wanted_tension_n⟫"
+        );
+    }
+    let tension_rule = rule.unwrap_or_default();
+    if cables > freedoms {
+        point.tensions.tension_rule = Some(TensionRuleName::from(&tension_rule));
+    }
+
+    let static_model = point.state.static_model;
+    let linearisation = at_rest::linearisation(&point.model, static_model);
+    point.model.cable_model = Some(linearisation.cable_model);
+    Ok((quantities, Options { static_model, tension_rule, linearisation, highest_hz: point.up_to_hz }))
+}
+
+/// Names and values of axes.
+fn steps_of(axes: &[Axis], key: &str) -> Result<Vec<(String, Steps)>> {
+    axes.iter()
+        .map(|axis| {
+            let steps = axis.steps().map_err(|reason| anyhow!("⟪{key}⟫ {}: {reason}", axis.name()))?;
+            Ok((axis.name().to_owned(), steps))
+        })
+        .collect()
+}
+
+/// The pose at which the axes stay that the grid does not have: that of the request, or of the robot's state.
+fn base(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
+    Ok(match &robot.state {
+        State::Pose(pose) => Some(*pose),
+        State::Unknown => None,
+        State::Lengths(lengths) => {
+            let rest = statics::forward(robot, lengths, request.point.state.static_model, None).context(
+                "axes that the grid does not have are those of the robot's state, which gives none; give ⟪pose⟫",
+            )?;
+            Some(rest.pose)
+        }
+    })
+}
+
+/// Refuses poses that the platform cannot have.
+fn check_poses(poses: &[[f64; 6]], robot: &Robot) -> Result<()> {
+    if poses.is_empty() {
+        bail!("⟪poses⟫ has no poses: give at least one");
+    }
+    for (i, pose) in poses.iter().enumerate() {
+        for value in pose {
+            crate::values::finite(*value).map_err(|reason| anyhow!("⟪poses⟫, pose {}: {reason}", i + 1))?;
+        }
+        if robot.platform.freedoms == Freedoms::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
+            bail!("⟪poses⟫, pose {}: a point mass has no orientation; leave out the angles", i + 1);
+        }
+    }
+    Ok(())
+}

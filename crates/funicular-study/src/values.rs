@@ -1,0 +1,44 @@
+//! Ranges of numbers in requests: the rule for each kind of value, once for all front ends.
+
+use funicular::ports;
+
+/// Smallest quantity that has to be positive, as in robot files.
+pub const MIN_POSITIVE: f64 = 1e-12;
+
+/// Largest magnitude of any number, as in robot files: no product of the analyses overflows within it.
+pub const MAX_MAGNITUDE: f64 = 1e12;
+
+/// Checks that a number is finite and of at most [`MAX_MAGNITUDE`].
+///
+/// # Errors
+/// What is wrong with the value.
+pub fn finite(value: f64) -> Result<f64, String> {
+    if value.abs() <= MAX_MAGNITUDE {
+        return Ok(value);
+    }
+    // The reader of texts says what is wrong; a number prints as a text that it reads as that number.
+    ports::number(&format!("{value:?}")).map_err(|error| error.to_string())
+}
+
+/// Checks that a number is at least [`MIN_POSITIVE`].
+///
+/// # Errors
+/// What is wrong with the value.
+pub fn positive(value: f64) -> Result<f64, String> {
+    match finite(value)? {
+        value if value >= MIN_POSITIVE => Ok(value),
+        value if value > 0.0 => Err(format!("{value:e} is too small, it must be at least {MIN_POSITIVE:e}")),
+        value => Err(format!("{value} is not positive")),
+    }
+}
+
+/// Checks that a number is zero or more.
+///
+/// # Errors
+/// What is wrong with the value.
+pub fn not_negative(value: f64) -> Result<f64, String> {
+    match finite(value)? {
+        value if value >= 0.0 => Ok(value),
+        value => Err(format!("{value} is negative")),
+    }
+}

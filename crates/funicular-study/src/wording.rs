@@ -1,0 +1,57 @@
+//! Names of options in messages: one text, and each front end's way to write the option.
+//!
+//! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program shows
+//! `--min-tension-n`, Python and JSON show `min_tension_n`.
+
+/// Front ends by how they write the name of an option.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Words {
+    /// Command line: `--mass-kg`.
+    Program,
+    /// Keyword of Python: `` `mass_kg` ``.
+    Python,
+    /// Key of a request in JSON: `` `mass_kg` ``.
+    Json,
+}
+
+/// Keys whose option on the command line has another name.
+const PROGRAM_NAMES: [(&str, &str); 2] = [("robot", "ROBOT"), ("files", "FILE")];
+
+/// Keys that Python writes otherwise: switches with their value, a method, a shorter keyword.
+const PYTHON_NAMES: [(&str, &str); 4] =
+    [("resume", "resume=True"), ("discard", "discard=True"), ("set", "with_"), ("output_file", "file")];
+
+/// A text with the names of options as a front end writes them.
+///
+/// # Example
+/// ```
+/// use funicular_study::wording::{Words, worded};
+///
+/// let text = "a point mass has no orientation: give ⟪pose⟫ as x,y,z";
+/// assert_eq!(worded(text, Words::Program), "a point mass has no orientation: give --pose as x,y,z");
+/// assert_eq!(worded(text, Words::Python), "a point mass has no orientation: give `pose` as x,y,z");
+/// ```
+pub fn worded(text: &str, words: Words) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, from_key)) = rest.split_once('⟪') {
+        let Some((key, after)) = from_key.split_once('⟫') else { break };
+        out.push_str(before);
+        out.push_str(&option(key, words));
+        rest = after;
+    }
+    out + rest
+}
+
+/// The name of one option as a front end writes it.
+pub fn option(key: &str, words: Words) -> String {
+    let own_name = |names: &[(&str, &'static str)]| names.iter().find(|(name, _)| *name == key).map(|(_, own)| *own);
+    match words {
+        Words::Program => match own_name(&PROGRAM_NAMES) {
+            Some(name) => name.to_owned(),
+            None => format!("--{}", key.replace('_', "-")),
+        },
+        Words::Python => format!("`{}`", own_name(&PYTHON_NAMES).unwrap_or(key)),
+        Words::Json => format!("`{key}`"),
+    }
+}

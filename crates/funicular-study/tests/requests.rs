@@ -1,0 +1,165 @@
+//! Requests as JSON: what is written is read as the same request, whatever the command and the keys.
+
+use funicular_study::Request;
+use funicular_study::request::KEYS;
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+/// Robot file with changes of every kind of value.
+fn robot() -> Value {
+    json!({
+        "name": "robots/cogiro.toml",
+        "text": "name = \"é \\\"quoted\\\"\"\n",
+        "set": [
+            {"path": "platform.mass_kg", "value": 300},
+            {"path": "cables.\"a.b\".anchor_m", "value": [0.1, -2.0, 1e-7]},
+            {"path": "platform.freedoms", "value": "point-mass"},
+        ],
+    })
+}
+
+/// Objects with the keys of all parts given.
+fn joined(parts: &[&Value]) -> Value {
+    let keys = parts.iter().filter_map(|part| part.as_object()).flatten();
+    Value::Object(keys.map(|(key, value)| (key.clone(), value.clone())).collect())
+}
+
+/// Requests of every command, each with every key that it has.
+fn requests() -> Vec<Value> {
+    let robot = json!({ "robot": robot() });
+    let loads = json!({
+        "mass_kg": 0.1, "static_model": "spring", "force_n": [1.0, -0.0, 1e-300], "moment_n_m": [0.1, 0.2, 0.3],
+        "load_point_m": [0.0, 0.0, 0.1], "wind_m_s": [5.0, 0.0, 0.0], "cable_load_n_per_m": [0.0, 0.0, -0.1],
+    });
+    let state = joined(&[&loads, &json!({ "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 1.0 / 3.0] })]);
+    let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8] })]);
+    let turned = json!({ "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] } });
+    let tensions = json!({
+        "tension_rule": "closest", "wanted_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
+    });
+    let model = json!({ "cable_model": "static-sag", "assembly": "paper", "in_plane_only": true });
+    let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
+    let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
+    let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
+    let point =
+        joined(&[&state, &tensions, &model, &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 })]);
+    let files = json!({ "files": [{ "path": "a.xml", "text": "<a/>", "guessed_encoding": "windows-1252" }] });
+    let ropes = json!({
+        "mass_kg_per_m": 0.05, "axial_stiffness_n": 1e6, "youngs_modulus_pa": 1e11, "diameter_m": 0.005,
+        "inertia_kg_m2": [1.0, 1.0, 1.0, 0.0, 0.0, 0.1], "center_of_mass_m": [0.0, 0.0, 0.1], "mass_kg": 7.0,
+        "cable_set": "springs", "pose": [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+    });
+    let grid =
+        json!([{ "axis": "x", "from": -6.0, "to": 6.0, "count": 25 }, { "axis": "z", "values": [0.5, 1.0, 0.1] }]);
+    let of = |command: &str, parts: &[&Value]| joined(&[&[&json!({ "command": command })], parts].concat());
+    vec![
+        of("check", &[&robot]),
+        of("statics", &[&robot, &state, &tensions, &json!({ "all": false })]),
+        of("statics", &[&robot, &lengths, &json!({ "all": true })]),
+        of("statics", &[&robot, &loads, &turned, &json!({ "all": false })]),
+        of("stiffness", &[&robot, &state, &model, &json!({ "at_hz": 3.5 })]),
+        of(
+            "modes",
+            &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0, "stations": 21, "damped": false })],
+        ),
+        of("frf", &[&robot, &state, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0 })]),
+        of("compare", &[&robot, &state, &json!({ "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false })]),
+        of(
+            "pose-error",
+            &[&robot, &json!({ "mass_kg": [10.55, 86.35, 100], "lengths_m": [6.9, 6.6], "tolerance_mm": 5.0 })],
+        ),
+        of(
+            "cable",
+            &[&robot, &lengths, &range, &json!({ "name": "3", "cable_model": "exact", "in_plane_only": true })],
+        ),
+        of(
+            "reduce",
+            &[
+                &robot,
+                &state,
+                &model,
+                &points,
+                &json!({ "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "tolerance": 1e-3, "damping_at_hz": 1.0 }),
+            ],
+        ),
+        of("map", &[&robot, &point, &json!({ "grid": grid })]),
+        of("map", &[&robot, &point, &json!({ "grid": [], "poses": [[0.1, 0.2, 0.3, 1.0, 2.0, 3.0]] })]),
+        of("sweep", &[&robot, &point, &json!({ "vary": grid })]),
+        of("merge", &[&json!({ "parts": ["1.parquet", "2.parquet"] })]),
+        of("plot", &[&json!({ "file": "map.parquet" })]),
+        of("report", &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0 })]),
+        of("paper", &[]),
+        of("import", &[&files, &ropes]),
+        of("export", &[&robot, &state, &tensions, &json!({ "to": "vtk", "segments": 5, "modes_below_hz": 10.0 })]),
+        of("validate", &[]),
+    ]
+}
+
+#[test]
+fn a_request_that_is_written_is_read_as_it_was() {
+    for value in requests() {
+        let request = Request::from_value(value.clone()).unwrap_or_else(|error| panic!("{value}: {error}"));
+        let written = request.to_value();
+        assert_eq!(written["schema"], "funicular-request/1");
+        // Nothing is lost, added or changed, but for the schema.
+        let mut keys = written.clone();
+        keys.as_object_mut().unwrap().remove("schema");
+        assert_eq!(keys, value);
+        assert_eq!(Request::from_json(&written.to_string()).unwrap(), request);
+        assert_eq!(Request::from_json(&serde_json::to_string_pretty(&written).unwrap()).unwrap(), request);
+    }
+}
+
+#[test]
+fn every_command_and_every_key_is_in_a_request_here() {
+    let requests = requests();
+    let used: BTreeSet<&String> = requests.iter().filter_map(Value::as_object).flat_map(|keys| keys.keys()).collect();
+    let known: BTreeSet<String> = KEYS.iter().map(|(key, _)| (*key).to_owned()).collect();
+    assert_eq!(used, known.iter().collect());
+}
+
+#[test]
+fn defaults_of_a_request_are_written_and_read_as_they_are() {
+    for value in requests() {
+        // What is not required is left out, key by key, as long as the request is one.
+        let Value::Object(mut keys) = value else { panic!("an object") };
+        for key in keys.keys().cloned().collect::<Vec<_>>() {
+            let mut fewer = keys.clone();
+            fewer.remove(&key);
+            if Request::from_value(Value::Object(fewer.clone())).is_ok() {
+                keys = fewer;
+            }
+        }
+        let request = Request::from_value(Value::Object(keys)).unwrap();
+        let written = request.to_value();
+        assert_eq!(Request::from_value(written.clone()).unwrap(), request);
+        assert_eq!(Request::from_value(written.clone()).unwrap().to_value(), written);
+    }
+}
+
+#[test]
+fn every_digit_of_a_number_survives() {
+    let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+    for _ in 0..2000 {
+        // A linear congruential generator: any numbers will do.
+        bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let number = f64::from_bits(bits);
+        if !number.is_finite() {
+            continue;
+        }
+        let value = json!({ "command": "stiffness", "robot": { "text": "" }, "at_hz": number });
+        let text = Request::from_value(value).unwrap().to_value().to_string();
+        let Request::Stiffness(again) = Request::from_json(&text).unwrap() else { panic!("a stiffness") };
+        assert_eq!(again.at_hz.to_bits(), number.to_bits(), "{text}");
+    }
+}
+
+#[test]
+fn a_key_that_a_command_does_not_have_is_refused_in_every_command() {
+    for value in requests() {
+        let Value::Object(mut keys) = value else { panic!("an object") };
+        keys.insert("poze".to_owned(), json!(1));
+        let error = Request::from_value(Value::Object(keys)).unwrap_err().to_string();
+        assert!(error.contains("has no key `poze`; did you mean `pose`?"), "{error}");
+    }
+}

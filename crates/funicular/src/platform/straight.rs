@@ -1,0 +1,29 @@
+//! The straight line of a cable at a pose.
+
+use super::coordinates::Coordinates;
+use crate::math::{Vec3, Vec6};
+use crate::robot::{Cable, Pose};
+
+/// Straight line from the platform to the anchor, with its lever arm, world axes [m].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StraightCable {
+    /// Lever arm from the platform origin to the attachment.
+    pub(crate) lever_w: Vec3,
+    /// Attachment to anchor. From the lever arm, so that it is rounded otherwise than [`Cable::chord_w`].
+    pub(crate) chord_w: Vec3,
+}
+
+impl StraightCable {
+    /// Line of a cable at a pose.
+    #[inline]
+    pub(crate) fn at(cable: &Cable, pose: &Pose) -> Self {
+        let lever_w = pose.rot_wp * cable.attachment_p;
+        Self { lever_w, chord_w: cable.anchor_w - pose.position_w - lever_w }
+    }
+
+    /// Reduced wrench of a tension of one; the ends must not coincide.
+    #[inline]
+    pub(crate) fn unit_wrench(&self, coordinates: &Coordinates) -> Vec6 {
+        coordinates.reduce_force(&self.chord_w.normalize(), &self.lever_w)
+    }
+}

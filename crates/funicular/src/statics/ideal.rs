@@ -1,0 +1,133 @@
+//! Ideal cables: straight, massless and rigid in length.
+
+use super::equilibrium::{CableState, Equilibrium, RESIDUAL_LIMIT, Stability};
+use super::error::StaticsError;
+use super::model::StaticModel;
+use super::residual::residual_of;
+use crate::math::{Mat6, Vec3, Vec6};
+use crate::platform::{Coordinates, StraightCable, load_wrench};
+use crate::robot::{Pose, Robot};
+
+/// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
+pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, StaticsError> {
+    let coordinates = Coordinates::of(robot);
+    let mut pose = start;
+    let mut iterations = 0;
+    let gap_of = |pose: &Pose| {
+        robot
+            .cables
+            .iter()
+            .zip(lengths)
+            .fold(0.0_f64, |worst, (cable, length)| worst.max((cable.chord_w(pose).norm() - length).abs()))
+    };
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let mut gap = gap_of(&pose);
+    while gap > 1e-14 * longest && iterations < 100 {
+        iterations += 1;
+        let columns = unit_wrenches(robot, &pose, &coordinates);
+        let rows = columns.transpose();
+        let gaps = Vec6::from_fn(|i, _| match (robot.cables.get(i), lengths.get(i)) {
+            (Some(cable), Some(length)) => cable.chord_w(&pose).norm() - length,
+            _ => 0.0,
+        });
+        let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
+        let step = coordinates.expand(&step);
+        // Halve the step until the gap falls.
+        let mut part = 1.0;
+        let next = loop {
+            let translation = Vec3::new(step[0], step[1], step[2]) * part;
+            let turn = Vec3::new(step[3], step[4], step[5]) * (part / coordinates.ell());
+            let next = pose.moved(&translation, &turn);
+            if gap_of(&next) < gap {
+                break Some(next);
+            }
+            part *= 0.5;
+            if part < 1e-6 {
+                break None;
+            }
+        };
+        let Some(next) = next else { break };
+        pose = next;
+        gap = gap_of(&pose);
+    }
+    if gap > 1e-10 * longest {
+        let p = pose.position_w;
+        let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
+        return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
+    }
+    let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
+    if let Some((i, tension)) = pushing(&tensions) {
+        let (cable, p) = (robot.cables[i].name.clone(), pose.position_w);
+        return Err(StaticsError::LengthsPush { cable, tension, x: p.x, y: p.y, z: p.z });
+    }
+    Ok(collect(robot, pose, &tensions, iterations))
+}
+
+/// Part of the largest tension that is rounding of the balance: of a cable with a tension of zero it has the wrong sign
+/// as often as not. The condition of the balance, which is up to 1e10, may take more; then the pose is nearly singular.
+const ZERO_TENSION: f64 = 1e-12;
+
+/// The straight cable that would have to push hardest, and its tension [N], if there is one.
+pub(super) fn pushing(tensions: &[f64]) -> Option<(usize, f64)> {
+    let largest = tensions.iter().fold(0.0, |most: f64, tension| most.max(tension.abs()));
+    let least = tensions.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+    least.filter(|(_, tension)| *tension < -ZERO_TENSION * largest)
+}
+
+/// Unit tension wrenches (e, r × e/ℓ) of straight cables in the platform's coordinates as columns; the identity beyond
+/// them.
+fn unit_wrenches(robot: &Robot, pose: &Pose, coordinates: &Coordinates) -> Mat6 {
+    let mut columns = Mat6::identity();
+    for (i, cable) in robot.cables.iter().enumerate().take(6) {
+        columns.set_column(i, &StraightCable::at(cable, pose).unit_wrench(coordinates));
+    }
+    columns
+}
+
+/// Tensions of straight cables, as many as freedoms, that balance a wrench about the platform origin.
+pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Result<Vec<f64>, StaticsError> {
+    for cable in &robot.cables {
+        if cable.chord_w(pose).norm() == 0.0 {
+            return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
+        }
+    }
+    let coordinates = Coordinates::of(robot);
+    let right = -coordinates.reduce(load);
+    let columns = unit_wrenches(robot, pose, &coordinates);
+    let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
+    // Frobenius' norms bound the condition from above, and cost a tenth of the singular values.
+    let bound = columns.norm() * inverse.norm();
+    if bound.is_nan() || bound > 1e9 {
+        let singular = columns.svd(false, false).singular_values;
+        if singular.min() < 1e-10 * singular.max() {
+            return Err(StaticsError::Singular);
+        }
+    }
+    let tensions = columns.lu().solve(&right).ok_or(StaticsError::Singular)?;
+    Ok(tensions.iter().copied().take(robot.cables.len()).collect())
+}
+
+/// The equilibrium of ideal cables.
+pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: usize) -> Equilibrium {
+    let cables: Vec<CableState> = robot
+        .cables
+        .iter()
+        .zip(tensions)
+        .map(|(cable, &tension)| {
+            let attachment_w = pose.point_w(&cable.attachment_p);
+            let chord = cable.chord_w(&pose);
+            CableState {
+                attachment_w,
+                lever_w: attachment_w - pose.position_w,
+                anchor_w: cable.anchor_w,
+                unstrained_length: chord.norm(),
+                force_on_platform_w: chord.normalize() * tension,
+                tension_platform: tension,
+                tension_anchor: tension,
+                hanging: None,
+            }
+        })
+        .collect();
+    let residual = residual_of(robot, &pose, &cables);
+    Equilibrium { pose, model: StaticModel::Ideal, cables, residual, iterations, stability: Stability::Rigid }
+}

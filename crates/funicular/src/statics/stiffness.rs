@@ -1,0 +1,50 @@
+//! Static stiffness of the platform at an equilibrium, and what its eigenvalues say of stability.
+
+use super::equilibrium::{Equilibrium, Stability};
+use crate::math::{Mat3, Mat6, Vec3, inertia};
+use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
+use crate::robot::{Pose, Robot};
+
+/// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
+/// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
+///
+/// Every load keeps its direction: in wind this is the stiffness under the drag of the equilibrium, held. The stiffness with
+/// a drag that turns with the cables is [`tangent_with_drag`].
+///
+/// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. Of a moment
+/// the antisymmetric half is left out: such a moment has no energy.
+///
+/// # References
+/// docs/theory.md, equation (14).
+pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    let parts: Option<Vec<_>> = equilibrium
+        .cables
+        .iter()
+        .map(|cable| Some((cable.tangent_w()?, cable.force_on_platform_w, cable.lever_w)))
+        .collect();
+    let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
+    Some(Coordinates::of(robot).allowed_matrix(&whole))
+}
+
+/// Stiffness of cables (3×3, force on the platform, lever arm) and of weight and load at a pose.
+pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
+    let mut total = Mat6::zeros();
+    for (stiffness, force, lever) in cables {
+        add_congruent(&mut total, &stiffness, &lever);
+        add_lever_term(&mut total, &force, &lever);
+    }
+    add_load_terms(&mut total, robot, pose);
+    total
+}
+
+pub(super) fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
+    let coordinates = Coordinates::of(robot);
+    let values = inertia::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());
+    // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
+    let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let directions = values.iter().filter(|v| **v <= zero).count();
+    match directions {
+        0 => Stability::Stable { least_stiffness: values[0] },
+        _ => Stability::Unstable { least_stiffness: if values[0] < -zero { values[0] } else { 0.0 }, directions },
+    }
+}

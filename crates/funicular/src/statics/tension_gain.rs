@@ -1,0 +1,43 @@
+//! Nearness to a singular pose: how much tension a load may take.
+
+use super::equilibrium::Equilibrium;
+use crate::math::{Mat6, inertia};
+use crate::platform::Coordinates;
+use crate::robot::Robot;
+
+/// How much tension a load may take at most: the least norm of the tensions [N] that balance the worst wrench of size one
+/// (a force of 1 N, a moment of ℓ N m, or both in part), 1 over the least singular value of the scaled unit wrenches. The
+/// nearer to a singular pose, the larger.
+///
+/// Slack cables balance nothing. `None` where the others are fewer than the freedoms, infinite at a singular pose.
+pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
+    let n = robot.platform.freedoms.count();
+    let (values, _) = inertia::eigen(&wrench_gram(robot, equilibrium)?, n);
+    // Squares below the rounding of their sum are none.
+    let least = if values[0] > 1e-14 * values[n - 1] { values[0] } else { 0.0 };
+    Some(1.0 / least.sqrt())
+}
+
+/// Whether [`tension_gain`] is above a limit; in a fraction of its time.
+pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, limit: f64) -> bool {
+    let Some(mut gram) = wrench_gram(robot, equilibrium) else { return false };
+    let n = robot.platform.freedoms.count();
+    for k in 0..6 {
+        gram[(k, k)] += if k < n { -1.0 / (limit * limit) } else { 1.0 };
+    }
+    gram.cholesky().is_none()
+}
+
+/// Sum of the squares of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None`
+/// where they are fewer than the freedoms.
+fn wrench_gram(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    let coordinates = Coordinates::of(robot);
+    let (mut gram, mut pulling) = (Mat6::zeros(), 0);
+    for cable in equilibrium.cables.iter().filter(|cable| !cable.is_slack()) {
+        let force = cable.force_on_platform_w.try_normalize(0.0).unwrap_or_else(|| cable.chord_w().normalize());
+        let unit = coordinates.reduce_force(&force, &cable.lever_w);
+        gram += unit * unit.transpose();
+        pulling += 1;
+    }
+    (pulling >= coordinates.count()).then_some(gram)
+}
