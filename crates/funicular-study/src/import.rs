@@ -1,4 +1,4 @@
-//! Files of other programs, read into a [`Draft`](draft::Draft) of a robot file.
+//! Files of other programs, read into a `Draft` of a robot file.
 //!
 //! A reader takes over facts and leaves the rest: it makes nothing up, says at which line a file is wrong, and lists
 //! what a robot file cannot hold. docs/import.md has the meaning of every element that is read.

@@ -1,6 +1,6 @@
 //! Pages in HTML that open offline: one file with its figures, its numbers and the library that draws them.
 //!
-//! A page is a template of prose ([`report`], [`paper`], [`plot`]) into which [`figure::Figure`]s and [`table::Table`]s are set.
+//! A page is a template of prose ([`report`], [`paper`], [`plot`]) into which figures and tables are set.
 //! Nothing on it depends on the time, on chance or on the network: two runs write the same bytes.
 
 pub(crate) mod figure;
