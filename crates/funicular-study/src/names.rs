@@ -3,10 +3,8 @@
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::statics::{StaticModel, TensionRule};
+use funicular::suggest::nearest;
 use serde::{Deserialize, Deserializer, Serializer};
-
-/// Likeness (Jaro-Winkler) from which a known name is suggested; typing errors of one or two letters are above it.
-const ALIKE: f64 = 0.8;
 
 /// A closed set of choices, each with a name.
 pub trait Named: Copy + PartialEq + Sized + 'static {
@@ -34,13 +32,8 @@ pub trait Named: Copy + PartialEq + Sized + 'static {
 
 /// `; did you mean …` for a near name, else `; there are …` with the first names there are.
 pub fn suggestion(word: &str, names: &[String]) -> String {
-    let nearest = names
-        .iter()
-        .map(|name| (strsim::jaro_winkler(word, name), name))
-        .filter(|(likeness, _)| *likeness >= ALIKE)
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    match nearest {
-        Some((_, name)) => format!("; did you mean `{name}`?"),
+    match nearest(word, names.iter().map(String::as_str)) {
+        Some(name) => format!("; did you mean `{name}`?"),
         None => listed(names),
     }
 }

@@ -60,6 +60,7 @@ pub mod reduction;
 pub mod response;
 pub mod robot;
 pub mod statics;
+pub mod suggest;
 pub mod sweep;
 pub mod validity;
 

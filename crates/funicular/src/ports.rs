@@ -9,14 +9,13 @@ use crate::math::{Vec3, Vec6};
 use crate::response::{Direction, Port, Quantity};
 use crate::robot::{Freedoms, Robot};
 use crate::statics::Equilibrium;
+use crate::suggest;
 use thiserror::Error;
 
 /// Largest magnitude of a number, as in robot files: no product of the analyses overflows within it.
 const LARGEST: f64 = 1e12;
 /// Shortest direction, as the smallest positive quantity of robot files.
 const SHORTEST: f64 = 1e-12;
-/// Likeness (Jaro-Winkler) from which a known name is suggested, as in the robot file's reader.
-const ALIKE: f64 = 0.8;
 /// Part of a direction below which a planar platform cannot follow it.
 const IN_PLANE: f64 = 1e-9;
 
@@ -58,7 +57,7 @@ pub enum PortError {
     )]
     NotAnOutput,
     /// A cable that the robot does not have.
-    #[error("the robot has no cable \"{name}\"{}", suggestion(name, names))]
+    #[error("the robot has no cable \"{name}\"{}", suggest::or_list(name, "cables", names))]
     NoSuchCable {
         /// Name asked.
         name: String,
@@ -164,18 +163,6 @@ fn axis(name: &str) -> Option<Vec3> {
         "y" => Some(Vec3::y()),
         "z" => Some(Vec3::z()),
         _ => None,
-    }
-}
-
-/// `; did you mean …`, or nothing.
-fn suggestion(word: &str, names: &[String]) -> String {
-    let likeness = |name: &String| strsim::jaro_winkler(word, name);
-    let nearest = names.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    match nearest {
-        Some(name) if likeness(name) >= ALIKE => format!("; did you mean `{name}`?"),
-        _ => {
-            format!("; its cables are {}", names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))
-        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::{Column, Kind};
 use crate::cable::CableModel;
 use crate::robot::Robot;
 use crate::statics::StaticModel;
+use crate::suggest::nearest;
 use thiserror::Error;
 
 /// One thing to know about every point; read from its name on the command line. A model after a colon is one of those
@@ -88,9 +89,6 @@ pub const QUANTITIES: [(&str, &str); 17] = [
     ("energy", "potential energy of platform, load and cables"),
     ("pose", "the pose that is found"),
 ];
-
-/// Likeness (Jaro-Winkler) from which a known name is suggested, as in robot files.
-const ALIKE: f64 = 0.8;
 
 impl Quantity {
     /// By its name.
@@ -288,8 +286,8 @@ fn hint(text: &str) -> String {
         _ => {}
     }
     let names = QUANTITIES.map(|(name, _)| name);
-    let likeness = |name: &&str| strsim::jaro_winkler(head, name.split(':').next().unwrap_or(name));
-    match names.into_iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).filter(|name| likeness(name) >= ALIKE) {
+    let heads = names.map(|name| name.split(':').next().unwrap_or(name));
+    match nearest(head, heads).and_then(|near| names.into_iter().find(|name| name.split(':').next() == Some(near))) {
         Some(name) => format!("; did you mean `{name}`?"),
         None => format!("; there are {}", names.join(", ")),
     }

@@ -5,6 +5,7 @@ use crate::import::text::clean;
 use crate::import::xml::{Xml, children, tag};
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
+use funicular::suggest::nearest;
 use roxmltree::Node;
 
 /// A set of cables.
@@ -67,12 +68,8 @@ fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: 
         (Some(_), Some(second)) => bail!(xml.error(second, format!("a second set is called \"{}\"", clean(name)))),
         (None, _) if sets.is_empty() => bail!(xml.error(root, "<cables> has no <cable_set>")),
         (None, _) => {
-            let near = ids
-                .iter()
-                .map(|id| (strsim::jaro_winkler(id, name), id))
-                .filter(|(likeness, _)| *likeness > 0.8)
-                .max_by(|a, b| a.0.total_cmp(&b.0))
-                .map(|(_, id)| format!("did you mean \"{id}\"? "))
+            let near = nearest(name, ids.iter().map(String::as_str))
+                .map(|id| format!("did you mean \"{id}\"? "))
                 .unwrap_or_default();
             bail!(xml.error(
                 root,

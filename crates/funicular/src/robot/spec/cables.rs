@@ -2,9 +2,10 @@
 
 use super::limits;
 use super::materials::Materials;
-use super::read::{Key, Reader, Section, Sign, Value, is_zero, nearest, shortened};
+use super::read::{Key, Reader, Section, Sign, Value, is_zero, shortened};
 use crate::math::Vec3;
 use crate::robot::{Cable, Freedoms, Pose};
+use crate::suggest::nearest;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::DeValue;

@@ -1,8 +1,9 @@
 //! `[platform]`: mass, freedoms, and an inertia tensor that a body can have.
 
-use super::read::{Key, Reader, SMALLEST, Section, Sign, Value, is_zero, nearest, shortened};
+use super::read::{Key, Reader, SMALLEST, Section, Sign, Value, is_zero, shortened};
 use crate::math::{Mat3, Vec3, symmetric_part};
 use crate::robot::{Freedoms, Plane, Platform};
+use crate::suggest::nearest;
 use toml::de::DeValue;
 
 /// Largest difference of mirrored products of inertia, relative to the largest entry: far above rounding, far below the
@@ -92,8 +93,7 @@ fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
     let word = reader.text("freedoms", value)?;
     let known = WORDS.into_iter().find(|known| *known == word);
     if known.is_none() {
-        let suggestion =
-            nearest(&word, WORDS.into_iter()).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+        let suggestion = nearest(&word, WORDS).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
         reader.issue(value.span(), format!("`freedoms` is \"{}\", which is unknown", shortened(&word))).help(format!(
             "write \"rigid\", \"point-mass\", \"planar-xy\", \"planar-xz\", \"planar-yz\", or \"planar\" with a \
              `plane_normal`{suggestion}"

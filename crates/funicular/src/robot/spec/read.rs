@@ -1,6 +1,7 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every refusal points at the value.
 
 use super::{Issue, TABLES};
+use crate::suggest::nearest;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -9,10 +10,6 @@ use toml::de::{DeTable, DeValue};
 pub(super) const LARGEST: f64 = 1e12;
 /// Smallest quantity that has to be positive: the same, for quotients.
 pub(super) const SMALLEST: f64 = 1e-12;
-
-/// Likeness (Jaro-Winkler, 0 to 1) from which a known word is suggested: `mas` for `mass_kg` has 0.87 and is meant,
-/// `mass_kg_per_m` for `name` has 0.66 and is not.
-const ALIKE: f64 = 0.8;
 
 /// Characters of a user's text that a message repeats.
 const QUOTED: usize = 40;
@@ -286,21 +283,6 @@ fn breaks_tables(c: char) -> bool {
         || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }
 
-/// The known word nearest to `word`, if one is near; none for text that is too long for a name.
-pub(super) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&'k str> {
-    let likeness = |k: &str| strsim::jaro_winkler(&word.to_lowercase(), &k.to_lowercase());
-    known
-        .filter(|k| word.len().max(k.len()) <= 100)
-        .map(|k| (likeness(k), k))
-        .filter(|(alike, _)| *alike >= ALIKE)
-        // The first of equals, so that the answer does not depend on the order of comparison.
-        .fold(None, |best: Option<(f64, &str)>, (alike, k)| match best {
-            Some((most, _)) if most >= alike => best,
-            _ => Some((alike, k)),
-        })
-        .map(|(_, k)| k)
-}
-
 /// The user's text for a message: escaped, and cut where it is long.
 pub(super) fn shortened(text: &str) -> String {
     let mut shown: String = text.chars().take(QUOTED).flat_map(char::escape_debug).collect();
@@ -325,19 +307,6 @@ fn a_type(value: &DeValue) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_near_key_is_suggested_and_a_far_one_is_not() {
-        let keys = || super::super::platform::KEYS.iter().map(|k| k.name);
-        assert_eq!(nearest("mas", keys()), Some("mass_kg"));
-        assert_eq!(nearest("mass", keys()), Some("mass_kg"));
-        assert_eq!(nearest("Mass_kg", keys()), Some("mass_kg"));
-        assert_eq!(nearest("inertia", keys()), Some("inertia_kg_m2"));
-        assert_eq!(nearest("centre_of_mass_m", keys()), Some("center_of_mass_m"));
-        assert_eq!(nearest("", keys()), None);
-        assert_eq!(nearest("colour", keys()), None);
-        assert!(strsim::jaro_winkler("mass_kg_per_m", "name") < ALIKE);
-    }
 
     #[test]
     fn numbers_are_read_in_every_notation_of_toml() {

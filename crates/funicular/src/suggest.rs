@@ -1,0 +1,67 @@
+//! "Did you mean": the known name that is nearest to a mistyped one. One measure and one limit for every message.
+
+/// Likeness (Jaro-Winkler, 0 to 1) from which a known name is suggested: `mas` for `mass_kg` has 0.87 and is meant,
+/// `mass_kg_per_m` for `name` has 0.66 and is not.
+const MIN_LIKENESS: f64 = 0.8;
+
+/// Maximum length of a name [bytes]; longer text is none, and its comparison would take long.
+const MAX_LENGTH: usize = 100;
+
+/// The known name nearest to `word`, if one is near; upper and lower case are one.
+///
+/// # Example
+/// ```
+/// use funicular::suggest::nearest;
+///
+/// assert_eq!(nearest("statcs", ["check", "statics"]), Some("statics"));
+/// assert_eq!(nearest("colour", ["check", "statics"]), None);
+/// ```
+pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    let word = word.to_lowercase();
+    known
+        .into_iter()
+        .filter(|name| word.len().max(name.len()) <= MAX_LENGTH)
+        .map(|name| (strsim::jaro_winkler(&word, &name.to_lowercase()), name))
+        .filter(|(likeness, _)| *likeness >= MIN_LIKENESS)
+        // The first of equals, so that the answer does not depend on the order of comparison.
+        .fold(None, |best: Option<(f64, &str)>, (likeness, name)| match best {
+            Some((most, _)) if most >= likeness => best,
+            _ => Some((likeness, name)),
+        })
+        .map(|(_, name)| name)
+}
+
+/// `; did you mean …?` for a near name, else `; its OTHERS are …` with all names there are.
+pub(crate) fn or_list(word: &str, others: &str, names: &[String]) -> String {
+    if let Some(name) = nearest(word, names.iter().map(String::as_str)) {
+        return format!("; did you mean `{name}`?");
+    }
+    let all: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    format!("; its {others} are {}", all.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn typing_errors_are_near_and_other_words_are_not() {
+        let keys = ["name", "mass_kg", "inertia_kg_m2", "center_of_mass_m"];
+        for (word, expected) in [
+            ("mas", Some("mass_kg")),
+            ("mass", Some("mass_kg")),
+            ("Mass_kg", Some("mass_kg")),
+            ("inertia", Some("inertia_kg_m2")),
+            ("centre_of_mass_m", Some("center_of_mass_m")),
+            ("", None),
+            ("colour", None),
+            (
+                "mass_kg_per_m_and_so_on_for_more_than_a_hundred_letters_which_no_name_of_any_robot_file_or_option_ever_has_had",
+                None,
+            ),
+        ] {
+            assert_eq!(nearest(word, keys), expected, "{word}");
+        }
+        assert!(strsim::jaro_winkler("mass_kg_per_m", "name") < MIN_LIKENESS);
+    }
+}
