@@ -28,6 +28,7 @@ use funicular_study::export::ExportFormat;
 use funicular_study::import::SourceFile;
 use funicular_study::request::{self as requests, Request, RobotText};
 use funicular_study::wording::Words;
+use funicular_study::{Results, run_on};
 use funicular_study::{at_rest, export, import};
 use reduce::ModelFile;
 use std::fs::File;
@@ -124,40 +125,29 @@ fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest>
 
 /// Runs a request whose results are printed.
 fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
-    if let Some(robot) = request.robot() {
-        // The robot file's own errors come before those of the place for the result.
-        robot.read()?;
-    }
+    // The robot file's own errors come before those of the place for the result.
+    let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
     let sink = Sink::open(output, &mut guard)?;
+
     let mut watch = Shown::default();
-    match request {
-        Request::Check(of) => sink.write(&analyses::check::run(of.robot.read()?.robot)),
-        Request::Statics(of) => {
-            let waiting = Waiting::for_("the equilibrium");
-            let found = analyses::statics::run(of.robot.read()?.robot, of)?;
-            drop(waiting);
-            sink.write(&found)
-        }
-        Request::Stiffness(of) => sink.write(&analyses::stiffness::run(of.robot.read()?.robot, of)?),
-        Request::Modes(of) => sink.write(&analyses::modes::run(of.robot.read()?.robot, of)?),
-        Request::Frf(of) => {
-            let found = analyses::frf::run(of.robot.read()?.robot, of, &mut watch)?;
-            drop(watch);
-            sink.write(&found)
-        }
-        Request::Compare(of) => sink.write(&analyses::compare::run(of.robot.read()?.robot, of)?),
-        Request::PoseError(of) => {
-            let found = analyses::pose_error::run(&of.robot.read()?.robot, of, &mut watch)?;
-            drop(watch);
-            sink.write(&found)
-        }
-        Request::Cable(of) => sink.write(&analyses::cable::run(of.robot.read()?.robot, of)?),
-        Request::Validate(_) => {
-            let found = analyses::validate::run()?;
-            sink.write(&found)?;
+    let waiting = matches!(request, Request::Statics(_)).then(|| Waiting::for_("the equilibrium"));
+    let results = run_on(request, robot, &mut watch)?;
+    drop((watch, waiting));
+
+    match &results {
+        Results::Check(found) => sink.write(found),
+        Results::Statics(found) => sink.write(found),
+        Results::Stiffness(found) => sink.write(found),
+        Results::Modes(found) => sink.write(found),
+        Results::Frf(found) => sink.write(found),
+        Results::Compare(found) => sink.write(found),
+        Results::PoseError(found) => sink.write(found),
+        Results::Cable(found) => sink.write(found),
+        Results::Reduce(found) => sink.write(found),
+        Results::Validate(found) => {
+            sink.write(found)?;
             Ok(found.verdict()?)
         }
-        other => bail!("`{}` makes a file, and has its own way to write it", other.command()),
     }
 }
 

@@ -15,7 +15,7 @@ use funicular::modes::{self, Modes};
 use funicular::statics::StaticModel;
 
 /// Most modes that a file takes: each is a field of the whole robot, or a row of a table.
-const MOST_MODES: usize = 500;
+const MAX_MODES: usize = 500;
 
 /// Programs that files are written for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +94,7 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
 fn modes_below(at_rest: &AtRest, below_hz: f64, warnings: &mut Vec<String>) -> Result<(Dynamics, Modes)> {
     let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
     let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, below_hz)?;
-    modes::check_count(&dynamics, below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, below_hz, MAX_MODES)?;
     let found = modes::below(&dynamics, below_hz);
     warnings.extend(found.doubt());
     Ok((dynamics, found))

@@ -49,5 +49,5 @@ pub mod wording;
 
 pub use error::{Error, ErrorKind, NoSolution};
 pub use request::Request;
-pub use run::{Results, run};
+pub use run::{Results, run, run_on};
 pub use watch::{Silent, Watch};

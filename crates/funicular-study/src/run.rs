@@ -13,7 +13,7 @@ use crate::analyses::{
     validate::{self, Validated},
 };
 use crate::error::Error;
-use crate::request::Request;
+use crate::request::{Request, RobotText};
 use crate::watch::Watch;
 use anyhow::{Result, anyhow};
 use funicular::robot::Robot;
@@ -42,23 +42,27 @@ pub enum Results {
 /// [`Error`]: a request that has to change, a robot without that result, or work that was stopped. Commands that make
 /// files of many rows (`map`, `sweep`, `merge`, `plot`) are run by front ends with a disk.
 pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Results, Error> {
-    Ok(match request {
-        Request::Check(_) => Results::Check(check::run(robot(request)?)),
-        Request::Statics(of) => Results::Statics(statics::run(robot(request)?, of)?),
-        Request::Stiffness(of) => Results::Stiffness(stiffness::run(robot(request)?, of)?),
-        Request::Modes(of) => Results::Modes(modes::run(robot(request)?, of)?),
-        Request::Frf(of) => Results::Frf(frf::run(robot(request)?, of, watch)?),
-        Request::Compare(of) => Results::Compare(compare::run(robot(request)?, of)?),
-        Request::PoseError(of) => Results::PoseError(pose_error::run(&robot(request)?, of, watch)?),
-        Request::Cable(of) => Results::Cable(cable::run(robot(request)?, of)?),
-        Request::Reduce(of) => Results::Reduce(reduce::run(robot(request)?, of)?),
-        Request::Validate(_) => Results::Validate(validate::run()?),
-        other => return Err(anyhow!("`{}` makes a file: the program runs it, and Python", other.command()).into()),
-    })
+    let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
+    Ok(run_on(request, robot, watch)?)
 }
 
-/// The robot of a request.
-fn robot(request: &Request) -> Result<Robot> {
-    let text = request.robot().ok_or_else(|| anyhow!("`{}` has no robot", request.command()))?;
-    Ok(text.read()?.robot)
+/// Runs a request whose robot was read already, if it has one; the errors keep their types.
+///
+/// # Errors
+/// Those of [`run`], but the robot file's own.
+pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) -> Result<Results> {
+    let robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
+    Ok(match request {
+        Request::Check(_) => Results::Check(check::run(robot()?)),
+        Request::Statics(of) => Results::Statics(statics::run(robot()?, of)?),
+        Request::Stiffness(of) => Results::Stiffness(stiffness::run(robot()?, of)?),
+        Request::Modes(of) => Results::Modes(modes::run(robot()?, of)?),
+        Request::Frf(of) => Results::Frf(frf::run(robot()?, of, watch)?),
+        Request::Compare(of) => Results::Compare(compare::run(robot()?, of)?),
+        Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
+        Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
+        Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of)?),
+        Request::Validate(_) => Results::Validate(validate::run()?),
+        other => return Err(anyhow!("`{}` makes a file: the program runs it, and Python", other.command())),
+    })
 }

@@ -16,7 +16,7 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Most clamped frequencies of one list.
-const MOST_CLAMPED: usize = 10_000;
+const MAX_CLAMPED: usize = 10_000;
 
 /// Results of `cable`: the stiffness of one cable's platform end over frequency.
 #[derive(Serialize)]
@@ -228,9 +228,9 @@ fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<
     let EndStiffness::Dynamic(form) = stiffness else { return Ok(None) };
     let limit = to_hz * TAU;
     let count = form.clamped_modes_below(limit);
-    if count > MOST_CLAMPED {
+    if count > MAX_CLAMPED {
         bail!(
-            "the cable has {count} clamped frequencies below {to_hz} Hz, at most {MOST_CLAMPED} are listed: lower ⟪to_hz⟫"
+            "the cable has {count} clamped frequencies below {to_hz} Hz, at most {MAX_CLAMPED} are listed: lower ⟪to_hz⟫"
         );
     }
     let all = form.clamped_frequencies_below(limit).into_iter().map(|omega| omega / TAU);

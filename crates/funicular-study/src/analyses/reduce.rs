@@ -15,7 +15,7 @@ use funicular::robot::Robot;
 use serde::Serialize;
 
 /// Most natural frequencies that one model is to have: it has about twice as many coordinates.
-const MOST_MODES: usize = 400;
+const MAX_MODES: usize = 400;
 
 /// Results of `reduce`: a second-order model and its errors.
 #[derive(Serialize)]
@@ -92,7 +92,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
     let (inputs, outputs) = check(&at_rest.robot, request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
-    modes::check_count(&dynamics, request.below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
     let damping_at = request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
     let wanted = Wanted { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
     let from: Vec<Place> = inputs.iter().map(|(_, place)| place.clone()).collect();

@@ -6,7 +6,7 @@ use funicular::math::Vec3;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Most elements, attributes and texts together; a robot of 100 cables has some 5000.
-const MOST_NODES: u32 = 1_000_000;
+const MAX_NODES: u32 = 1_000_000;
 
 /// A parsed file.
 pub(crate) struct Xml<'a> {
@@ -17,7 +17,7 @@ pub(crate) struct Xml<'a> {
 impl<'a> Xml<'a> {
     /// Parses a file. A document type is read over: none is fetched, and entities cannot grow without end.
     pub(crate) fn parse(file: &'a SourceFile) -> Result<Self> {
-        let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+        let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
         let document = Document::parse_with_options(&file.text, options).map_err(|error| {
             let at = error.pos();
             let message = error.to_string();

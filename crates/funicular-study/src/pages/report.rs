@@ -27,7 +27,7 @@ use funicular::statics::{Equilibrium, Stability, StaticModel};
 const PEAK_PROMINENCE_DB: f64 = 3.0;
 
 /// Most modes of a page: a browser still scrolls their table with ease.
-const MOST_MODES: usize = 2000;
+const MAX_MODES: usize = 2000;
 
 /// What a report is about.
 pub(crate) struct ReportInput<'a> {
@@ -106,7 +106,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
-    modes::check_count(&dynamics, below_hz, MOST_MODES)?;
+    modes::check_count(&dynamics, below_hz, MAX_MODES)?;
     let found = modes::below(&dynamics, below_hz);
     warnings.extend(found.doubt());
     let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;

@@ -12,7 +12,7 @@ const EVEN_POINTS: u32 = 1600;
 /// Distances from a natural frequency at which a response is sampled too, in half widths of its resonance.
 const AROUND: [f64; 5] = [0.25, 0.6, 1.2, 3.0, 8.0];
 /// Half width, relative, where a mode has next to no damping: it draws as a line, and nothing is infinite.
-const LEAST_HALF_WIDTH: f64 = 2e-4;
+const MIN_HALF_WIDTH: f64 = 2e-4;
 
 /// Frequencies that show a response up to a limit [Hz]: even ones and a cluster at each mode, without which lightly
 /// damped resonances would fall between the points.
@@ -20,8 +20,8 @@ pub(crate) fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
     let step = below_hz / f64::from(EVEN_POINTS);
     let mut all: Vec<f64> = (1..=EVEN_POINTS).map(|k| step * f64::from(k)).collect();
     for mode in modes {
-        let half = mode.damping_ratio.max(LEAST_HALF_WIDTH);
-        if mode.damping_ratio > LEAST_HALF_WIDTH {
+        let half = mode.damping_ratio.max(MIN_HALF_WIDTH);
+        if mode.damping_ratio > MIN_HALF_WIDTH {
             all.push(mode.frequency_hz);
         }
         for k in AROUND {

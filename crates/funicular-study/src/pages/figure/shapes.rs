@@ -23,15 +23,15 @@ use std::collections::BTreeMap;
 /// Largest displacement of a mode in steps of its scale: a tenth of a pixel where it moves by a hundred.
 const STEPS: f64 = 1000.0;
 /// Most bytes of displacements, before packing: with them a page stays below 5 MB.
-const MOST_BYTES: usize = 1_000_000;
+const MAX_BYTES: usize = 1_000_000;
 /// Least intervals between stations.
-const LEAST_INTERVALS: usize = 16;
+const MIN_INTERVALS: usize = 16;
 /// Least intervals to half a wave of the taut cable: the cubics through the stations are off by 0.6 % of its height.
 const PER_HALF_WAVE: f64 = 4.5;
 /// Intervals of a cable at rest; its curve has no waves.
 const AT_REST: usize = 32;
 /// Least intervals of a cable as it is drawn.
-const LEAST_DRAWN: usize = 64;
+const MIN_DRAWN: usize = 64;
 
 /// The view of the mode shapes.
 #[derive(Template)]
@@ -58,10 +58,10 @@ impl Shapes {
     ) -> Result<Option<Self>, CableMotionError> {
         let slowest = slowest_string_hz(robot, equilibrium);
         let mut stations = Levels { robot, equilibrium, dynamics, by_intervals: BTreeMap::new() };
-        let (mut modes, mut steps, mut finest) = (Vec::new(), Vec::new(), LEAST_INTERVALS);
+        let (mut modes, mut steps, mut finest) = (Vec::new(), Vec::new(), MIN_INTERVALS);
         for mode in &found.modes {
             let intervals = intervals(mode.frequency_hz / slowest);
-            let room = MOST_BYTES / 2 - steps.len();
+            let room = MAX_BYTES / 2 - steps.len();
             if intervals.saturating_mul(3 * robot.cables.len()) > room {
                 break;
             }
@@ -79,8 +79,8 @@ impl Shapes {
             return Ok(None);
         }
         let shown = modes.len();
-        let mut header = scenery(robot, equilibrium, (2 * finest).max(LEAST_DRAWN));
-        let axes = stations.axes(LEAST_INTERVALS)?;
+        let mut header = scenery(robot, equilibrium, (2 * finest).max(MIN_DRAWN));
+        let axes = stations.axes(MIN_INTERVALS)?;
         for (cable, axes) in header["cables"].as_array_mut().into_iter().flatten().zip(axes) {
             cable["axes"] = json!(axes.map(|axis| [axis.x, axis.y, axis.z]));
         }
@@ -112,7 +112,7 @@ fn with_header(header: &Value, steps: &[i16]) -> Vec<u8> {
 fn intervals(half_waves: f64) -> usize {
     // Beyond this no page has room.
     let asked = if half_waves.is_finite() { (PER_HALF_WAVE * half_waves).min(1e6) } else { 0.0 };
-    let mut count = LEAST_INTERVALS;
+    let mut count = MIN_INTERVALS;
     while (count as f64) < asked {
         count = if count.is_power_of_two() { count / 2 * 3 } else { count / 3 * 4 };
     }

@@ -19,7 +19,7 @@ const COLOURS: [&str; 7] =
 const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
 
 /// Most figures of a page; a quantity beyond them is in the table.
-const MOST_FIGURES: usize = 16;
+const MAX_FIGURES: usize = 16;
 
 /// Relative difference of frequencies that are the same.
 const SAME: f64 = 1e-9;
@@ -74,7 +74,7 @@ pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
             None => families.push((family, vec![series])),
         }
     }
-    let ids = (1..=MOST_FIGURES).map(|number| format!("figure-{number}"));
+    let ids = (1..=MAX_FIGURES).map(|number| format!("figure-{number}"));
     figures.extend(families.iter().zip(ids).map(|((_, members), id)| curves(id, rows, &along, members)));
     figures
 }

@@ -6,9 +6,9 @@ use funicular::sweep::{CODES, Chunk, Column, Kind, MOST_POINTS, Steps, Values};
 use serde_json::Value;
 
 /// Numbers that a page carries of a grid, packed: some two megabytes.
-const MOST_NUMBERS: usize = 450_000;
+const MAX_NUMBERS: usize = 450_000;
 /// The same of curves, which are text.
-const MOST_OF_CURVES: usize = 80_000;
+const MAX_NUMBERS_OF_CURVES: usize = 80_000;
 /// Bars of a histogram.
 pub(super) const BINS: usize = 40;
 /// In place of a status where a row is not there yet.
@@ -152,9 +152,9 @@ impl Rows {
         let mut every = 1;
         if axes.len() < 2 {
             let rows = file.rows().max(1);
-            every = (rows * (numbers.len() + 1)).div_ceil(MOST_OF_CURVES).max(1);
+            every = (rows * (numbers.len() + 1)).div_ceil(MAX_NUMBERS_OF_CURVES).max(1);
         } else {
-            while axes.iter().map(Axis::kept).product::<usize>() * (numbers.len() + 1) > MOST_NUMBERS {
+            while axes.iter().map(Axis::kept).product::<usize>() * (numbers.len() + 1) > MAX_NUMBERS {
                 let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.kept()) else { break };
                 longest.every += 1;
             }
