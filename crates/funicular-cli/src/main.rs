@@ -31,7 +31,7 @@ fn main() -> ExitCode {
 fn tell(usage: &clap::Error) -> ExitCode {
     let printed = usage.print().and_then(|()| io::stdout().flush());
     match printed {
-        // Help for a closed pipe is help for nobody, and so is a message to a closed stderr.
+        // Nobody reads help in a closed pipe, nor a message on a closed stderr.
         Err(error) if !usage.use_stderr() => errors::report(&output::of_stdout(error)),
         _ => ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2)),
     }
