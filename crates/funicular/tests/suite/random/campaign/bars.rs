@@ -314,7 +314,7 @@ impl Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::robots::{self, Kind};
+    use crate::random::campaign::robots::{self, Kind};
     use funicular::statics::{self, StaticModel};
 
     /// Robots with an equilibrium, from the first on.

@@ -11,6 +11,7 @@ use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 const YUAN: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+
 const CAMERA: &str = include_str!("../../../../robots/sap2000-8-cable-point-mass.toml");
 
 fn yuan() -> (Robot, Vec<f64>) {
@@ -105,22 +106,6 @@ fn forces_pull_a_point_mass_and_a_redundant_robot() {
         .map(|robot| statics::distribute(robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap());
     let sum = |e: &Equilibrium| e.cables.iter().map(|c| c.force_on_platform_w).sum::<Vec3>();
     assert!((sum(&free) - sum(&held) - pulled.load.force_w).norm() < 1e-6);
-}
-
-#[test]
-fn broken_loads_are_refused_at_their_line() {
-    let loads = |text: &str| Robot::from_toml(&format!("{CAMERA}\n[loads]\n{text}\n"));
-    assert!(loads("force_n = [1, 2, 3]").is_ok());
-    for (text, said) in [
-        ("force_n = [1, 2]", "`force_n` has 2"),
-        ("force = [1, 2, 3]", "unknown key `force`"),
-        ("moment_n_m = [0, 0, 1]", "a point mass bears forces at its own point only"),
-        ("point_m = [0, 0, 1]", "a point mass bears forces at its own point only"),
-        ("force_n = [1, 2, inf]", "must be finite"),
-    ] {
-        let error = loads(text).unwrap_err().to_string();
-        assert!(error.contains(said), "{error}");
-    }
 }
 
 proptest! {

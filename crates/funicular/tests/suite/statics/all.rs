@@ -6,11 +6,11 @@ use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 
 const ROBOTS: [(&str, &str); 5] = [
-    ("yuan2014-4mm", include_str!("../../../../robots/yuan2014-4mm.toml")),
-    ("yuan2014-8mm", include_str!("../../../../robots/yuan2014-8mm.toml")),
-    ("ipanema2", include_str!("../../../../robots/ipanema2.toml")),
-    ("fast", include_str!("../../../../robots/fast.toml")),
-    ("stadium-camera", include_str!("../../../../robots/stadium-camera.toml")),
+    ("yuan2014-4mm", include_str!("../../../../../robots/yuan2014-4mm.toml")),
+    ("yuan2014-8mm", include_str!("../../../../../robots/yuan2014-8mm.toml")),
+    ("ipanema2", include_str!("../../../../../robots/ipanema2.toml")),
+    ("fast", include_str!("../../../../../robots/fast.toml")),
+    ("stadium-camera", include_str!("../../../../../robots/stadium-camera.toml")),
 ];
 
 fn lengths_of(robot: &Robot) -> (Vec<f64>, Option<Pose>) {

@@ -1,14 +1,14 @@
 //! The first natural frequency alone against the first of the whole list.
 
-use crate::campaign::robots::{self, Kind};
 use crate::library::library;
+use crate::random::campaign::robots::{self, Kind};
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::modes::{self, First, FirstError};
 use funicular::robot::{Cable, Pose, Robot};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel};
 use proptest::prelude::*;
 
-const YUAN: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+const YUAN: &str = include_str!("../../../../../robots/yuan2014-4mm.toml");
 
 /// What is wrong with the first mode of a robot, measured by the list up to a tenth above it; energies as good as usual.
 fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
