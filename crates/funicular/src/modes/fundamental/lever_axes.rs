@@ -1,7 +1,8 @@
 //! Cables at the platform, side by side as their matrices are, and motions of the whole robot.
 
-use crate::cable::exact::abreast::{ACROSS, IN_PLANE, LANES, Lane, Lanes, Line, Part};
+use super::batched_cable::{ACROSS, IN_PLANE};
 use crate::math::Vec6;
+use crate::math::simd::{LANES, Lane, Lanes, Line, Part, sum};
 use pulp::Simd;
 
 /// Axes of a group's cables as scaled vectors in the platform's coordinates: for each coordinate the cables side by side,
@@ -117,11 +118,4 @@ impl Motion {
         }
         (plane, across)
     }
-}
-
-/// The same on every machine, however wide its registers are.
-#[inline(always)]
-pub(super) fn sum(lane: &Lane) -> f64 {
-    let [a, b, c, d, e, f, g, h] = *lane;
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }

@@ -1,9 +1,8 @@
 //! One element of each of several cables: its matrices, and their elimination.
 
-use super::LANES;
-use super::lanes::{Lane, Lanes, Line, Part, ZERO};
-use super::tables::{MASSES, RULES, TRIPLES};
+use super::element_integrals::{MASSES, RULES, TRIPLES};
 use crate::catenary::Catenary;
+use crate::math::simd::{LANES, Lane, Lanes, Line, Part};
 use pulp::Simd;
 use std::array::from_fn;
 
@@ -15,7 +14,7 @@ const USUAL_FUNCTIONS: usize = 12;
 
 /// Place in a lower triangle by rows.
 #[inline(always)]
-pub(crate) const fn place(row: usize, column: usize) -> usize {
+pub(in crate::modes::fundamental) const fn place(row: usize, column: usize) -> usize {
     row * (row + 1) / 2 + column
 }
 
@@ -118,8 +117,8 @@ impl Element {
         let functions = |degree: usize| if degree == 0 { 0 } else { degree + H - 1 };
         for f in functions(self.degree)..functions(degree) {
             let (row, row_across) = (plane.len(), across.len());
-            plane.resize(row + 4 * f + 3, ZERO);
-            across.resize(row_across + f + 1, ZERO);
+            plane.resize(row + 4 * f + 3, Line::ZERO);
+            across.resize(row_across + f + 1, Line::ZERO);
             let (of_n, of_e) = plane[row..].split_at_mut(2 * f + 1);
             let of_b = &mut across[row_across..];
             let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
@@ -168,8 +167,8 @@ impl Element {
         let functions = degree + H - 1;
         let inertia = self.half_mass.map(|mass| x * mass);
         let Self { plane, across, plane_factor, across_factor, .. } = self;
-        plane_factor.resize(place(2 * functions, 0), ZERO);
-        across_factor.resize(place(functions, 0), ZERO);
+        plane_factor.resize(place(2 * functions, 0), Line::ZERO);
+        across_factor.resize(place(functions, 0), Line::ZERO);
         for part in Part::all(simd) {
             factor::<S, 2, H>(part, plane, plane_factor, functions, &inertia, plane_kept, least_pivot);
             factor::<S, 1, H>(part, across, across_factor, functions, &inertia, across_kept, least_pivot);

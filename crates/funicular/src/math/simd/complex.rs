@@ -1,58 +1,50 @@
-//! Several complex numbers side by side, in a shape that the compiler turns into vector instructions.
-//!
-//! Everything is `#[inline(always)]`: the loops below become vector code of the instruction set that the caller was
-//! dispatched to, which works only inside that caller.
+//! Eight complex numbers side by side, and elementary functions of eight real ones.
 
+use super::{LANES, Lane};
 use crate::math::Complex;
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
-/// Numbers side by side: two AVX2 registers, one of AVX-512.
-pub(super) const LANES: usize = 8;
-
-/// One real number a lane.
-pub(super) type Reals = [f64; LANES];
-
-/// One complex number a lane.
+/// Eight complex numbers side by side, their real and their imaginary parts each in a lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Complexes {
-    pub(super) re: Reals,
-    pub(super) im: Reals,
+pub(crate) struct Complexes {
+    pub(crate) re: Lane,
+    pub(crate) im: Lane,
 }
 
 impl Complexes {
-    pub(super) const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
+    pub(crate) const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 
     #[inline(always)]
-    pub(super) fn real(value: f64) -> Self {
+    pub(crate) fn real(value: f64) -> Self {
         Self { re: [value; LANES], im: [0.0; LANES] }
     }
 
     #[inline(always)]
-    pub(super) fn lane(&self, i: usize) -> Complex {
+    pub(crate) fn lane(&self, i: usize) -> Complex {
         Complex::new(self.re[i], self.im[i])
     }
 
     #[inline(always)]
-    pub(super) fn set_lane(&mut self, i: usize, value: Complex) {
+    pub(crate) fn set_lane(&mut self, i: usize, value: Complex) {
         self.re[i] = value.re;
         self.im[i] = value.im;
     }
 
     #[inline(always)]
-    pub(super) fn norm_sqr(&self) -> Reals {
+    pub(crate) fn norm_sqr(&self) -> Lane {
         from_fn(|i| self.re[i] * self.re[i] + self.im[i] * self.im[i])
     }
 
     #[inline(always)]
-    pub(super) fn inverse(&self) -> Self {
-        let n: Reals = from_fn(|i| 1.0 / (self.re[i] * self.re[i] + self.im[i] * self.im[i]));
+    pub(crate) fn inverse(&self) -> Self {
+        let n: Lane = from_fn(|i| 1.0 / (self.re[i] * self.re[i] + self.im[i] * self.im[i]));
         Self { re: from_fn(|i| self.re[i] * n[i]), im: from_fn(|i| -self.im[i] * n[i]) }
     }
 
     /// `self += factor * k`, k real.
     #[inline(always)]
-    pub(super) fn add_scaled(&mut self, factor: &Self, k: f64) {
+    pub(crate) fn add_scaled(&mut self, factor: &Self, k: f64) {
         for i in 0..LANES {
             self.re[i] += factor.re[i] * k;
             self.im[i] += factor.im[i] * k;
@@ -119,11 +111,11 @@ impl SubAssign for Complexes {
 }
 
 /// Largest |x| of [`sin_cos`]: the three-part reduction keeps every digit up to there.
-pub(super) const SIN_COS_LIMIT: f64 = 1e5;
+pub(crate) const SIN_COS_LIMIT: f64 = 1e5;
 
 /// Sine and cosine for 0 ≤ x ≤ [`SIN_COS_LIMIT`], within 2 units in the last place of 1.
 #[inline(always)]
-pub(super) fn sin_cos(x: Reals) -> (Reals, Reals) {
+pub(crate) fn sin_cos(x: Lane) -> (Lane, Lane) {
     // π/2 in three parts; the first two have 33 bits, so that their multiples are exact (Cody and Waite 1980).
     const A: f64 = 1.570_796_326_734_125_6;
     const B: f64 = 6.077_100_506_303_966e-11;
@@ -177,11 +169,11 @@ pub(super) fn sin_cos(x: Reals) -> (Reals, Reals) {
 }
 
 /// Largest |x| of [`tanh`].
-pub(super) const TANH_LIMIT: f64 = 1.0;
+pub(crate) const TANH_LIMIT: f64 = 1.0;
 
 /// Hyperbolic tangent for |x| ≤ 1, relative error below 1e-15: ninth convergent of Lambert's continued fraction.
 #[inline(always)]
-pub(super) fn tanh(x: Reals) -> Reals {
+pub(crate) fn tanh(x: Lane) -> Lane {
     from_fn(|i| {
         let x2 = x[i] * x[i];
         let numerator = (((x2 + 990.0) * x2 + 135_135.0) * x2 + 4_729_725.0) * x2 + 34_459_425.0;
@@ -197,7 +189,7 @@ mod tests {
     #[test]
     fn sine_and_cosine_agree_with_the_library() {
         for step in 0..200_000 {
-            let x: Reals = from_fn(|i| f64::from(step) * 0.013 + i as f64 * 1.7e-3 + f64::from(step % 7) * 14_000.0);
+            let x: Lane = from_fn(|i| f64::from(step) * 0.013 + i as f64 * 1.7e-3 + f64::from(step % 7) * 14_000.0);
             let (s, c) = sin_cos(x);
             for i in 0..LANES {
                 let (sine, cosine) = x[i].sin_cos();

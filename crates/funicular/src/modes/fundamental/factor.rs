@@ -1,9 +1,10 @@
 //! The pencil at a shift, factored: bubbles first, then the platform.
 
-use super::arms::{Motion, sum};
+use super::batched_cable::Kept;
+use super::lever_axes::Motion;
 use super::pencil::Pencil;
-use crate::cable::exact::abreast::{Kept, LANES, Lane, Part};
 use crate::math::Mat6;
+use crate::math::simd::{LANES, Lane, Part, sum};
 use pulp::Simd;
 
 pub(super) struct Factor {

@@ -5,9 +5,10 @@
 //! one element a cable serves, and its unknowns but the lowest bubbles go out by one factorisation at a frequency, all
 //! cables side by side (docs/theory.md, section 9).
 
-mod arms;
-mod cables;
+mod batched_cable;
+mod condensed_cables;
 mod factor;
+mod lever_axes;
 mod pencil;
 mod search;
 

@@ -1,6 +1,7 @@
 //! The cables of a pencil, side by side in groups: as a matrix about rest, and with all unknowns.
 
-use crate::cable::exact::abreast::{ACROSS, Abreast, IN_PLANE, Kept, LANES, Lane, MOST_DEGREES, place};
+use super::batched_cable::{ACROSS, Abreast, IN_PLANE, Kept, MOST_DEGREES, place};
+use crate::math::simd::{LANES, Lane};
 use std::array::from_fn;
 
 /// K − xM of the kept unknowns of each group, and the mass of motions that follow.

@@ -1,10 +1,11 @@
 //! The lowest eigenvalue of a pencil, between a shift at which it is positive definite and a Rayleigh quotient.
 
-use super::arms::{Motion, sum};
-use super::cables::{Cables, Ends};
+use super::batched_cable::{Kept, place};
+use super::condensed_cables::{Cables, Ends};
 use super::factor::Factor;
+use super::lever_axes::Motion;
 use super::pencil::Pencil;
-use crate::cable::exact::abreast::{Kept, LANES, Lane, place};
+use crate::math::simd::{LANES, Lane, sum};
 use crate::math::{DMat, symmetric_part};
 use pulp::Simd;
 

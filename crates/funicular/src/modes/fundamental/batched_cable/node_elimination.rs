@@ -1,10 +1,10 @@
 //! Cables of several elements: the elements of all of them side by side, and the nodes cable by cable.
 
-use super::cuts::Mesh;
 use super::element::{Element, place};
-use super::lanes::{Lane, Lanes};
-use super::{ACROSS, IN_PLANE, Kept, LANES};
+use super::mesh::Mesh;
+use super::{ACROSS, IN_PLANE, Kept};
 use crate::math::Matrix;
+use crate::math::simd::{LANES, Lane, Lanes};
 
 /// One cable's elements, and its nodes at the last frequency.
 #[derive(Debug, Clone)]

@@ -1,12 +1,13 @@
 //! The whole robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
-use super::arms::{Arms, Motion, sum};
-use super::cables::{Reduced, Whole, degree_of_start};
+use super::batched_cable::{Abreast, Kept};
+use super::condensed_cables::{Reduced, Whole, degree_of_start};
+use super::lever_axes::{Arms, Motion};
 use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
-use crate::cable::exact::abreast::{Abreast, Kept, LANES, Line, Part};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, Still};
+use crate::math::simd::{LANES, Line, Part, sum};
 use crate::math::{Mat6, Vec6};
 use crate::robot::{Freedoms, Robot};
 use crate::statics::Equilibrium;

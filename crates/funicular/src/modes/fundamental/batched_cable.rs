@@ -8,27 +8,23 @@
 //! plane, the lowest bubble, or the node at the lowest point: they carry the first clamped modes, so that what has been
 //! eliminated has its poles far above.
 
-mod chain;
-mod cuts;
 mod element;
-mod lanes;
-mod tables;
+mod element_integrals;
+mod mesh;
+mod node_elimination;
 
-pub(crate) use element::place;
-pub(crate) use lanes::{Lane, Lanes, Line, Part};
+pub(super) use element::place;
 
 use crate::catenary::Catenary;
-use chain::Chain;
-use cuts::Mesh;
+use crate::math::simd::{LANES, Lane, Lanes};
 use element::{Element, Shapes};
+use mesh::Mesh;
+use node_elimination::Chain;
 use pulp::Simd;
 use std::array::from_fn;
 
-/// Numbers side by side: two AVX2 registers, one of AVX-512.
-pub(crate) const LANES: usize = 8;
-
 /// Most degrees of an element. Robots take up to 20.
-pub(crate) const MOST_DEGREES: usize = 32;
+pub(super) const MOST_DEGREES: usize = 32;
 
 /// Most Legendre terms of C, those of the smallest ellipse.
 const MOST_TERMS: usize = 45;
@@ -38,7 +34,7 @@ const TRUNCATION: f64 = 1e-13;
 
 /// Up to [`LANES`] cables, either all of one element or all of several.
 #[derive(Debug)]
-pub(crate) struct Abreast {
+pub(super) struct Abreast {
     /// Which of the cables that were asked for.
     members: Vec<usize>,
     /// Elements side by side; the last lanes repeat the last element.
@@ -52,17 +48,17 @@ pub(crate) struct Abreast {
 }
 
 /// Unknowns kept in plane: n and e of the end, n of the bubble or node.
-pub(crate) const IN_PLANE: usize = 3;
+pub(super) const IN_PLANE: usize = 3;
 /// Unknowns kept out of plane: the end, the bubble or node.
-pub(crate) const ACROSS: usize = 2;
+pub(super) const ACROSS: usize = 2;
 
 /// The dynamic stiffness of the kept unknowns [N/m], lower triangles by rows.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Kept {
-    pub(crate) plane: [Lane; 6],
-    pub(crate) across: [Lane; 3],
+pub(super) struct Kept {
+    pub(super) plane: [Lane; 6],
+    pub(super) across: [Lane; 3],
     /// Least pivot of what was eliminated: positive if nothing of it has a natural frequency below.
-    pub(crate) least_pivot: Lane,
+    pub(super) least_pivot: Lane,
 }
 
 impl Default for Kept {
@@ -74,11 +70,11 @@ impl Default for Kept {
 
 /// Amplitudes of all functions of elements side by side: of each pack, in plane and out of plane.
 #[derive(Debug)]
-pub(crate) struct Motion(Vec<[Lanes; 2]>);
+pub(super) struct Motion(Vec<[Lanes; 2]>);
 
 impl Abreast {
     /// All cables, of mass m per unstrained length [kg/m] each, in groups. None if one has no tension somewhere.
-    pub(crate) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
+    pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
         let meshes = cables.iter().map(|(catenary, _)| Mesh::of(catenary)).collect::<Option<Vec<_>>>()?;
         let (whole, cut): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
         let groups = whole.chunks(LANES).chain(cut.chunks(LANES));
@@ -117,38 +113,38 @@ impl Abreast {
     }
 
     /// Which cables these are, by their lanes.
-    pub(crate) fn members(&self) -> &[usize] {
+    pub(super) fn members(&self) -> &[usize] {
         &self.members
     }
 
     /// In several elements.
-    pub(crate) fn is_cut(&self) -> bool {
+    pub(super) fn is_cut(&self) -> bool {
         !self.chains.is_empty()
     }
 
     /// Number of Legendre terms that C takes.
-    pub(crate) fn terms(&self) -> usize {
+    pub(super) fn terms(&self) -> usize {
         self.terms
     }
 
     /// Components of a cable's axis e along the horizontal and up.
-    pub(crate) fn axis(&self, lane: usize) -> [f64; 2] {
+    pub(super) fn axis(&self, lane: usize) -> [f64; 2] {
         self.axes[lane]
     }
 
     /// K − xM of the kept unknowns at x = ω² [rad²/s²], from functions up to `degree`, which is at least 2.
-    pub(crate) fn kept(&mut self, x: f64, degree: usize) -> Kept {
+    pub(super) fn kept(&mut self, x: f64, degree: usize) -> Kept {
         pulp::Arch::new().dispatch(Factorise { cables: self, x, degree })
     }
 
     /// Motion of all functions for motions of the kept unknowns, at the frequency and the degree of the last
     /// [`kept`](Self::kept).
-    pub(crate) fn moved(&self, plane: [Lane; IN_PLANE], across: [Lane; ACROSS]) -> Motion {
+    pub(super) fn moved(&self, plane: [Lane; IN_PLANE], across: [Lane; ACROSS]) -> Motion {
         pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
     }
 
     /// `aᵀ M b` in plane and out of plane [kg × motion²].
-    pub(crate) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
+    pub(super) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
         pulp::Arch::new().dispatch(Mass { cables: self, a, b })
     }
 }
@@ -200,7 +196,7 @@ impl pulp::WithSimd for Factorise<'_> {
             element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut least_pivot);
             least_pivots.push(least_pivot);
         }
-        chain::condense(chains, packs, &least_pivots)
+        node_elimination::condense(chains, packs, &least_pivots)
     }
 }
 
@@ -220,7 +216,7 @@ impl pulp::WithSimd for Substitute<'_> {
             return Motion(vec![packs[0].moved(simd, &plane, &across)]);
         }
         let mut all = Vec::with_capacity(packs.len());
-        for (element, ends) in packs.iter().zip(chain::ends(chains, packs.len(), &plane, &across)) {
+        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &plane, &across)) {
             all.push(element.moved(simd, &ends.plane, &ends.across));
         }
         Motion(all)
@@ -246,7 +242,7 @@ impl pulp::WithSimd for Mass<'_> {
         for ((element, a), b) in packs.iter().zip(&a.0).zip(&b.0) {
             masses.push(element.mass::<S, 2>(simd, a, b));
         }
-        chain::sums(chains, &masses)
+        node_elimination::sums(chains, &masses)
     }
 }
 

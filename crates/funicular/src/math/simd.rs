@@ -1,20 +1,53 @@
-//! Numbers side by side, a register at a time, and memory for them.
+//! Eight numbers side by side, which every vector kernel of the crate works on: one per frequency, cable or element.
+//!
+//! There are two ways to work on them. A loop over the eight numbers of a [`Lane`] becomes vector instructions if it is
+//! inlined into a function that was dispatched to an instruction set; complex numbers ([`complex`]) and scalar products
+//! ([`dot`]) go this way. Where the compiler would vectorise across the wrong loop, [`Part`] names
+//! the registers. Every function here is `#[inline(always)]`, because vector instructions exist only inside the function
+//! that was dispatched to them.
 
-use super::LANES;
+pub(crate) mod complex;
+
 use pulp::Simd;
 use std::cell::RefCell;
 use std::ops::{Deref, DerefMut};
 
-/// One number a cable or element.
+/// Numbers in a [`Lane`]: two AVX2 registers, or one of AVX-512.
+pub(crate) const LANES: usize = 8;
+
+/// Eight numbers side by side.
 pub(crate) type Lane = [f64; LANES];
 
-/// The same in memory that is worked on: aligned, since a register that straddles two lines of the cache is fetched
-/// twice. (Not everywhere, since aligned memory takes longer to get.)
+/// Sum over a lane, in an order that does not depend on the width of the machine's registers.
+#[inline(always)]
+pub(crate) fn sum(lane: &Lane) -> f64 {
+    let [a, b, c, d, e, f, g, h] = *lane;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}
+
+/// Scalar product `xᵀ y` of slices of the same length, summed in lanes.
+#[inline(always)]
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (xs, ys) = (x.chunks_exact(LANES), y.chunks_exact(LANES));
+    let rest: f64 = xs.remainder().iter().zip(ys.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in xs.zip(ys) {
+        for i in 0..LANES {
+            lanes[i] += x[i] * y[i];
+        }
+    }
+    lanes.iter().sum::<f64>() + rest
+}
+
+/// A [`Lane`] in memory that is worked on. It is aligned, because a register that straddles two lines of the cache is
+/// fetched twice. (A plain `Lane` is not, because aligned memory takes longer to get.)
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(crate) struct Line(pub(crate) Lane);
 
-pub(super) const ZERO: Line = Line([0.0; LANES]);
+impl Line {
+    pub(crate) const ZERO: Self = Self([0.0; LANES]);
+}
 
 impl Deref for Line {
     type Target = [f64; LANES];
@@ -32,7 +65,8 @@ impl DerefMut for Line {
     }
 }
 
-/// The share of one register in every lane; what the compiler makes of loops over lanes may go across them instead.
+/// Share of one register in every lane. It names the direction of vector code where the compiler might choose another
+/// one for a loop over lanes.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<S: Simd> {
     pub(crate) simd: S,
@@ -129,7 +163,7 @@ impl Lanes {
         let size = count.next_power_of_two().ilog2() as usize;
         let spare = SPARE.with_borrow_mut(|spare| spare.get_mut(size).and_then(Vec::pop));
         let mut lanes = spare.unwrap_or_else(|| Vec::with_capacity(1 << size));
-        lanes.resize(count, ZERO);
+        lanes.resize(count, Line::ZERO);
         Self(lanes)
     }
 }
