@@ -49,11 +49,11 @@ fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multipli
         let cables = robot.cables.iter().zip(lengths).map(|(cable, unstrained_length)| {
             let axial_stiffness = cable.material.axial_stiffness;
             let rope = Rope { unstrained_length, weight_per_length: 0.0, axial_stiffness };
-            let hanging = HangingCable::new(pose.position_w, cable.anchor_w, Vec3::z(), rope).unwrap();
+            let hanging = HangingCable::new(pose.position_w, cable.anchor.reference_w(), Vec3::z(), rope).unwrap();
             CableState {
                 attachment_w: pose.position_w,
                 lever_w: Vec3::zeros(),
-                anchor_w: cable.anchor_w,
+                anchor_w: cable.anchor.reference_w(),
                 unstrained_length,
                 force_on_platform_w: hanging.force_on_start_w(),
                 tension_platform: hanging.catenary.tension_at_start(),
@@ -189,7 +189,7 @@ fn turning_the_whole_world_changes_no_frequency() {
     let mut turned = robot.clone();
     turned.gravity_w = turn * robot.gravity_w;
     for cable in &mut turned.cables {
-        cable.anchor_w = turn * cable.anchor_w;
+        cable.anchor = cable.anchor.rotated(&turn);
     }
     let list = |robot: &Robot, start: Option<&Pose>| {
         let rest = statics::forward(robot, &lengths, StaticModel::Catenary, start).unwrap();

@@ -83,7 +83,7 @@ impl Straight {
         let mut a = DMat::zeros(m, m);
         for (i, cable) in robot.cables.iter().enumerate() {
             let lever = pose.rot_wp * cable.attachment_p;
-            let e = (cable.anchor_w - pose.position_w - lever).normalize();
+            let e = (cable.anchor.reference_w() - pose.position_w - lever).normalize();
             let moment = lever.cross(&e);
             let column = [e.x, e.y, e.z, moment.x, moment.y, moment.z];
             (0..n).for_each(|j| a[(j, i)] = column[j]);
@@ -535,7 +535,7 @@ proptest! {
         });
         let pose = Pose::new([at[0], at[1], at[2]], [10.0 * at[3], 10.0 * at[4], 10.0 * at[5]]);
         let weight = robot.cables.iter().enumerate().fold(0.0, |most: f64, (i, cable)| {
-            let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+            let chord = cable.chord_w(&pose).norm();
             most.max(9.81 * robot.cables[i].material.mass_per_length * chord)
         });
         let mut verdicts = Vec::new();
@@ -637,7 +637,7 @@ fn a_load_that_tensions_within_the_limits_hold_is_not_refused() {
 /// The unstrained length at which cable `i` has tensions a part of the way between its limits.
 fn length_between(robot: &Robot, i: usize, pose: &Pose, limits: [f64; 2], part: f64) -> Option<f64> {
     let cable = &robot.cables[i];
-    let chord_w = cable.anchor_w - pose.point_w(&cable.attachment_p);
+    let chord_w = cable.chord_w(&pose);
     let (chord, weight_per_length) = (chord_w.norm(), 9.81 * cable.material.mass_per_length);
     let hang = |unstrained_length: f64| {
         let rope = Rope { unstrained_length, weight_per_length, axial_stiffness: cable.material.axial_stiffness };

@@ -38,8 +38,13 @@ fn energy(robot: &Robot, pose: &Pose, lengths: &[f64]) -> f64 {
                 axial_stiffness: robot.cables[i].material.axial_stiffness,
             };
             let start = pose.point_w(&robot.cables[i].attachment_p);
-            let cable = funicular::catenary::space::HangingCable::new(start, robot.cables[i].anchor_w, Vec3::z(), rope)
-                .unwrap();
+            let cable = funicular::catenary::space::HangingCable::new(
+                start,
+                robot.cables[i].anchor.exit_w(&start),
+                Vec3::z(),
+                rope,
+            )
+            .unwrap();
             cable.energy()
         })
         .sum();
@@ -52,7 +57,7 @@ fn a_body_on_one_cable_hangs_with_its_centre_of_mass_below_the_anchor_and_swings
     let rest = statics::forward(&robot, &[3.0], StaticModel::Catenary, None).unwrap();
     let center = rest.pose.point_w(&robot.platform.center_of_mass_p);
     let attachment = rest.cables[0].attachment_w;
-    let anchor = robot.cables[0].anchor_w;
+    let anchor = robot.cables[0].anchor.reference_w();
     for point in [center, attachment] {
         assert!((point - anchor).xy().norm() < 1e-8 && point.z < anchor.z, "{point}");
     }
@@ -171,7 +176,7 @@ fn of_a_body_on_one_cable_the_nearest_pose_keeps_the_asked_turn_about_it() {
     let found = statics::nearest(&robot, &asked, StaticModel::Spring).unwrap();
     // Free directions take no force: the pose turned about the cable by anything is an equilibrium and further away.
     let pose = found.equilibrium.pose;
-    let anchor = robot.cables[0].anchor_w;
+    let anchor = robot.cables[0].anchor.reference_w();
     for angle in [-0.02, 0.02f64] {
         let turn = Rotation::from_scaled_axis(Vec3::z() * angle);
         let turned = Pose { position_w: anchor + turn * (pose.position_w - anchor), rot_wp: turn * pose.rot_wp };
