@@ -109,7 +109,7 @@ fn turning_the_whole_world_changes_no_frequency() {
     let mut turned = robot.clone();
     turned.gravity_w = turn * robot.gravity_w;
     for cable in &mut turned.cables {
-        cable.anchor_w = turn * cable.anchor_w;
+        cable.anchor = cable.anchor.rotated(&turn);
     }
     let list = |robot: &Robot, start: Option<&Pose>| {
         let rest = statics::forward(robot, &lengths, StaticModel::Catenary, start).unwrap();

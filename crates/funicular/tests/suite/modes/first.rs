@@ -108,7 +108,7 @@ fn plate(rope_mass: f64) -> (Robot, Equilibrium) {
     ))
     .unwrap();
     let pose = Pose::new([0.1, 0.0, 0.4], [0.0; 3]);
-    let chord = |cable: &Cable| (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+    let chord = |cable: &Cable| cable.chord_w(&pose).norm();
     let lengths: Vec<f64> = robot.cables.iter().map(|cable| 0.998 * chord(cable)).collect();
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
     (robot, rest)

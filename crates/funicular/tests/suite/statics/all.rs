@@ -85,7 +85,7 @@ fn compare_with_a_scan(of: &[([f64; 2], [f64; 2], f64)]) -> usize {
         let mut held = point.clone();
         let turned = Pose::new([0.0; 3], [0.0, angle.to_degrees(), 0.0]);
         for (cable, (anchor, attachment, _)) in held.cables.iter_mut().zip(&cables) {
-            cable.anchor_w = Vec3::from(*anchor) - turned.rot_wp * Vec3::from(*attachment);
+            cable.anchor = (Vec3::from(*anchor) - turned.rot_wp * Vec3::from(*attachment)).into();
         }
         let rest = statics::forward(&held, &lengths, StaticModel::Catenary, None).unwrap();
         let center = turned.rot_wp * robot.platform.center_of_mass_p;

@@ -14,7 +14,7 @@ fn energy(robot: &Robot, pose: &Pose, lengths: &[f64]) -> f64 {
                 axial_stiffness: robot.cables[i].material.axial_stiffness,
             };
             let start = pose.point_w(&robot.cables[i].attachment_p);
-            let cable = funicular::catenary::space::HangingCable::new(start, robot.cables[i].anchor_w, Vec3::z(), rope)
+            let cable = funicular::catenary::space::HangingCable::new(start, robot.cables[i].anchor.exit_w(&start), Vec3::z(), rope)
                 .unwrap();
             cable.energy()
         })

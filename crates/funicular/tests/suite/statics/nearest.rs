@@ -57,7 +57,7 @@ fn of_a_body_on_one_cable_the_nearest_pose_keeps_the_asked_turn_about_it() {
     let found = statics::nearest(&robot, &asked, StaticModel::Spring).unwrap();
     // Free directions take no force: the pose turned about the cable by anything is an equilibrium and further away.
     let pose = found.equilibrium.pose;
-    let anchor = robot.cables[0].anchor_w;
+    let anchor = robot.cables[0].anchor.reference_w();
     for angle in [-0.02, 0.02f64] {
         let turn = Rotation::from_scaled_axis(Vec3::z() * angle);
         let turned = Pose { position_w: anchor + turn * (pose.position_w - anchor), rot_wp: turn * pose.rot_wp };

@@ -409,7 +409,7 @@ fn balanced(robot: &Robot, pose: &Pose, cables: &[Fit]) -> Option<Vec<f64>> {
     let mut chords = Vec::with_capacity(n);
     for (i, cable) in robot.cables.iter().enumerate() {
         let lever = pose.rot_wp * cable.attachment_p;
-        let chord = cable.anchor_w - pose.position_w - lever;
+        let chord = cable.anchor.reference_w() - pose.position_w - lever;
         columns.column_mut(i).copy_from(&wrench(&chord.normalize(), &lever, radius).rows(0, rows));
         chords.push(chord);
     }

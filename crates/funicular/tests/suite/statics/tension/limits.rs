@@ -65,7 +65,7 @@ proptest! {
         });
         let pose = Pose::new([at[0], at[1], at[2]], [10.0 * at[3], 10.0 * at[4], 10.0 * at[5]]);
         let weight = robot.cables.iter().enumerate().fold(0.0, |most: f64, (i, cable)| {
-            let chord = (cable.anchor_w - pose.point_w(&cable.attachment_p)).norm();
+            let chord = cable.chord_w(&pose).norm();
             most.max(9.81 * robot.cables[i].material.mass_per_length * chord)
         });
         let mut verdicts = Vec::new();

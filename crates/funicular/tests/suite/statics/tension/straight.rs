@@ -21,7 +21,7 @@ impl Straight {
         let mut a = DMat::zeros(m, m);
         for (i, cable) in robot.cables.iter().enumerate() {
             let lever = pose.rot_wp * cable.attachment_p;
-            let e = (cable.anchor_w - pose.position_w - lever).normalize();
+            let e = (cable.anchor.reference_w() - pose.position_w - lever).normalize();
             let moment = lever.cross(&e);
             let column = [e.x, e.y, e.z, moment.x, moment.y, moment.z];
             (0..n).for_each(|j| a[(j, i)] = column[j]);
