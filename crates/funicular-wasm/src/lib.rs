@@ -12,7 +12,7 @@
 use funicular_study::wording::Words;
 use funicular_study::{Error, ErrorKind, Request, Silent, run};
 use std::cell::RefCell;
-use std::panic::{self, PanicHookInfo};
+use std::panic::{self, Location, PanicHookInfo};
 use std::sync::Once;
 
 /// Status of an answer whose text is the results in JSON.
@@ -63,7 +63,7 @@ pub extern "C" fn funicular_answer() -> u32 {
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_output() -> *const u8 {
-    TEXT.with_borrow(|text| text.as_ptr())
+    TEXT.with_borrow(Vec::as_ptr)
 }
 
 /// Bytes of the answer's text, which is UTF-8.
@@ -103,18 +103,18 @@ fn leave_message(panic: &PanicHookInfo<'_>) {
     let payload = panic.payload();
     let reason =
         payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-    let text = message_of(reason, panic.location().map(ToString::to_string));
+    let text = message_of(reason, panic.location());
     // Its owner may have been interrupted while it had the text; then the caller has no message but the trap.
     let _ = TEXT.try_with(|store| store.try_borrow_mut().map(|mut store| *store = text.into_bytes()));
 }
 
-fn message_of(panic: Option<&str>, place: Option<String>) -> String {
+fn message_of(panic: Option<&str>, place: Option<&Location<'_>>) -> String {
     format!(
         "mistake in funicular {}: {} ({}); please report it with the request and its robot file. This instance is broken: \
          make a new one",
         env!("CARGO_PKG_VERSION"),
         panic.unwrap_or("a panic without text"),
-        place.as_deref().unwrap_or("unknown place"),
+        place.map_or("unknown place".to_owned(), ToString::to_string),
     )
 }
 
@@ -160,8 +160,9 @@ mod tests {
 
     #[test]
     fn a_message_about_a_panic_says_what_where_and_what_to_do() {
-        let text = message_of(Some("index out of bounds"), Some("src/a.rs:1:2".to_owned()));
-        assert!(text.contains("index out of bounds (src/a.rs:1:2); please report"), "{text}");
+        let text = message_of(Some("index out of bounds"), Some(Location::caller()));
+        assert!(text.contains(": index out of bounds (") && text.contains("lib.rs:"), "{text}");
+        assert!(text.contains("please report it with the request"), "{text}");
         assert!(text.ends_with("make a new one"), "{text}");
     }
 }
