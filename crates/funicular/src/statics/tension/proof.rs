@@ -2,7 +2,7 @@
 //!
 //! For any direction y, balance needs `y·e + Σ y·w_i(τ_i) = 0`, e being the load and w_i the wrench of a cable. If the sum
 //! of the load's share and the greatest share that every cable can have within its limits is negative, no tensions
-//! within the limits balance the platform, however the cables sag: (39b). The greatest shares are each a search in one
+//! within the limits balance the platform, however the cables sag: (39a). The greatest shares are each a search in one
 //! variable, along the true curve of the cable.
 
 use super::line::Line;
