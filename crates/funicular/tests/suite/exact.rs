@@ -113,8 +113,8 @@ fn both_ends_have_the_stiffness_of_transfer_matrices_undamped_and_damped() {
                 for at in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let ours = block(
                         &hanging,
-                        |i, j| exact.in_plane.damped([(i, j)], square)[0],
-                        |i, j| exact.out_of_plane.damped([(i, j)], square)[0],
+                        |i, j| exact.in_plane.entry(i, j, square),
+                        |i, j| exact.out_of_plane.entry(i, j, square),
                         at,
                     );
                     for (i, row) in ours.iter().enumerate() {
