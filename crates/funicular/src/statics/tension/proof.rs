@@ -168,6 +168,7 @@ impl Claim<'_> {
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
         let mut verdict = Verdict { proved: false, farthest: Vec::new() };
+
         for _ in 0..=MAX_CUTS {
             let (proved, farthest) = self.examine(&y);
             if seen.is_empty() {
@@ -177,6 +178,8 @@ impl Claim<'_> {
                 verdict.proved = true;
                 break;
             }
+
+            // The cut of this direction.
             let wrench = farthest.iter().fold(self.load, |sum, point| sum + point.wrench);
             let Some(unit) = wrench.try_normalize(0.0) else { break };
             seen.push(std::array::from_fn(|k| unit[k]));
