@@ -7,6 +7,7 @@ mod cable;
 mod campaign;
 mod catenary;
 mod damped;
+mod derivatives;
 mod exact;
 mod first;
 mod freedoms;
