@@ -1,6 +1,6 @@
 //! The core against numbers that others published or computed: the rows of docs/validation.md.
 //!
-//! The numbers are in crates/funicular/reference, each table with its source; the same numbers hold up the core's
+//! The numbers are in crates/funicular-study/reference, each table with its source; the same numbers hold up the core's
 //! tests. One file a section.
 
 mod catenary;

@@ -12,7 +12,7 @@ use serde_json::Value;
 use std::sync::LazyLock;
 
 static REFERENCE: LazyLock<Value> =
-    LazyLock::new(|| serde_json::from_str(include_str!("../../reference/damped.json")).unwrap());
+    LazyLock::new(|| serde_json::from_str(include_str!("../../../funicular-study/reference/damped.json")).unwrap());
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value}"))
@@ -24,7 +24,7 @@ fn vector(value: &Value) -> Vec3 {
 
 /// The robot of this name among the independent ones, with the damping that `change` gives it.
 fn at_rest(id: &str, change: impl Fn(&mut Robot)) -> (Robot, Equilibrium) {
-    let all: Value = serde_json::from_str(include_str!("../../reference/independent.json")).unwrap();
+    let all: Value = serde_json::from_str(include_str!("../../../funicular-study/reference/independent.json")).unwrap();
     let case = all["cases"].as_array().unwrap().iter().find(|case| case["id"] == id).unwrap().clone();
     let mut robot = Robot::from_toml(case["toml"].as_str().unwrap()).unwrap();
     change(&mut robot);

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use crate::reference;
 
 static REFERENCE: LazyLock<Value> =
-    LazyLock::new(|| serde_json::from_str(include_str!("../../reference/exact.json")).unwrap());
+    LazyLock::new(|| serde_json::from_str(include_str!("../../../funicular-study/reference/exact.json")).unwrap());
 
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
@@ -130,7 +130,7 @@ fn both_ends_have_the_stiffness_of_transfer_matrices_undamped_and_damped() {
 }
 
 fn robot(id: &str) -> (Robot, Vec<f64>) {
-    let all: Value = serde_json::from_str(include_str!("../../reference/independent.json")).unwrap();
+    let all: Value = serde_json::from_str(include_str!("../../../funicular-study/reference/independent.json")).unwrap();
     let cases = all["cases"].as_array().unwrap().clone();
     let case = cases.into_iter().find(|case| case["id"] == id).unwrap();
     let robot = Robot::from_toml(case["toml"].as_str().unwrap()).unwrap();

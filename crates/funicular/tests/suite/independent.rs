@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::sync::LazyLock;
 
 static CASES: LazyLock<Vec<Value>> = LazyLock::new(|| {
-    let all: Value = serde_json::from_str(include_str!("../../reference/independent.json")).unwrap();
+    let all: Value = serde_json::from_str(include_str!("../../../funicular-study/reference/independent.json")).unwrap();
     all["cases"].as_array().unwrap().clone()
 });
 

@@ -5,25 +5,20 @@ use funicular::modes;
 use funicular::robot::{Freedoms, Robot, State};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel, TensionRule};
 use funicular::validity;
-use std::path::Path;
 
 /// Every robot by its file's name, and its equilibrium.
 pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    files
+    funicular_robots::ALL
         .into_iter()
-        .map(|file| {
-            let robot = Robot::from_toml(&std::fs::read_to_string(&file).unwrap()).unwrap();
+        .map(|(name, text)| {
+            let robot = Robot::from_toml(text).unwrap();
             let model = StaticModel::Catenary;
             let rest = match &robot.state {
                 State::Lengths(lengths) => statics::forward(&robot, lengths, model, None),
                 State::Pose(pose) => statics::distribute(&robot, pose, model, &TensionRule::default()),
-                State::Unknown => panic!("{} has no state", file.display()),
+                State::Unknown => panic!("{name} has no state"),
             };
-            let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-            (name, robot, rest.unwrap_or_else(|error| panic!("{}: {error}", file.display())))
+            (name.to_owned(), robot, rest.unwrap_or_else(|error| panic!("{name}: {error}")))
         })
         .collect()
 }

@@ -22,7 +22,7 @@ fn load(text: &str) -> (Robot, Vec<f64>) {
 }
 
 fn yuan() -> (Robot, Equilibrium) {
-    let (robot, lengths) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let (robot, lengths) = load(funicular_robots::YUAN2014_4MM);
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
     (robot, rest)
 }
@@ -37,7 +37,7 @@ const CLOSED_FORM: Linearisation = Linearisation {
 
 #[test]
 fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multiplicity() {
-    let (mut robot, _) = load(include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"));
+    let (mut robot, _) = load(funicular_robots::SAP2000_8_CABLE_POINT_MASS);
     // The published model is the linearisation at the middle of the cube with the tensions of its lengths, without sag.
     robot.gravity_w = Vec3::zeros();
     let cube = table("cube_point_mass");
@@ -184,7 +184,7 @@ fn damping_to_first_order_is_the_width_of_the_resonance() {
 
 #[test]
 fn turning_the_whole_world_changes_no_frequency() {
-    let (robot, lengths) = load(include_str!("../../../../robots/cogiro.toml"));
+    let (robot, lengths) = load(funicular_robots::COGIRO);
     let turn = rotation::from_roll_pitch_yaw_deg(25.0, -40.0, 70.0);
     let mut turned = robot.clone();
     turned.gravity_w = turn * robot.gravity_w;
@@ -209,7 +209,7 @@ fn turning_the_whole_world_changes_no_frequency() {
 #[test]
 fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
     // The centre of mass high above the attachments, by external hand held at the pose of springs without moment arm.
-    let (mut robot, _) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let (mut robot, _) = load(funicular_robots::YUAN2014_4MM);
     let (_, rest) = yuan();
     robot.platform.center_of_mass_p = Vec3::new(0.0, 0.0, 200.0);
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
@@ -221,7 +221,7 @@ fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
 #[test]
 fn cables_are_warned_about_outside_the_models_range() {
     use funicular::validity::{self, Warning};
-    let (robot, lengths) = load(include_str!("../../../../robots/yuan2014-8mm.toml"));
+    let (robot, lengths) = load(funicular_robots::YUAN2014_8MM);
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
     let warnings = validity::of_dynamics(&robot, &rest, CableModel::ClosedForm, 20.0);
     let [Warning::DeepSag { cables, .. }] = &warnings[..] else { panic!("{warnings:?}") };
@@ -281,7 +281,7 @@ proptest! {
 #[test]
 fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reach() {
     use funicular::compare;
-    let (robot, mut lengths) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let (robot, mut lengths) = load(funicular_robots::YUAN2014_4MM);
     let reference = |lengths: &[f64], below_hz: f64| {
         let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
         compare::compare(&robot, &rest, below_hz, Linearisation::default()).unwrap()

@@ -1,10 +1,10 @@
-//! The numbers of crates/funicular/reference/published.json: what others published or computed, each with its source.
+//! The numbers of crates/funicular-study/reference/published.json: what others published or computed, each with its source.
 
 use serde_json::Value;
 use std::sync::LazyLock;
 
 static PUBLISHED: LazyLock<Value> =
-    LazyLock::new(|| serde_json::from_str(include_str!("../../reference/published.json")).unwrap());
+    LazyLock::new(|| serde_json::from_str(include_str!("../../../funicular-study/reference/published.json")).unwrap());
 
 /// A table by its name.
 pub(crate) fn table(name: &str) -> &'static Value {

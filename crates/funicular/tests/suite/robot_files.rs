@@ -1,7 +1,6 @@
 //! Robot files: those of the library load, and broken ones are refused with one clear message at the right line.
 
 use funicular::robot::{Freedoms, Robot, State};
-use std::path::{Path, PathBuf};
 
 /// A file with lengths; the broken files below are this one with one change. Line 1 is `name`.
 const ROBOT: &str = r#"name = "test robot"
@@ -45,7 +44,7 @@ fn robot_with_pose() -> String {
 }
 
 /// A point mass with a pose; `freedoms` is line 4, `[state]` line 13.
-const YUAN: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 const POINT: &str = r#"name = "point"
 [platform]
@@ -452,44 +451,32 @@ error: two cables are called "left"
     assert_eq!(shown, expected);
 }
 
-/// The library of robots, by file name.
-fn library() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    files
-}
-
-fn load(file: &Path) -> Robot {
-    let text = std::fs::read_to_string(file).unwrap();
-    Robot::from_toml(&text).unwrap_or_else(|error| panic!("{}", error.render(&file.to_string_lossy(), &text, false)))
+/// A robot of the library, or the reader's message.
+fn load(name: &str, text: &str) -> Robot {
+    Robot::from_toml(text).unwrap_or_else(|error| panic!("{}", error.render(name, text, false)))
 }
 
 #[test]
 fn every_robot_of_the_library_loads_and_has_a_source_and_a_state() {
-    let files = library();
-    assert!(files.len() >= 10, "{files:?}");
-    for file in files {
-        assert_eq!(file.extension().and_then(|e| e.to_str()), Some("toml"), "{file:?}");
-        let robot = load(&file);
-        assert!(!robot.source.is_empty(), "{file:?} names no source");
-        assert_ne!(robot.state, State::Unknown, "{file:?} has no state");
+    for (name, text) in funicular_robots::ALL {
+        let robot = load(name, text);
+        assert!(!robot.source.is_empty(), "{name} names no source");
+        assert_ne!(robot.state, State::Unknown, "{name} has no state");
     }
 }
 
 #[test]
 fn the_library_has_the_published_numbers() {
-    let robot = |name: &str| load(library().iter().find(|file| file.ends_with(name)).expect(name));
     // Table II: 251 kN and 1.005 MN from 20 GPa and the diameters; the longest and the shortest length.
-    let thin = robot("yuan2014-4mm.toml");
+    let thin = load("yuan2014-4mm", funicular_robots::YUAN2014_4MM);
     assert!((thin.cables[0].material.axial_stiffness - 251.327e3).abs() < 1.0);
     assert_eq!(thin.state, State::Lengths(vec![6.863, 6.565, 6.756, 6.663, 6.801, 6.604]));
-    let thick = robot("yuan2014-8mm.toml");
+    let thick = load("yuan2014-8mm", funicular_robots::YUAN2014_8MM);
     assert!((thick.cables[0].material.axial_stiffness - 1.005_310e6).abs() < 1.0);
     assert_eq!(thick.state, State::Lengths(vec![4.859, 4.552, 4.83, 4.586, 9.417, 9.284]));
     // Of the printed matrices at the centre of mass and at the platform origin, the parallel-axis theorem has to hold.
     // With the centre of mass rounded to 1 mm it does within 0.01; with the signs as printed it misses by 0.8 and more.
-    let cogiro = robot("cogiro.toml").platform;
+    let cogiro = load("cogiro", funicular_robots::COGIRO).platform;
     let c = cogiro.center_of_mass_p;
     let at_origin =
         cogiro.inertia_p + (c.norm_squared() * funicular::math::Mat3::identity() - c * c.transpose()) * cogiro.mass;
@@ -497,7 +484,7 @@ fn the_library_has_the_published_numbers() {
     for (i, j, value) in printed {
         assert!((at_origin[(i, j)] - value).abs() < 0.02, "({i}, {j}): {} against {value}", at_origin[(i, j)]);
     }
-    let point = robot("sap2000-8-cable-point-mass.toml");
+    let point = load("sap2000-8-cable-point-mass", funicular_robots::SAP2000_8_CABLE_POINT_MASS);
     assert_eq!((point.cables.len(), point.platform.freedoms), (8, Freedoms::PointMass));
 }
 

@@ -9,9 +9,9 @@ use std::fmt::Write;
 
 use crate::reference::{number, numbers, rows};
 
-const YUAN_4MM: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
-const YUAN_8MM: &str = include_str!("../../../../robots/yuan2014-8mm.toml");
-const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
+const YUAN_4MM: &str = funicular_robots::YUAN2014_4MM;
+const YUAN_8MM: &str = funicular_robots::YUAN2014_8MM;
+const COGIRO: &str = funicular_robots::COGIRO;
 
 /// The file of the paper's robot that a row names.
 fn paper_robot(row: &serde_json::Value) -> &'static str {

@@ -8,8 +8,8 @@ use funicular::statics::{self, Equilibrium, Miss, Stability, StaticModel, Static
 use proptest::prelude::*;
 use std::fmt::Write as _;
 
-const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
-const POINT: &str = include_str!("../../../../robots/sap2000-8-cable-point-mass.toml");
+const COGIRO: &str = funicular_robots::COGIRO;
+const POINT: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
 /// CoGiRo with ropes of this mass per length [kg/m] and these limits [N].
 fn cogiro(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
@@ -560,7 +560,7 @@ proptest! {
 /// In the plane nothing weighs: limits far above what the cables need, and a minimum that only says "not slack".
 #[test]
 fn a_minimum_of_next_to_nothing_is_met() {
-    let robot = Robot::from_toml(include_str!("../../../../robots/kntu-planar.toml")).unwrap();
+    let robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     for minimum in [1e-9, 1e-6, 1e-3, 1e-2, 0.1] {
         let robot = robot.with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(60.0) });
