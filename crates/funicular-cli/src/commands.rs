@@ -212,7 +212,7 @@ fn sources(paths: &[PathBuf]) -> Result<Vec<SourceFile>> {
         }
         let file = File::open(path).with_context(|| format!("cannot read {shown}"))?;
         let mut bytes = Vec::new();
-        // One byte more than a file may have says that it has too many.
+        // Reading one byte beyond the limit shows that a file is too large.
         file.take(import::MAX_BYTES as u64 + 1)
             .read_to_end(&mut bytes)
             .with_context(|| format!("cannot read {shown}"))?;

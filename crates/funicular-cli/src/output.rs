@@ -25,16 +25,16 @@ pub(crate) trait Printed: Found {
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
 }
 
-/// What goes to a file, and which endings the file may have.
+/// Kind of an output file: its name in messages and the endings it may have.
 #[derive(Clone, Copy)]
 pub(crate) struct Content {
-    /// As messages call it: "the result".
+    /// Name of the output in messages: "the result".
     pub(crate) name: &'static str,
     /// The option that names the file.
     pub(crate) option: &'static str,
-    /// What it is, in words: "a page".
+    /// Kind of the file in messages: "a page".
     pub(crate) in_words: &'static str,
-    /// Endings that say so.
+    /// File name endings of this kind.
     pub(crate) fitting: &'static [Kind],
 }
 
@@ -73,7 +73,7 @@ impl Target {
         Ok(Self { file: Some(target) })
     }
 
-    /// Whether what is written becomes a file.
+    /// True if the output becomes a file, not standard output or a device.
     pub(crate) fn is_file(&self) -> bool {
         self.file.is_some()
     }
@@ -94,7 +94,7 @@ pub(crate) struct Sink {
 }
 
 impl Sink {
-    /// The format is the one asked for, or that of the file's ending. Files that the guard knows are not written over.
+    /// Chooses the requested format, or else the format of the file's ending. Never overwrites a file that the guard knows.
     pub(crate) fn open(args: &OutputArgs, guard: &mut Guard) -> Result<Self> {
         let path = args.output_file.as_deref();
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
@@ -124,7 +124,7 @@ impl Sink {
         match self.format {
             Format::Json => as_json(&mut bytes, results)?,
             Format::Text | Format::Csv => {
-                // The same check for every format: nothing that is not finite is printed.
+                // One check for all formats: only finite numbers are printed.
                 as_json(&mut io::sink(), results)?;
                 if self.format == Format::Text {
                     bytes = results.text().into_bytes();
@@ -152,7 +152,7 @@ fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSoluti
     })
 }
 
-/// Lets everybody read a folder as any new one, where a temporary one is its owner's.
+/// Gives a folder the permissions of a new folder. A temporary folder can be read by its owner only.
 pub(crate) fn open_to_all(folder: &Path) -> io::Result<()> {
     #[cfg(unix)]
     {
@@ -167,7 +167,7 @@ fn to_stdout(bytes: &[u8]) -> Result<()> {
     out.write_all(bytes).and_then(|()| out.flush()).map_err(of_stdout)
 }
 
-/// An error of standard output. A closed pipe is kept bare: whoever reads has seen enough, and that is no error.
+/// Error of standard output. A closed pipe is passed on unchanged, because it does not count as an error: the reader has stopped.
 pub(crate) fn of_stdout(error: io::Error) -> anyhow::Error {
     match error.kind() {
         io::ErrorKind::BrokenPipe => error.into(),

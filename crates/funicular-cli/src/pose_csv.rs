@@ -33,7 +33,7 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
             }
             _ => anyhow!("cannot read the poses {shown}: {error}"),
         })?;
-        // Counted from the beginning, so only for what is told of.
+        // Counting lines scans the file, so it is done only when an error reports one.
         let line = || record.position().map_or(0, |position| line_at(&bytes, position));
         let mut pose = [0.0; 6];
         for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
@@ -52,8 +52,8 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     Ok(poses)
 }
 
-/// The line of a record, from 1. A position is behind the record before, in front of blank lines and of what is left of
-/// the end of its line, and numbers only some of them.
+/// Line number of a record, from 1. The reader's position points behind the previous record, that is before the rest of
+/// its line end and before blank lines, and does not count all kinds of line ends.
 fn line_at(bytes: &[u8], position: &csv::Position) -> usize {
     let from = usize::try_from(position.byte()).unwrap_or(bytes.len()).min(bytes.len());
     let ends = |byte: &u8| matches!(byte, b'\r' | b'\n');
@@ -62,7 +62,7 @@ fn line_at(bytes: &[u8], position: &csv::Position) -> usize {
     1 + (0..begin).filter(ends_line).count()
 }
 
-/// Where each column is; one of another name is told of, and refused if it may be meant for one of a pose.
+/// Place of each column. An unknown column is reported, and refused if its name is close to that of a pose column.
 fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
     let mut places = [None; 6];
     let mut others = Vec::new();

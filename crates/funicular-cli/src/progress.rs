@@ -6,10 +6,10 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// How long a command stays silent; most are done by then.
+/// Time before progress is shown. Most commands are done by then.
 const PATIENCE: Duration = Duration::from_millis(700);
 
-/// Counts what is done of `total`.
+/// Counts finished items up to `total`.
 pub(crate) struct Progress {
     started: Instant,
     total: usize,
@@ -19,9 +19,9 @@ pub(crate) struct Progress {
     bar: Option<ProgressBar>,
 }
 
-/// What is done, and the time left.
+/// Template with the count and the remaining time.
 const PLAIN: &str = "{bar:40} {human_pos}/{human_len} {msg}, {eta} left";
-/// With how many a second.
+/// Template with the count, the rate per second and the remaining time.
 const WITH_RATE: &str = "{bar:40} {human_pos}/{human_len} {msg}, {per_sec}, {eta} left";
 
 impl Progress {
@@ -29,18 +29,18 @@ impl Progress {
         Self { started: Instant::now(), total, done: 0, what, template: PLAIN, bar: None }
     }
 
-    /// Which shows the rate, too.
+    /// Adds the rate to the display.
     pub(crate) fn with_rate(total: usize, what: &'static str) -> Self {
         let mut progress = Self::new(total, what);
         progress.template = WITH_RATE;
         progress
     }
 
-    /// `count` more are done.
+    /// Adds `count` finished items.
     pub(crate) fn advance(&mut self, count: usize) {
         self.done += count;
         if self.bar.is_none() && self.started.elapsed() > PATIENCE {
-            // indicatif draws on stderr, and nothing where that is no terminal.
+            // indicatif draws on stderr, and draws nothing if stderr is not a terminal.
             let bar = ProgressBar::new(self.total as u64).with_elapsed(self.started.elapsed());
             if let Ok(style) = ProgressStyle::with_template(self.template) {
                 bar.set_style(style);
@@ -62,7 +62,7 @@ impl Drop for Progress {
     }
 }
 
-/// A bar for the progress of an analysis, drawn where there is a terminal.
+/// Progress bar of an analysis, drawn if stderr is a terminal.
 #[derive(Default)]
 pub(crate) struct Shown {
     bar: Option<Progress>,
@@ -75,7 +75,7 @@ impl Watch for Shown {
     }
 }
 
-/// A spinner from the time on when waiting has become long, until it is dropped.
+/// Spinner that appears once a command takes long, and stays until it is dropped.
 pub(crate) struct Waiting {
     done: Option<(Sender<()>, JoinHandle<()>)>,
 }
@@ -87,7 +87,7 @@ impl Waiting {
             if is_done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
                 let spinner = ProgressBar::new_spinner().with_message(what);
                 spinner.enable_steady_tick(Duration::from_millis(120));
-                // An error is a sender that is gone: done as well.
+                // An error means that the sender is gone: the work is done.
                 let _ = is_done.recv();
                 spinner.finish_and_clear();
             }
@@ -100,7 +100,7 @@ impl Drop for Waiting {
     fn drop(&mut self) {
         if let Some((done, thread)) = self.done.take() {
             drop(done);
-            // The line is clear before anything else is printed. A spinner that failed is no reason to fail.
+            // The line is cleared before anything else is printed. A failed spinner is ignored.
             let _ = thread.join();
         }
     }

@@ -1,4 +1,4 @@
-//! The text of the robot file: found and read; what is in it is the study's affair.
+//! Finds and reads the text of the robot file. The study crate interprets it.
 
 use crate::args::ChangeArgs;
 use anyhow::{Context, Result, bail};

@@ -194,7 +194,10 @@ impl PyRobot {
     /// Anchors in the world [m], one row a cable.
     #[getter]
     fn anchors_m(&self) -> Matrix {
-        Matrix::of_rows(self.robot.cables.iter().flat_map(|cable| cable.anchor_w.iter().copied()).collect(), 3)
+        Matrix::of_rows(
+            self.robot.cables.iter().flat_map(|cable| <[f64; 3]>::from(cable.anchor.reference_w())).collect(),
+            3,
+        )
     }
 
     /// Attachments in the platform frame [m], one row a cable.

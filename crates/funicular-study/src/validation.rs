@@ -1,7 +1,7 @@
 //! The core against numbers that others published or computed: the rows of docs/validation.md.
 //!
-//! The numbers are in crates/funicular-study/reference, each table with its source; the same numbers hold up the core's
-//! tests. One file a section.
+//! The numbers are in crates/funicular-study/reference, each table with its source. They are compared here and nowhere else:
+//! the core's own tests have limits, identities and other algorithms. One file per section, a test for each.
 
 mod catenary;
 mod cube;
@@ -13,6 +13,9 @@ mod markdown;
 mod paper;
 mod reference;
 mod robots;
+mod shapes;
+#[cfg(test)]
+mod tests;
 
 pub use markdown::markdown;
 

@@ -7,7 +7,7 @@
 //! constructor, its result plain data; nothing is changed once it exists.
 //!
 //! SI units throughout, angles in rad (roll, pitch and yaw in degrees, as people write them), harmonic motion e^{+iωt}.
-//! World frame `w`, platform frame `p`: `anchor_w` is a point in world coordinates, `attachment_p` one in platform
+//! World frame `w`, platform frame `p`: `exit_w` is a point in world coordinates, `attachment_p` one in platform
 //! coordinates, `rot_wp` turns the second kind into the first. Wrenches, small motions and the 6×6 matrices are about
 //! the origin of the platform frame, in world axes.
 //!

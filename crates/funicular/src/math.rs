@@ -7,6 +7,7 @@ pub mod legendre;
 pub mod projected;
 pub mod roots;
 pub mod rotation;
+pub(crate) mod simd;
 
 /// Complex number, `f64` real and imaginary part.
 pub type Complex = num_complex::Complex64;

@@ -6,10 +6,10 @@
 
 mod checks;
 pub mod damped;
-mod first;
+mod fundamental;
 pub mod track;
 
-pub use first::{First, FirstError, first, first_of_all};
+pub use fundamental::{First, FirstError, first, first_of_all};
 
 pub use checks::{MOST, TooMany, check_count, damped_partners};
 

@@ -4,7 +4,6 @@
 //! (the kernel); the plain version, [`receptance`], is its oracle and takes over where it is not accurate.
 
 mod kernel;
-mod lanes;
 mod peaks;
 
 pub use peaks::{Peak, peaks};

@@ -1,12 +1,14 @@
 //! The robot: platform, cables, ropes and gravity; immutable, and valid once it exists.
 //!
-//! Frames: `w` world, `p` platform. `anchor_w` is a point in world coordinates, `attachment_p` one in platform
+//! Frames: `w` world, `p` platform. `exit_w` is a point in world coordinates, `attachment_p` one in platform
 //! coordinates, `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
 
+mod anchor;
 mod freedoms;
 pub mod spec;
 mod wind;
 
+pub use anchor::Anchor;
 pub use freedoms::{Freedoms, OutOfPlane, Plane};
 pub use wind::{LineLoad, Wind};
 
@@ -154,8 +156,8 @@ pub struct Cable {
     pub name: String,
     /// Its rope.
     pub material: Material,
-    /// Anchor (exit point) in the world frame [m].
-    pub anchor_w: Vec3,
+    /// The end that is not on the platform.
+    pub anchor: Anchor,
     /// Attachment point in the platform frame [m].
     pub attachment_p: Vec3,
     /// Limits of its tension, before those of its rope.
@@ -165,10 +167,18 @@ pub struct Cable {
 }
 
 impl Cable {
-    /// Chord at a pose, attachment to anchor, world axes [m].
+    /// Chord of the free span at a pose, attachment to exit point, world axes [m].
     #[inline]
     pub fn chord_w(&self, pose: &Pose) -> Vec3 {
-        self.anchor_w - pose.point_w(&self.attachment_p)
+        let attachment_w = pose.point_w(&self.attachment_p);
+        self.anchor.exit_w(&attachment_w) - attachment_w
+    }
+
+    /// Unstrained length of the cable at a pose if it is straight and carries no tension [m]: the chord and what lies
+    /// beyond the exit point.
+    #[inline]
+    pub fn straight_length(&self, pose: &Pose) -> f64 {
+        self.chord_w(pose).norm() + self.anchor.length_beyond(&pose.point_w(&self.attachment_p))
     }
 
     /// The limits of its tension: its own, then those of its rope; nothing is above what the rope breaks at.

@@ -7,7 +7,34 @@ const MIN_LIKENESS: f64 = 0.8;
 /// Maximum length of a name [bytes]; longer text is none, and its comparison would take long.
 const MAX_LENGTH: usize = 100;
 
-/// The known name nearest to `word`, if one is near; upper and lower case are one.
+/// Names of earlier states of the program, with the names that they have now. A name that is gone is answered with the
+/// new one, also where no letters are alike.
+const RENAMED: &[(&str, &str)] = &[
+    ("exact", "catenary-dynamic"),
+    ("closed-form", "shallow-dynamic"),
+    ("catenary-tangent", "catenary-static"),
+    ("static-sag", "shallow-static"),
+    ("paper", "without-geometric-stiffness"),
+    ("freedoms", "motion"),
+    ("wanted_tension_n", "target_tension_n"),
+    ("wanted-tension-n", "target-tension-n"),
+];
+
+/// The name that an earlier name has now.
+///
+/// # Example
+/// ```
+/// use funicular::suggest::renamed;
+///
+/// assert_eq!(renamed("static-sag"), Some("shallow-static"));
+/// assert_eq!(renamed("spring"), None);
+/// ```
+pub fn renamed(word: &str) -> Option<&'static str> {
+    RENAMED.iter().find(|(old, _)| old.eq_ignore_ascii_case(word)).map(|(_, new)| *new)
+}
+
+/// The known name that was called `word` before, or else the one nearest to `word`, if one is near. Upper and lower case
+/// are one.
 ///
 /// # Example
 /// ```
@@ -17,6 +44,11 @@ const MAX_LENGTH: usize = 100;
 /// assert_eq!(nearest("colour", ["check", "statics"]), None);
 /// ```
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    let known: Vec<&str> = known.into_iter().collect();
+    if let Some(new) = renamed(word).and_then(|new| known.iter().find(|name| **name == new)) {
+        return Some(new);
+    }
+
     let word = word.to_lowercase();
     known
         .into_iter()
@@ -43,6 +75,15 @@ pub(crate) fn or_list(word: &str, others: &str, names: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_earlier_name_is_answered_with_the_name_of_today() {
+        assert_eq!(nearest("exact", ["spring", "catenary-dynamic"]), Some("catenary-dynamic"));
+        assert_eq!(nearest("Freedoms", ["mass_kg", "motion"]), Some("motion"));
+        // Where the new name is none of the known ones, likeness decides.
+        assert_eq!(nearest("exact", ["spring", "exact_length"]), Some("exact_length"));
+        assert_eq!(nearest("exact", ["spring"]), None);
+    }
 
     #[test]
     fn typing_errors_are_near_and_other_words_are_not() {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
-    /// Files of one robot; what they are is seen from what is in them
+    /// Files of one robot; their format is recognised from their content
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
 
@@ -25,7 +25,7 @@ pub(crate) struct ImportArgs {
     pub(crate) output_file: PathBuf,
 }
 
-/// What a source may not say of its ropes. An option wins over the file.
+/// Values of the ropes that a source may lack. An option takes precedence over the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Ropes")]
 pub(crate) struct RopeArgs {
@@ -47,7 +47,7 @@ pub(crate) struct RopeArgs {
     pub(crate) diameter_m: Option<f64>,
 }
 
-/// What a source may not say of its platform. An option wins over the file.
+/// Values of the platform that a source may lack. An option takes precedence over the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Platform")]
 pub(crate) struct ImportedPlatformArgs {

@@ -49,7 +49,7 @@ impl Printed for Frf {
     }
 }
 
-/// Where one end of the response is.
+/// Text for the place of the input or output of a response.
 fn place_text(place: &PlaceRow) -> String {
     format!("({}) m{}", vector(&place.point_m, 3), if place.on_cable { " of the world" } else { "" })
 }

@@ -69,7 +69,7 @@ impl Printed for Modes {
     }
 }
 
-/// The sentence that says what the list is worth.
+/// Sentence on the list: certified, or the reason why not.
 fn certificate(found: &Modes) -> String {
     let listed = counted(found.modes.len(), "mode");
     let unstable = match found.unstable_directions {

@@ -66,7 +66,7 @@ impl Printed for Reduced {
 const MATRICES: Content =
     Content { name: "the matrices", option: "--model", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
 
-/// Where the matrices go.
+/// Destination of the matrices.
 pub(crate) enum ModelFile {
     /// One NumPy archive.
     Npz(Target),
@@ -135,7 +135,7 @@ fn matrices<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str
 /// A NumPy archive, with the description as text beside the arrays.
 fn npz(matrices: &[(&str, &DMat)], description: &[u8]) -> Result<Vec<u8>> {
     let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
-    // The time of the format's beginning: the same model is the same file.
+    // A fixed time stamp (the earliest of the format), so that equal models give equal files.
     let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
     for (name, matrix) in matrices {
         archive.start_file(format!("{name}.npy"), options)?;
@@ -178,7 +178,7 @@ fn folder(path: &Path, matrices: &[(&str, &DMat)], description: &[u8]) -> Result
     }
     std::fs::write(made.path().join("description.json"), description)?;
     output::open_to_all(made.path())?;
-    // An empty folder gives way; one that is not does not.
+    // An empty folder is replaced; a folder with files is not.
     std::fs::rename(made.path(), path)?;
     let _ = made.keep();
     Ok(())

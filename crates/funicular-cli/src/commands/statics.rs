@@ -160,7 +160,7 @@ fn equilibria_table(found: &Statics) -> Option<String> {
         }
         _ => "",
     };
-    // A point mass has one equilibrium, which needs no counting.
+    // A point mass has exactly one equilibrium, so the sum of (51) is not printed.
     let sum = if search.starts == 0 { "" } else { sum };
     let found = equilibria.len();
     let noun = if found == 1 { "equilibrium" } else { "equilibria" };

@@ -1,4 +1,4 @@
-//! What a sweep found, in a few numbers.
+//! Summary of a map or sweep in a few numbers.
 
 use super::{Job, sink};
 use crate::args::Format;
@@ -20,14 +20,14 @@ pub(crate) struct Summary {
     feasible: usize,
     /// Names of what `least_at` and `greatest_at` give.
     coordinates: Vec<String>,
-    /// Rows of each status, those that occur, in the order of the codes.
+    /// Number of rows of each status that occurs, in the order of the codes.
     status: Vec<StatusCount>,
     ranges: Vec<Range>,
     #[serde(skip)]
     warnings: Vec<String>,
     #[serde(skip)]
     columns: Vec<Column>,
-    /// The coordinates of the first row, and which of them are others elsewhere.
+    /// Coordinates of the first row, and which of them vary over the rows.
     #[serde(skip)]
     first: Vec<f64>,
     #[serde(skip)]
@@ -38,7 +38,7 @@ pub(crate) struct Summary {
 struct StatusCount {
     code: &'static str,
     rows: usize,
-    /// Of the first such row.
+    /// Reason of the first row with this status.
     #[serde(skip_serializing_if = "String::is_empty")]
     first_reason: String,
 }
@@ -124,14 +124,14 @@ impl Summary {
         }
     }
 
-    /// Of coordinates in order, those that vary.
+    /// Coordinates that vary, in order.
     fn chosen(&self, coordinates: impl Iterator<Item = String>) -> String {
         let chosen: Vec<String> =
             coordinates.zip(&self.varies).filter_map(|(text, varies)| varies.then_some(text)).collect();
         if chosen.len() == 1 { chosen.concat() } else { format!("({})", chosen.join(", ")) }
     }
 
-    /// To standard output.
+    /// Prints the summary to standard output.
     pub(super) fn print(mut self, format: Option<Format>) -> Result<()> {
         let place = |code: &str| CODES.iter().position(|known| known.0 == code);
         self.status.sort_by_key(|count| place(count.code));

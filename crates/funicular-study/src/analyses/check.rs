@@ -183,7 +183,7 @@ pub fn run(robot: Robot) -> Checked {
         .map(|(i, cable)| CheckedCable {
             name: cable.name.clone(),
             material: cable.material.name.clone(),
-            anchor_m: cable.anchor_w.into(),
+            anchor_m: cable.anchor.reference_w().into(),
             attachment_m: cable.attachment_p.into(),
             unstrained_length_m: lengths.map(|lengths| lengths[i]),
             limits: CheckedLimits::of(cable.limits()),
@@ -241,11 +241,12 @@ fn warnings(robot: &Robot) -> Vec<String> {
         ));
     }
     if let Freedoms::Planar(plane) = robot.platform.freedoms {
-        let across = |cable: &Cable| plane.distance(&cable.anchor_w) - plane.normal_w().dot(&cable.attachment_p);
+        let across =
+            |cable: &Cable| plane.distance(&cable.anchor.reference_w()) - plane.normal_w().dot(&cable.attachment_p);
         let beside: Vec<String> = robot
             .cables
             .iter()
-            .filter(|cable| across(cable).abs() > 1e-9 * (1.0 + cable.anchor_w.norm()))
+            .filter(|cable| across(cable).abs() > 1e-9 * (1.0 + cable.anchor.reference_w().norm()))
             .map(|cable| format!("\"{}\" by {} m", cable.name, short(across(cable), 4)))
             .collect();
         if !beside.is_empty() {

@@ -87,7 +87,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         step = step.min(STEP * chain.bar_length / wave);
         shortened = shortened.max(state.unstrained_length - unstrained_length);
         lowest = chain.nodes_w.iter().map(|node| node.z).fold(lowest, f64::min);
-        points.push(PointRow { id: i + 1, attachment: "Fixed", at: cable.anchor_w, mass: 0.0 });
+        points.push(PointRow { id: i + 1, attachment: "Fixed", at: cable.anchor.reference_w(), mass: 0.0 });
         let mut end = cables + 1;
         if let Some(frame) = &body {
             end += i;

@@ -1,7 +1,7 @@
 //! The catenary alone.
 
 use super::reference::{HungBetween, IsolatedCable, Published};
-use super::{Bound, Case, Row, Section};
+use super::{Bound, Case, Kind, Row, Section, over, worst};
 use anyhow::Result;
 use funicular::catenary::{Catenary, CatenaryError, Rope};
 
@@ -13,9 +13,7 @@ pub(super) fn section(published: &Published) -> Result<Section> {
         let forces = [ours.horizontal_force(), ours.vertical_force_at_end()];
         let theirs = [cable.horizontal_force_n, cable.vertical_force_at_end_n];
         rows.push(case.relative("H, V at the end [N]", &theirs, &forces, 1e-12, Bound::Rounding));
-        let [[xx, xz], [_, zz]] = ours.tangent();
-        let theirs = cable.end_stiffness_xx_xz_zz_n_per_m;
-        rows.push(case.together("end stiffness xx, xz, zz [N/m]", &theirs, &[xx, xz, zz], 1e-12, Bound::Rounding));
+        rows.push(stiffness(&case, cable.end_stiffness_xx_xz_zz_n_per_m, &ours));
     }
     for cable in &published.catenary_moorpy.rows {
         let case = Case { name: describe(&cable.hung), source: &published.catenary_moorpy.source };
@@ -47,6 +45,17 @@ pub(super) fn section(published: &Published) -> Result<Section> {
         note: "Forces and stiffness of one hanging cable. Both sides solve the same equations: only rounding is left.",
         rows,
     })
+}
+
+/// The direct stiffnesses, each over its own size, and the coupling over the larger of them: it may be zero.
+fn stiffness(case: &Case, theirs: [f64; 3], cable: &Catenary) -> Row {
+    let [[xx, xz], [_, zz]] = cable.tangent();
+    let ours = [xx, xz, zz];
+    let larger = theirs[0].max(theirs[2]);
+    let sizes = [theirs[0], larger, theirs[2]];
+    let difference = worst((0..3).map(|i| over((ours[i] - theirs[i]).abs(), sizes[i])));
+    let difference = (difference, Kind::Relative);
+    case.row("end stiffness xx, xz, zz [N/m]", (&theirs, &ours), difference, 1e-12, Bound::Rounding)
 }
 
 fn rope(of: &HungBetween) -> Rope {

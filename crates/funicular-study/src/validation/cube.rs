@@ -38,11 +38,12 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
     for (cable, unstrained_length) in robot.cables.iter().zip(model.unstrained_length_m) {
         let axial_stiffness = cable.material.axial_stiffness;
         let rope = Rope { unstrained_length, weight_per_length: 0.0, axial_stiffness };
-        let hanging = HangingCable::new(pose.position_w, cable.anchor_w, Vec3::z(), rope)?;
+        let exit_w = cable.anchor.exit_w(&pose.position_w);
+        let hanging = HangingCable::new(pose.position_w, exit_w, Vec3::z(), rope)?;
         cables.push(CableState {
             attachment_w: pose.position_w,
             lever_w: Vec3::zeros(),
-            anchor_w: cable.anchor_w,
+            anchor_w: exit_w,
             unstrained_length,
             force_on_platform_w: hanging.force_on_start_w(),
             tension_platform: hanging.catenary.tension_at_start(),

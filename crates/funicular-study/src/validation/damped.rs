@@ -1,7 +1,7 @@
-//! Damped natural frequencies, and responses of points on cables.
+//! Damped natural frequencies, responses of points on cables, and shapes of undamped modes.
 
 use super::reference::{Damped, DampedRobot, Independent, Point, PointRobot, RopeDamping, robot};
-use super::{Bound, Case, Kind, Row, Section, worst};
+use super::{Bound, Case, Kind, Row, Section, shapes, worst};
 use anyhow::{Context, Result};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -23,11 +23,16 @@ pub(super) fn section(reference: &Damped, robots: &Independent) -> Result<Sectio
     for of in &reference.point_frf {
         rows.push(points(&reference.about, of, toml(&of.robot)?)?);
     }
+    for of in &reference.shapes {
+        rows.extend(shapes::of_robot(&reference.about, of, toml(&of.robot)?)?);
+    }
     Ok(Section {
-        title: "Damped modes and points on cables, computed independently",
+        title: "Damped modes, shapes and points on cables, computed independently",
         note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of the \
-               platform; responses whose force or motion is on a cable. The other program solves one eigenvalue problem of \
-               all unknowns in extended precision. Of lists the last value is shown and all are compared.",
+               platform; responses whose force or motion is on a cable; energies, modal masses and shapes of undamped \
+               modes. The other program solves one eigenvalue problem of all unknowns in extended precision. A mode is \
+               known to the precision of its frequency over the relative gap to the next one; differences of energies \
+               and modal masses are divided by what that adds. Of lists the last value is shown and all are compared.",
         rows,
     })
 }
@@ -54,21 +59,32 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Row>> {
     let certified = if damped.certified { ours.len() } else { 0 };
     // Frequencies that ring alike may come in any order: each is compared with the nearest that is left.
     let mut left = ours.clone();
-    let gaps = of.modes.iter().map(|theirs| {
+    let pairs = of.modes.iter().map(|theirs| {
         let gap = |(re, im): &(f64, f64)| (re - theirs.re_hz).hypot(im - theirs.im_hz) / theirs.re_hz;
         let nearest = (0..left.len()).min_by(|&i, &j| gap(&left[i]).total_cmp(&gap(&left[j])));
-        nearest.map_or(f64::NAN, |i| gap(&left.swap_remove(i)))
+        nearest.map_or((f64::NAN, f64::NAN), |i| {
+            let ours = left.swap_remove(i);
+            (gap(&ours), (ours.1 / theirs.im_hz - 1.0).abs())
+        })
     });
-    let difference = worst(gaps);
-    let theirs: Vec<f64> = of.modes.last().map_or(Vec::new(), |mode| vec![mode.re_hz, mode.im_hz]);
-    let last: Vec<f64> = ours.last().map_or(Vec::new(), |(re, im)| vec![*re, *im]);
+    let (gaps, of_decay): (Vec<f64>, Vec<f64>) = pairs.unzip();
+    let theirs = of.modes.last().map_or([f64::NAN; 2], |mode| [mode.re_hz, mode.im_hz]);
+    let last = ours.last().map_or([f64::NAN; 2], |(re, im)| [*re, *im]);
     Ok(vec![
         case.count(&format!("damped modes below {} Hz", of.below_hz), of.modes.len(), certified),
         case.row(
             "complex natural frequency, last [Hz]",
             (&theirs, &last),
-            (difference, Kind::Relative),
-            1e-9,
+            (worst(gaps.into_iter()), Kind::Relative),
+            1e-11,
+            Bound::Elements,
+        ),
+        // Some thousandths of the frequency, whose error it has.
+        case.row(
+            "its imaginary part alone, last [Hz]",
+            (&theirs[1..], &last[1..]),
+            (worst(of_decay.into_iter()), Kind::Relative),
+            1e-8,
             Bound::Elements,
         ),
     ])

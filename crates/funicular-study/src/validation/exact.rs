@@ -52,6 +52,7 @@ fn alone(source: &str, of: &ExactCable) -> Result<Vec<Row>> {
         last(&case, "clamped frequencies in plane, last [Hz]", &of.clamped_in_plane_hz, &in_plane, 1e-9),
         last(&case, "clamped frequencies out of plane, last [Hz]", &of.clamped_out_of_plane_hz, &across, 1e-9),
         platform_end(&case, of, &hanging, &exact),
+        both_ends(&case, of, &hanging, &exact),
     ])
 }
 
@@ -83,6 +84,54 @@ fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Ex
     }
     let quantity = "end stiffness, largest at the last frequency [N/m]";
     case.row(quantity, (&[shown.0], &[shown.1]), (worst(gaps.into_iter()), Kind::Relative), 1e-9, Bound::Elements)
+}
+
+/// The 6×6 stiffness of both ends at all frequencies, undamped and with either damping of the rope.
+fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Exact) -> Row {
+    let theirs = &of.end_stiffness;
+    let mut gaps = Vec::new();
+    let mut shown = (0.0, 0.0);
+    for (k, frequency) in theirs.frequency_hz.iter().enumerate() {
+        let omega = frequency * TAU;
+        let square = omega * omega;
+        // Complex ω², which is how either damping enters: equation (27).
+        let with_ratio = Complex::new(square, -2.0 * theirs.xi * square);
+        let with_viscosity = Complex::new(square, -theirs.viscous_n_s_m2 * omega / of.mass_kg_per_m);
+        for (square, real, imag) in [
+            (Complex::new(square, 0.0), &theirs.undamped, None),
+            (with_ratio, &theirs.xi_real, Some(&theirs.xi_imag)),
+            (with_viscosity, &theirs.viscous_real, Some(&theirs.viscous_imag)),
+        ] {
+            let expected = |i: usize, j: usize| Complex::new(real[k][i][j], imag.map_or(0.0, |imag| imag[k][i][j]));
+            let ours = end_matrix(hanging, exact, square);
+            let places = || (0..36).map(|n| (n / 6, n % 6));
+            let size = worst(places().map(|(i, j)| expected(i, j).norm()));
+            gaps.extend(places().map(|(i, j)| (ours[i][j] - expected(i, j)).norm() / size));
+            shown = (size, worst(ours.iter().flatten().map(|entry| entry.norm())));
+        }
+    }
+    let quantity =
+        format!("stiffness of both ends, undamped, ξ = {}, {} N s/m², last [N/m]", theirs.xi, theirs.viscous_n_s_m2);
+    case.row(&quantity, (&[shown.0], &[shown.1]), (worst(gaps.into_iter()), Kind::Relative), 1e-9, Bound::Elements)
+}
+
+/// Stiffness of both ends in world axes, start first, at a complex ω².
+fn end_matrix(hanging: &HangingCable, exact: &Exact, square: Complex) -> [[Complex; 6]; 6] {
+    let (h, v) = hanging.axes_w();
+    let (pair, b) = ([h, v], h.cross(&v));
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            // Ends and world components.
+            let ((end, i), (other, j)) = ((row / 3, row % 3), (column / 3, column % 3));
+            let [across] = exact.out_of_plane.damped([(end, other)], square);
+            let in_plane = (0..4).map(|n| {
+                let (p, q) = (n / 2, n % 2);
+                let [entry] = exact.in_plane.damped([(2 * end + p, 2 * other + q)], square);
+                entry * pair[p][i] * pair[q][j]
+            });
+            across * b[i] * b[j] + in_plane.sum::<Complex>()
+        })
+    })
 }
 
 fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Row>> {

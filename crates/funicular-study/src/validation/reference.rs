@@ -306,6 +306,14 @@ pub(super) struct ExactStiffness {
     pub(super) frequency_hz: Vec<f64>,
     /// Both ends, start first.
     pub(super) undamped: Vec<Matrix>,
+    /// Constant damping ratio of the next two.
+    pub(super) xi: f64,
+    pub(super) xi_real: Vec<Matrix>,
+    pub(super) xi_imag: Vec<Matrix>,
+    /// Viscous damping of the next two.
+    pub(super) viscous_n_s_m2: f64,
+    pub(super) viscous_real: Vec<Matrix>,
+    pub(super) viscous_imag: Vec<Matrix>,
 }
 
 /// A robot of independent.json.
@@ -332,6 +340,7 @@ pub(super) struct Damped {
     #[serde(rename = "damped_modes")]
     pub(super) robots: Vec<DampedRobot>,
     pub(super) point_frf: Vec<PointRobot>,
+    pub(super) shapes: Vec<ShapesOfRobot>,
 }
 
 /// A robot of independent.json with other damping.
@@ -387,6 +396,31 @@ pub(super) struct Point {
     #[serde(default)]
     pub(super) fraction: f64,
     pub(super) direction_world: [f64; 3],
+}
+
+/// Undamped modes of a robot of independent.json, some of its list.
+#[derive(Deserialize)]
+pub(super) struct ShapesOfRobot {
+    pub(super) robot: String,
+    pub(super) below_hz: f64,
+    /// Places on the cables, from the platform.
+    pub(super) fractions: Vec<f64>,
+    pub(super) modes: Vec<ModeShape>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ModeShape {
+    /// Its place in the list, from 0.
+    pub(super) index: usize,
+    pub(super) frequency_hz: f64,
+    pub(super) relative_gap_to_neighbour: f64,
+    pub(super) platform_at_rest: bool,
+    /// None where the platform is at rest: there it has no amplitude to refer to.
+    pub(super) modal_mass_kg: Option<f64>,
+    /// Of the platform and of every cable by its name.
+    pub(super) kinetic_energy_fraction: BTreeMap<String, f64>,
+    /// World components at each place, for unit modal mass.
+    pub(super) cable_displacement_m: BTreeMap<String, Vec<[f64; 3]>>,
 }
 
 pub(super) fn damped() -> Result<Damped> {

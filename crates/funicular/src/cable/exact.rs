@@ -13,11 +13,12 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations a pole.
 //! Derivation: docs/theory.md, section 9.
 
-pub(crate) mod abreast;
 mod mesh;
+mod partition;
 mod poles;
 mod shape;
 
+pub(crate) use mesh::{ellipse, has_tension};
 pub(crate) use poles::EndSeries;
 pub use poles::PoleResidue;
 pub(crate) use shape::Swing;
@@ -28,7 +29,8 @@ use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::Complex;
 use crate::robot::Damping;
-use mesh::{Condensed, Mesh};
+use mesh::Mesh;
+use partition::Condensed;
 use std::ops::Range;
 use thiserror::Error;
 

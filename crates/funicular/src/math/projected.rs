@@ -4,6 +4,8 @@
 //! unknowns. Every transformation is applied to those few vectors, and no eigenvector is ever formed. K is factored
 //! and not M: the large μ = 1/ω² are the low frequencies, and those come out with all their digits.
 
+use super::simd::dot;
+
 /// Reduces the pencil `M φ = μ K φ` with K positive definite: eigenvalues μ_k (not ordered), and for each the products
 /// `φ_kᵀ b` with every given vector b, φ_k normalised to `φᵀ K φ = 1`.
 ///
@@ -52,20 +54,6 @@ fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }
-}
-
-/// xᵀ y, summed in eight lanes so that it can be vector code.
-#[inline(always)]
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let mut lanes = [0.0; 8];
-    let (xs, ys) = (x.chunks_exact(8), y.chunks_exact(8));
-    let rest: f64 = xs.remainder().iter().zip(ys.remainder()).map(|(x, y)| x * y).sum();
-    for (x, y) in xs.zip(ys) {
-        for i in 0..8 {
-            lanes[i] += x[i] * y[i];
-        }
-    }
-    lanes.iter().sum::<f64>() + rest
 }
 
 /// Lower factor in place of the lower triangle; false if a pivot is not positive.

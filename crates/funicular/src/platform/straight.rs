@@ -4,12 +4,12 @@ use super::coordinates::Coordinates;
 use crate::math::{Vec3, Vec6};
 use crate::robot::{Cable, Pose};
 
-/// Straight line from the platform to the anchor, with its lever arm, world axes [m].
+/// Straight line from the platform to the anchor's exit point, with its lever arm, world axes [m].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StraightCable {
     /// Lever arm from the platform origin to the attachment.
     pub(crate) lever_w: Vec3,
-    /// Attachment to anchor. From the lever arm, so that it is rounded otherwise than [`Cable::chord_w`].
+    /// Attachment to exit point. From the lever arm, so that it is rounded otherwise than [`Cable::chord_w`].
     pub(crate) chord_w: Vec3,
 }
 
@@ -18,7 +18,8 @@ impl StraightCable {
     #[inline]
     pub(crate) fn at(cable: &Cable, pose: &Pose) -> Self {
         let lever_w = pose.rot_wp * cable.attachment_p;
-        Self { lever_w, chord_w: cable.anchor_w - pose.position_w - lever_w }
+        let exit_w = cable.anchor.exit_w(&(pose.position_w + lever_w));
+        Self { lever_w, chord_w: exit_w - pose.position_w - lever_w }
     }
 
     /// Reduced wrench of a tension of one; the ends must not coincide.

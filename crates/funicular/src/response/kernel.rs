@@ -1,11 +1,12 @@
 //! Receptance at many frequencies, [`LANES`] of them side by side.
 
-use super::lanes::{Complexes, LANES, Reals, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
 use super::receptance;
 use crate::cable::closed_form::{self, ClosedForm, Entire, SERIES_BELOW};
 use crate::cable::exact::{EndSeries, ExactEnd};
 use crate::cable::{DynamicCable, LocalStiffness, damped_square};
 use crate::dynamics::Dynamics;
+use crate::math::simd::complex::{Complexes, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
+use crate::math::simd::{LANES, Lane};
 use crate::math::{CMat6, Complex, Vec6};
 use std::array::from_fn;
 use std::f64::consts::TAU;
@@ -74,7 +75,7 @@ impl<'a> Prepared<'a> {
 
     /// D(ω) of each lane, lower triangle.
     #[inline(always)]
-    fn dynamic_stiffness(&self, omega: &Reals) -> [Complexes; 21] {
+    fn dynamic_stiffness(&self, omega: &Lane) -> [Complexes; 21] {
         let mut d: [Complexes; 21] = from_fn(|k| Complexes {
             re: from_fn(|i| self.constant[k] - self.mass[k] * (omega[i] * omega[i])),
             im: from_fn(|i| omega[i] * self.platform_damping[k]),
@@ -101,7 +102,7 @@ impl<'a> Prepared<'a> {
 
 /// The exact cable's stiffness at each lane.
 #[inline(always)]
-fn exact(form: &ExactEnd, omega: &Reals) -> LocalStiffness<Complexes> {
+fn exact(form: &ExactEnd, omega: &Lane) -> LocalStiffness<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         (re[i], im[i]) = damped_square(omega[i], form.damping, form.mass_per_length);
@@ -128,7 +129,7 @@ fn pole_sum<const E: usize>(of: &EndSeries<E>, x: &Complexes) -> [Complexes; E] 
 
 /// The closed form's functions of γ at each lane, divided by cosh Im √γ.
 #[inline(always)]
-fn entire(form: &ClosedForm, omega: &Reals) -> Entire<Complexes> {
+fn entire(form: &ClosedForm, omega: &Lane) -> Entire<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         let (a, b) = damped_square(omega[i], form.damping, form.sag.mass_per_length);
@@ -136,8 +137,8 @@ fn entire(form: &ClosedForm, omega: &Reals) -> Entire<Complexes> {
         im[i] = b * form.gamma_by_square;
     }
     let gamma = Complexes { re, im };
-    let h_re: Reals = from_fn(|i| (0.5 * ((re[i] * re[i] + im[i] * im[i]).sqrt() + re[i])).sqrt());
-    let h_im: Reals = from_fn(|i| 0.5 * im[i] / h_re[i]);
+    let h_re: Lane = from_fn(|i| (0.5 * ((re[i] * re[i] + im[i] * im[i]).sqrt() + re[i])).sqrt());
+    let h_im: Lane = from_fn(|i| 0.5 * im[i] / h_re[i]);
     let ordinary = (0..LANES).all(|i| re[i] > SERIES_BELOW && h_re[i] < SIN_COS_LIMIT && h_im[i].abs() < TANH_LIMIT);
     if !ordinary {
         return entire_by_lane(gamma);
@@ -344,6 +345,6 @@ fn invert(l: &[Complexes; 21]) -> [Complexes; 21] {
 
 /// ω of a block; a short last block repeats its last frequency.
 #[inline(always)]
-fn angular(block: &[f64]) -> Reals {
+fn angular(block: &[f64]) -> Lane {
     from_fn(|i| block[i.min(block.len() - 1)] * TAU)
 }

@@ -12,7 +12,7 @@ pub struct CableState {
     pub attachment_w: Vec3,
     /// Lever arm from the platform origin to the attachment, world axes [m].
     pub lever_w: Vec3,
-    /// Anchor in the world [m].
+    /// Point at which the cable leaves its anchor, in the world [m].
     pub anchor_w: Vec3,
     /// Unstrained length [m]; of an ideal cable its length.
     pub unstrained_length: f64,

@@ -18,7 +18,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
             .cables
             .iter()
             .zip(lengths)
-            .fold(0.0_f64, |worst, (cable, length)| worst.max((cable.chord_w(pose).norm() - length).abs()))
+            .fold(0.0_f64, |worst, (cable, length)| worst.max((cable.straight_length(pose) - length).abs()))
     };
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let mut gap = gap_of(&pose);
@@ -27,7 +27,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
         let columns = unit_wrenches(robot, &pose, &coordinates);
         let rows = columns.transpose();
         let gaps = Vec6::from_fn(|i, _| match (robot.cables.get(i), lengths.get(i)) {
-            (Some(cable), Some(length)) => cable.chord_w(&pose).norm() - length,
+            (Some(cable), Some(length)) => cable.straight_length(&pose) - length,
             _ => 0.0,
         });
         let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
@@ -119,8 +119,8 @@ pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: u
             CableState {
                 attachment_w,
                 lever_w: attachment_w - pose.position_w,
-                anchor_w: cable.anchor_w,
-                unstrained_length: chord.norm(),
+                anchor_w: cable.anchor.exit_w(&attachment_w),
+                unstrained_length: cable.straight_length(&pose),
                 force_on_platform_w: chord.normalize() * tension,
                 tension_platform: tension,
                 tension_anchor: tension,

@@ -11,7 +11,7 @@ use crate::robot::{Cable, LineLoad, Pose, Robot};
 /// longer ropes hold are held by their weight alone.
 pub(super) const LONGEST: f64 = 2.0;
 
-/// A cable without its length: where its anchor is, what it is made of and what acts on it.
+/// A cable without its length: where it leaves its anchor, what it is made of and what acts on it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadedCable<'a> {
     pub(super) cable: &'a Cable,
@@ -49,18 +49,20 @@ impl<'a> LoadedCable<'a> {
     pub(super) fn hang(&self, pose: &Pose, unstrained_length: f64) -> HangingCable {
         let (weight_per_length, axial_stiffness) = (self.load.size, self.axial_stiffness());
         let rope = Rope { unstrained_length, weight_per_length, axial_stiffness };
-        HangingCable::between(pose.point_w(&self.cable.attachment_p), self.cable.anchor_w, self.load.up_w, rope)
+        let start_w = pose.point_w(&self.cable.attachment_p);
+        HangingCable::between(start_w, self.cable.anchor.exit_w(&start_w), self.load.up_w, rope)
     }
 
     /// Hung so that the tension parallel to its chord is this [N]; not far slacker than its weight has it.
     pub(super) fn hang_with_tension(&self, pose: &Pose, tension: f64) -> HangingCable {
         let start_w = pose.point_w(&self.cable.attachment_p);
+        let exit_w = self.cable.anchor.exit_w(&start_w);
         let rope = Rope {
             // The tension fixes the length; this one is where the search for it begins.
-            unstrained_length: (self.cable.anchor_w - start_w).norm(),
+            unstrained_length: (exit_w - start_w).norm(),
             weight_per_length: self.load.size,
             axial_stiffness: self.axial_stiffness(),
         };
-        HangingCable::with_parallel_tension(start_w, self.cable.anchor_w, self.load.up_w, rope, tension)
+        HangingCable::with_parallel_tension(start_w, exit_w, self.load.up_w, rope, tension)
     }
 }

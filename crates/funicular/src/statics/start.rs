@@ -10,10 +10,10 @@ use crate::robot::{Freedoms, Pose, Robot};
 pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
     let n = robot.cables.len() as f64;
     let up_w = robot.up_w();
-    let anchors = robot.cables.iter().map(|c| c.anchor_w).sum::<Vec3>() / n;
+    let anchors = robot.cables.iter().map(|c| c.anchor.reference_w()).sum::<Vec3>() / n;
     let attachments = robot.cables.iter().map(|c| c.attachment_p).sum::<Vec3>() / n;
     // Point-like platform: Σ|p − B|²/n = |p − B̄|² + Σ|B − B̄|²/n = Σ L²/n.
-    let spread = robot.cables.iter().map(|c| (c.anchor_w - anchors).norm_squared()).sum::<f64>() / n;
+    let spread = robot.cables.iter().map(|c| (c.anchor.reference_w() - anchors).norm_squared()).sum::<f64>() / n;
     let reach = lengths.iter().map(|l| l * l).sum::<f64>() / n - spread;
     let mut pose = Pose {
         position_w: anchors - up_w * reach.max(0.0).sqrt() - attachments,
@@ -55,7 +55,8 @@ fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, coordinates: &Coordinate
         let StraightCable { lever_w, chord_w } = StraightCable::at(cable, pose);
         let distance = chord_w.norm().max(1e-12);
         let row = coordinates.reduce_force(&(chord_w / distance), &lever_w);
-        let gap = distance - length;
+        let beyond = cable.anchor.length_beyond(&(pose.position_w + lever_w));
+        let gap = distance + beyond - length;
         normal += row * row.transpose();
         gradient += row * gap;
         cost += gap * gap;

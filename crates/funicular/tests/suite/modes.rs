@@ -1,19 +1,19 @@
-//! Natural frequencies against published models, other algorithms and identities.
+//! Natural frequencies against other algorithms and identities.
+
+mod damped;
+mod first;
+mod track;
 
 use crate::random::any_robot;
+use funicular::cable::CableModel;
 use funicular::cable::exact::ExactError;
-use funicular::cable::{CableModel, EndStiffness};
-use funicular::catenary::Rope;
-use funicular::catenary::space::HangingCable;
-use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
+use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{Mat6, Vec3, rotation};
 use funicular::modes::{self, Kind};
 use funicular::robot::{Pose, Robot, State};
-use funicular::statics::{self, CableState, Equilibrium, Stability, StaticModel};
+use funicular::statics::{self, Equilibrium, StaticModel};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
-
-use crate::reference::{list, number, numbers, rows, table};
 
 fn load(text: &str) -> (Robot, Vec<f64>) {
     let robot = Robot::from_toml(text).unwrap();
@@ -25,86 +25,6 @@ fn yuan() -> (Robot, Equilibrium) {
     let (robot, lengths) = load(funicular_robots::YUAN2014_4MM);
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
     (robot, rest)
-}
-
-/// Eight straight cables and a 30 kg point mass in the middle of a 2.5 m cube.
-/// Of cables that have no catenary.
-const CLOSED_FORM: Linearisation = Linearisation {
-    cable_model: CableModel::ClosedForm,
-    assembly: funicular::dynamics::Assembly::Consistent,
-    in_plane_only: false,
-};
-
-#[test]
-fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multiplicity() {
-    let (mut robot, _) = load(funicular_robots::SAP2000_8_CABLE_POINT_MASS);
-    // The published model is the linearisation at the middle of the cube with the tensions of its lengths, without sag.
-    robot.gravity_w = Vec3::zeros();
-    let cube = table("cube_point_mass");
-    assert_eq!(rows("cube_point_mass").len(), 2);
-    for row in rows("cube_point_mass") {
-        let lengths: [f64; 8] = numbers(row, "unstrained_length_m");
-        let expected = list(row, "frequencies_hz");
-        let pose = Pose::new(numbers(cube, "position_m"), [0.0; 3]);
-        let cables = robot.cables.iter().zip(lengths).map(|(cable, unstrained_length)| {
-            let axial_stiffness = cable.material.axial_stiffness;
-            let rope = Rope { unstrained_length, weight_per_length: 0.0, axial_stiffness };
-            let hanging = HangingCable::new(pose.position_w, cable.anchor_w, Vec3::z(), rope).unwrap();
-            CableState {
-                attachment_w: pose.position_w,
-                lever_w: Vec3::zeros(),
-                anchor_w: cable.anchor_w,
-                unstrained_length,
-                force_on_platform_w: hanging.force_on_start_w(),
-                tension_platform: hanging.catenary.tension_at_start(),
-                tension_anchor: hanging.catenary.tension_at_end(),
-                hanging: Some(hanging),
-            }
-        });
-        let state = Equilibrium {
-            pose,
-            model: StaticModel::Spring,
-            cables: cables.collect(),
-            residual: 0.0,
-            iterations: 0,
-            stability: Stability::Rigid,
-        };
-        let strain = state.cables.iter().map(|c| c.tension_platform).fold(0.0, f64::max)
-            / robot.cables[0].material.axial_stiffness;
-        let dynamics = Dynamics::about(&robot, &state, CLOSED_FORM, 20.0).unwrap();
-        // The lists end before the third family of the strings.
-        let limit = number(cube, "limit_hz");
-        let found = modes::below(&dynamics, limit);
-        assert!(found.certified);
-        assert_eq!(found.modes.len(), expected.len());
-        for (mode, theirs) in found.modes.iter().zip(expected) {
-            // The reference has axial waves, which the closed form leaves out: its axial stiffness is too large by
-            // (ω l √(m/EA))²/3 (l = 2.165 m), its frequencies by up to half of that where a mode stretches the cables.
-            // Its strings have the mass of the unstrained length spread over the stretched one, ours per length: half
-            // of the strain.
-            let axial = (TAU * theirs * number(cube, "longest_cable_m")).powi(2) * number(cube, "mass_kg_per_m")
-                / number(cube, "axial_stiffness_n");
-            let moves = if mode.platform_energy_fraction == 0.0 { 0.0 } else { axial / 6.0 };
-            let bound = moves + 0.501 * strain;
-            let gap = (mode.frequency_hz / theirs - 1.0).abs();
-            assert!(gap < bound, "{} for {theirs}", mode.frequency_hz);
-        }
-    }
-}
-
-#[test]
-fn counts_grow_by_one_at_every_listed_frequency_and_nowhere_else() {
-    let (robot, rest) = yuan();
-    for assembly in [Assembly::Consistent, Assembly::Paper] {
-        let dynamics = Dynamics::about(&robot, &rest, Linearisation { assembly, ..Default::default() }, 20.0).unwrap();
-        let found = modes::below(&dynamics, 20.0);
-        assert!(found.certified);
-        for (i, mode) in found.modes.iter().enumerate() {
-            let omega = mode.frequency_hz * TAU;
-            assert!(dynamics.modes_below(omega * (1.0 - 1e-9)) <= i, "{assembly:?} {i}");
-            assert!(dynamics.modes_below(omega * (1.0 + 1e-9)) > i, "{assembly:?} {i}");
-        }
-    }
 }
 
 #[test]
@@ -189,7 +109,7 @@ fn turning_the_whole_world_changes_no_frequency() {
     let mut turned = robot.clone();
     turned.gravity_w = turn * robot.gravity_w;
     for cable in &mut turned.cables {
-        cable.anchor_w = turn * cable.anchor_w;
+        cable.anchor = cable.anchor.rotated(&turn);
     }
     let list = |robot: &Robot, start: Option<&Pose>| {
         let rest = statics::forward(robot, &lengths, StaticModel::Catenary, start).unwrap();
@@ -216,34 +136,6 @@ fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
     let found = modes::below(&dynamics, 5.0);
     assert!(found.unstable_directions >= 1);
     assert_eq!(found.modes.len() + found.unstable_directions, found.count_below);
-}
-
-#[test]
-fn cables_are_warned_about_outside_the_models_range() {
-    use funicular::validity::{self, Warning};
-    let (robot, lengths) = load(funicular_robots::YUAN2014_8MM);
-    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-    let warnings = validity::of_dynamics(&robot, &rest, CableModel::ClosedForm, 20.0);
-    let [Warning::DeepSag { cables, .. }] = &warnings[..] else { panic!("{warnings:?}") };
-    assert!(cables.iter().all(|deep| deep.ratio > 0.05 && deep.ratio < 0.07));
-    for deep in cables {
-        // Measured here: the first clamped frequency in plane of either model.
-        let i = robot.cables.iter().position(|cable| cable.name == deep.cable).unwrap();
-        let first = |cable_model| {
-            let one = EndStiffness::new(&robot, i, &rest.cables[i], cable_model, true, 5.0).unwrap();
-            let EndStiffness::Dynamic(form) = one else { panic!("it vibrates") };
-            form.clamped_frequencies_below(5.0 * TAU)[0]
-        };
-        let error = first(CableModel::ClosedForm) / first(CableModel::Exact) - 1.0;
-        assert!((deep.error.unwrap() - error).abs() < 1e-9 && error.abs() > 0.01, "{deep:?}");
-        assert!(warnings[0].to_string().contains(&format!("first frequency off by {:+.1} %", 100.0 * error)));
-    }
-    let names: Vec<&str> = cables.iter().map(|deep| deep.cable.as_str()).collect();
-    assert_eq!(names, ["5", "6"], "the long cables sag by some 6 % of the chord");
-    assert!(warnings[0].to_string().contains("more than 1/20"));
-    assert!(validity::of_dynamics(&robot, &rest, CableModel::CatenaryTangent, 20.0).is_empty());
-    let axial = validity::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);
-    assert!(matches!(&axial[..], [Warning::AxialWaves { .. }]), "{axial:?}");
 }
 
 proptest! {
@@ -276,24 +168,6 @@ proptest! {
             prop_assert_eq!(dynamics.modes_below(f * TAU), listed + found.unstable_directions, "below {} Hz", f);
         }
     }
-}
-
-#[test]
-fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reach() {
-    use funicular::compare;
-    let (robot, mut lengths) = load(funicular_robots::YUAN2014_4MM);
-    let reference = |lengths: &[f64], below_hz: f64| {
-        let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
-        compare::compare(&robot, &rest, below_hz, Linearisation::default()).unwrap()
-    };
-    let usual = reference(&lengths, 5.0);
-    assert_eq!((usual.reference, usual.advice.model), (CableModel::Exact, CableModel::ClosedForm));
-    // A rope of twice its length has hundreds of resonances below 60 Hz.
-    lengths[0] = 14.0;
-    let slack = reference(&lengths, 60.0);
-    assert_eq!(slack.reference, CableModel::ClosedForm);
-    let exact = slack.models.iter().find(|m| m.model == CableModel::Exact).unwrap();
-    assert!(exact.modes.as_ref().unwrap_err().to_string().contains("unknowns for one cable"));
 }
 
 #[test]

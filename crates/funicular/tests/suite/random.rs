@@ -1,4 +1,6 @@
-//! Random robots for property tests.
+//! Random robots: those of property tests, and in `campaign` a suite over many, all rooms at once.
+
+pub(crate) mod campaign;
 
 use funicular::math::Vec3;
 use funicular::robot::{Robot, State};

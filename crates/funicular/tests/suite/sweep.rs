@@ -149,7 +149,7 @@ fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
             }
             funicular::robot::State::Unknown => continue,
         };
-        let reach = robot.cables[0].anchor_w.norm();
+        let reach = robot.cables[0].anchor.reference_w().norm();
         // At home, and so far away that nothing holds it.
         let x = rest.position_w.x;
         let steps = Steps::List(vec![x, x + 0.01 * reach, x + 40.0 * reach]);

@@ -51,7 +51,7 @@ pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> Table {
         &["<cable", "anchor x|m", "y|m", "z|m", "attachment x|m", "y|m", "z|m", "length, 4 mm|m", "length, 8 mm|m"],
     );
     for (i, cable) in sweeps[0].robot.cables.iter().enumerate() {
-        let (b, a) = (cable.anchor_w, cable.attachment_p);
+        let (b, a) = (cable.anchor.reference_w(), cable.attachment_p);
         let mut cells = vec![cable.name.clone()];
         cells.extend([b.x, b.y, b.z, a.x, a.y, a.z].map(|v| fixed(v, 3)));
         cells.extend(sweeps.iter().map(|s| fixed(s.lengths[i], 3)));

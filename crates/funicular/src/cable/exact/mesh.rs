@@ -1,9 +1,9 @@
 //! A cable as a few elements of high polynomial degree, condensed onto its ends.
 
-use super::shape::Displacements;
-use super::{ExactError, PoleResidue};
+use super::ExactError;
+use super::partition::{Condensed, Functions, Partition};
 use crate::catenary::Catenary;
-use crate::math::{Complex, DMat, legendre, projected};
+use crate::math::{Complex, DMat, legendre};
 
 /// A cable cut into elements, each with its polynomial degree.
 pub(super) struct Mesh<'a> {
@@ -107,7 +107,7 @@ impl<'a> Mesh<'a> {
 
     /// Inner unknowns in plane.
     pub(super) fn unknowns(&self) -> usize {
-        2 * (self.elements.iter().map(|e| e.degree).sum::<usize>() - 1)
+        2 * self.inner_functions()
     }
 
     /// C at arc length s [N]: in plane (hh, hv, vv), out of plane the first only.
@@ -123,8 +123,8 @@ impl<'a> Mesh<'a> {
         ([across + extra * c * c, extra * c * s, across + extra * s * s], across)
     }
 
-    /// Condenses D components a point onto the two ends (N = 2D) with the static stiffness `still`, and finds how the
-    /// points at the arc lengths `stations` move.
+    /// Condenses D components per point onto the two ends (N = 2D), which have the static stiffness `still`, and finds how
+    /// the points at the arc lengths `stations` move.
     pub(super) fn condense<const D: usize, const N: usize>(
         &self,
         tables: &[Table],
@@ -132,68 +132,59 @@ impl<'a> Mesh<'a> {
         limit: f64,
         stations: &[f64],
     ) -> Result<Condensed<D, N>, ExactError> {
-        // Scalar functions: inner ones (nodes, then bubbles), the two ends, then those beyond the degree.
-        let inner = self.elements.iter().map(|e| e.degree).sum::<usize>() - 1;
-        let beyond = BEYOND * self.elements.len();
-        let total = inner + 2 + beyond;
-        let (n, half) = (D * inner, D * (2 + beyond));
-        let count = 2 * half + D * stations.len();
-        let mut stiffness = vec![0.0; n * n];
-        let mut mass = vec![0.0; n * n];
-        // Columns of K for ends and beyond, then the same of M, then the functions' values at the stations, by rows.
-        let mut columns = vec![0.0; n * count];
-        let mut end_mass = [[0.0; N]; N];
-        let mut own = vec![(0.0, 0.0); D * beyond];
-        let mut values_at_ends = vec![[0.0; 2]; stations.len()];
-        let nodes = self.elements.len() - 1;
-        let mut bubble = nodes;
-        for (e, element) in self.elements.iter().enumerate() {
-            let left = if e == 0 { inner } else { e - 1 };
-            let right = if e == nodes { inner + 1 } else { e };
-            let functions: Vec<usize> = [left, right]
-                .into_iter()
-                .chain(bubble..bubble + element.degree - 1)
-                .chain((0..BEYOND).map(|k| inner + 2 + BEYOND * e + k))
-                .collect();
-            bubble += element.degree - 1;
+        self.assemble(tables, stations).reduce(still, limit)
+    }
+
+    /// Stiffness and mass of all functions, element by element, in the blocks of a [`Partition`].
+    fn assemble<const D: usize, const N: usize>(&self, tables: &[Table], stations: &[f64]) -> Partition<D, N> {
+        let mut partition = Partition::new(self.inner_functions(), BEYOND * self.elements.len(), stations.len());
+
+        for (e, (element, table)) in self.elements.iter().zip(tables).enumerate() {
+            let functions = self.functions_of(e);
+
+            let (stiffness, mass) = self.element_matrices::<D>(element, table);
+            partition.add_inner(&functions, &stiffness, &mass);
+            partition.add_columns(&functions, &stiffness, &mass);
+            partition.add_end_mass(&functions, &mass);
+            partition.set_beyond(&functions, &stiffness, &mass);
+
             for (station, s) in stations.iter().enumerate().filter(|(_, s)| self.holds(e, **s)) {
-                for (&row, value) in functions.iter().zip(element.values_at(*s)) {
-                    if row < inner {
-                        (0..D).for_each(|d| columns[(D * row + d) * count + 2 * half + D * station + d] = value);
-                    } else {
-                        values_at_ends[station][row - inner] = value;
-                    }
-                }
-            }
-            let (k, m) = self.element_matrices::<D>(element, &tables[e]);
-            for (b, &column) in functions.iter().enumerate() {
-                for (a, &row) in functions.iter().enumerate() {
-                    let inertia = m[(a, b)];
-                    for dj in 0..D {
-                        for di in 0..D {
-                            let (entry, inertia) = (k[di + dj][(a, b)], if di == dj { inertia } else { 0.0 });
-                            if row < inner && column < inner {
-                                stiffness[(D * column + dj) * n + D * row + di] += entry;
-                                mass[(D * column + dj) * n + D * row + di] += inertia;
-                            } else if row < inner {
-                                let at = (D * row + di) * count + D * (column - inner) + dj;
-                                columns[at] += entry;
-                                columns[at + half] += inertia;
-                            } else if column < inner {
-                                // The transpose of what the branch above takes.
-                            } else if row < inner + 2 && column < inner + 2 {
-                                end_mass[D * (row - inner) + di][D * (column - inner) + dj] += inertia;
-                            } else if row == column && di == dj {
-                                own[D * (row - inner - 2) + di] = (entry, inertia);
-                            }
-                        }
-                    }
-                }
+                partition.set_station(&functions, station, &element.values_at(*s));
             }
         }
-        debug_assert!(total == inner + 2 + beyond && bubble == inner);
-        let (values, products) = projected::pencil(stiffness, mass, columns, count).ok_or(ExactError::NoTension)?;
-        Ok(Condensed::new(&values, &products, still, end_mass, &own, limit, &values_at_ends))
+
+        partition
+    }
+
+    /// Number of inner functions: nodes between elements, then bubbles.
+    fn inner_functions(&self) -> usize {
+        self.elements.iter().map(|e| e.degree).sum::<usize>() - 1
+    }
+
+    /// Places of the functions of element `e` in the [`Partition`].
+    fn functions_of(&self, e: usize) -> Functions {
+        let last = self.elements.len() - 1;
+        let degree = self.elements[e].degree;
+        let first_bubble = last + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
+        let (mut inner, mut ends) = (Vec::with_capacity(degree + 1), Vec::new());
+
+        // The hats: nodes between elements are inner functions, the others belong to the ends of the cable.
+        if e == 0 {
+            ends.push((0, 0))
+        } else {
+            inner.push((0, e - 1))
+        }
+        if e == last {
+            ends.push((1, 1))
+        } else {
+            inner.push((1, e))
+        }
+
+        // The bubbles up to the degree, and those beyond it.
+        inner.extend((0..degree - 1).map(|k| (2 + k, first_bubble + k)));
+        let beyond = (0..BEYOND).map(|k| (degree + 1 + k, BEYOND * e + k)).collect();
+
+        Functions { inner, ends, beyond }
     }
 
     /// Whether a station lies on element `e`; one between two elements lies on the first.
@@ -229,64 +220,6 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// A cable condensed onto its ends.
-pub(super) struct Condensed<const D: usize, const N: usize> {
-    pub(super) ends: PoleResidue<N>,
-    /// Estimated relative error of the clamped frequencies below the limit.
-    pub(super) error: f64,
-    pub(super) stations: Displacements<D, N>,
-}
-
-impl<const D: usize, const N: usize> Condensed<D, N> {
-    /// Poles and residues from the eigenvalues μ = 1/ω² and the products of the eigenvectors, normalised to φᵀKφ = 1,
-    /// with the columns a = K_ib and b = M_ib of the ends: `g = (b − μ a)/√μ`, `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`;
-    /// and with the values at the stations: `Ψ = N_b − Σ φ aᵀ`.
-    fn new(
-        values: &[f64],
-        products: &[f64],
-        still: [[f64; N]; N],
-        end_mass: [[f64; N]; N],
-        own: &[(f64, f64)],
-        limit: f64,
-        values_at_ends: &[[f64; 2]],
-    ) -> Self {
-        let (half, count) = (N + own.len(), 2 * (N + own.len()) + D * values_at_ends.len());
-        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
-        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-        let mut mass = end_mass;
-        let mut error = 0.0_f64;
-        let mut poles = Vec::with_capacity(order.len());
-        let mut participation = Vec::with_capacity(order.len());
-        let mut stations = Displacements::of_ends(values_at_ends);
-        for k in order {
-            let mu = values[k];
-            let (ends, at_stations) = products[k * count..(k + 1) * count].split_at(2 * half);
-            let (stiff, heavy) = ends.split_at(half);
-            for i in 0..N {
-                for j in 0..N {
-                    mass[i][j] -= heavy[i] * stiff[j] + stiff[i] * heavy[j] - mu * stiff[i] * stiff[j];
-                }
-            }
-            poles.push(1.0 / mu);
-            participation.push(std::array::from_fn(|i| (heavy[i] - mu * stiff[i]) / mu.sqrt()));
-            stations.add_mode(at_stations, stiff, mu);
-            if 1.0 / mu < limit * limit {
-                // What the functions beyond would take off ω², to first order in each, over ω² (φᵀKφ = 1).
-                let lost: f64 = own
-                    .iter()
-                    .enumerate()
-                    .map(|(e, (k_own, m_own))| {
-                        let answer = stiff[N + e] - heavy[N + e] / mu;
-                        answer * answer / (k_own - m_own / mu).abs().max(f64::MIN_POSITIVE)
-                    })
-                    .sum();
-                error = error.max(0.5 * lost);
-            }
-        }
-        Self { ends: PoleResidue { stiffness: still, mass, poles, participation }, error, stations }
-    }
-}
-
 impl Element {
     /// Values of hats and bubbles at arc length s.
     fn values_at(&self, s: f64) -> Vec<f64> {
@@ -304,7 +237,7 @@ impl Element {
 const SMOOTH_ENOUGH: f64 = 1.5;
 
 /// No point of the cable is without tension.
-pub(super) fn has_tension(catenary: &Catenary) -> bool {
+pub(crate) fn has_tension(catenary: &Catenary) -> bool {
     let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
     let (start, end) = (catenary.tension_at_start(), catenary.tension_at_end());
     let w = catenary.rope().weight_per_length;
@@ -316,7 +249,7 @@ pub(super) fn has_tension(catenary: &Catenary) -> bool {
 
 /// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C, as the sum of its
 /// semi-axes over half: the coefficients of C fall like its powers.
-pub(super) fn ellipse(catenary: &Catenary, center: f64, half: f64) -> f64 {
+pub(crate) fn ellipse(catenary: &Catenary, center: f64, half: f64) -> f64 {
     let w = catenary.rope().weight_per_length;
     if w == 0.0 {
         return f64::INFINITY;

@@ -1,5 +1,6 @@
 //! End stiffness by poles and residues.
 
+use crate::math::simd::LANES;
 use crate::math::{Complex, DMat};
 use std::ops::Range;
 
@@ -173,7 +174,6 @@ impl<const E: usize> EndSeries<E> {
 
     /// Undamped entries at x = ω², without the poles `left_out`.
     pub(super) fn undamped(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
-        const LANES: usize = 8;
         let mut sums = [0.0; E];
         for range in [0..left_out.start, left_out.end..self.poles.len()] {
             let poles = &self.poles[range.clone()];

@@ -4,7 +4,7 @@ use super::limits;
 use super::materials::Materials;
 use super::read::{Key, Reader, Section, Sign, Value, is_zero, shortened};
 use crate::math::Vec3;
-use crate::robot::{Cable, Freedoms, Pose};
+use crate::robot::{Anchor, Cable, Freedoms, Pose};
 use crate::suggest::nearest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -122,7 +122,7 @@ fn read_one(
             load_per_length_w,
             name,
             material,
-            anchor_w: Vec3::from(anchor),
+            anchor: Anchor::from(Vec3::from(anchor)),
             attachment_p: Vec3::from(attachment),
             tension_limits,
         },
@@ -192,7 +192,7 @@ pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry],
     for entry in cables {
         let Some(cable) = &entry.cable else { continue };
         let chord = cable.chord_w(pose).norm();
-        let size = cable.anchor_w.norm() + pose.position_w.norm() + cable.attachment_p.norm();
+        let size = cable.anchor.reference_w().norm() + pose.position_w.norm() + cable.attachment_p.norm();
         if chord <= COINCIDENT * size {
             reader
                 .issue(
@@ -206,7 +206,8 @@ pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry],
 
 /// Refuses a robot that hangs from one point. With lengths the pose is not known yet, this much is.
 pub(super) fn refuse_one_anchor(reader: &mut Reader, cables: &[CableEntry]) {
-    let anchors: Option<Vec<Vec3>> = cables.iter().map(|entry| entry.cable.as_ref().map(|c| c.anchor_w)).collect();
+    let anchors: Option<Vec<Vec3>> =
+        cables.iter().map(|entry| entry.cable.as_ref().map(|c| c.anchor.reference_w())).collect();
     // One cable is a pendulum and has one anchor.
     let Some([first, others @ ..]) = anchors.as_deref() else {
         return;

@@ -1,0 +1,146 @@
+//! Shapes of undamped modes: energies, modal masses, displacements along the cables.
+
+use super::reference::{ModeShape, ShapesOfRobot, robot};
+use super::{Bound, Case, Kind, Row, largest, worst};
+use anyhow::{Context, Result, ensure};
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::Vec3;
+use funicular::modes::{self, Kind as ModeKind, Mode};
+use funicular::robot::Robot;
+use funicular::statics::{self, Equilibrium, StaticModel};
+
+/// Largest differences of one mode.
+struct Differences {
+    /// Relative.
+    frequency: f64,
+    /// Absolute, divided by what the nearness of the next frequency adds.
+    energy: f64,
+    /// Relative, divided by the same; none with the platform at rest.
+    modal_mass: Option<f64>,
+    /// Relative to the largest displacement.
+    shape: f64,
+}
+
+/// Compares the modes of one robot: one row per quantity.
+pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Result<Vec<Row>> {
+    let case = Case { name: given.robot.clone(), source };
+    let (robot, lengths) = robot(toml)?;
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), given.below_hz)?;
+    let list = modes::below(&dynamics, given.below_hz).modes;
+    ensure!(!given.modes.is_empty(), "{}: no modes to compare", given.robot);
+
+    // One comparison a mode.
+    let compared = Compared { robot: &robot, rest: &rest, dynamics: &dynamics, fractions: &given.fractions };
+    let mut all = Vec::new();
+    let (mut at_rest, mut shown) = (0, None);
+    for theirs in &given.modes {
+        let ours = list.get(theirs.index).context("a mode that the list does not have")?;
+        all.push(compared.differences(theirs, ours)?);
+        at_rest += usize::from(ours.kind == ModeKind::Cable && ours.shape.iter().all(|x| *x == 0.0));
+        if let Some(mass) = theirs.modal_mass_kg {
+            shown = Some((theirs, ours, mass));
+        }
+    }
+    let (theirs, ours, modal_mass) = shown.context("a mode that moves the platform")?;
+
+    let platform = theirs.kinetic_energy_fraction["platform"];
+    let several = given.modes.len();
+    let row = |quantity: &str, kind: Kind, shown: (f64, f64), differences: Vec<f64>, tolerance| {
+        let difference = (worst(differences.into_iter()), kind);
+        case.row(quantity, (&[shown.0], &[shown.1]), difference, tolerance, Bound::Elements)
+    };
+    Ok(vec![
+        case.count(
+            &format!("modes with the platform at rest, of {several}"),
+            given.modes.iter().filter(|mode| mode.platform_at_rest).count(),
+            at_rest,
+        ),
+        row(
+            &format!("{several} natural frequencies, last that moves the platform [Hz]"),
+            Kind::Relative,
+            (theirs.frequency_hz, ours.frequency_hz),
+            all.iter().map(|d| d.frequency).collect(),
+            1e-11,
+        ),
+        // An eigenvector is known to the precision of the frequency over the gap to the next one: 1e-12 over the gap.
+        row(
+            "parts of the kinetic energy, over 1 + 0.001/gap; platform's",
+            Kind::Absolute,
+            (platform, ours.platform_energy_fraction),
+            all.iter().map(|d| d.energy).collect(),
+            1e-9,
+        ),
+        row(
+            "modal masses, over 1 + 0.001/gap, last [kg]",
+            Kind::Relative,
+            (modal_mass, ours.modal_mass),
+            all.iter().filter_map(|d| d.modal_mass).collect(),
+            1e-8,
+        ),
+        // Cables are resolved until their frequencies are known to 1e-11; an error of shape enters those squared.
+        row(
+            "displacements of the cables, largest [m/√kg]",
+            Kind::Relative,
+            compared.largest_displacements(theirs, ours)?,
+            all.iter().map(|d| d.shape).collect(),
+            3e-6,
+        ),
+    ])
+}
+
+struct Compared<'a> {
+    robot: &'a Robot,
+    rest: &'a Equilibrium,
+    dynamics: &'a Dynamics,
+    fractions: &'a [f64],
+}
+
+impl Compared<'_> {
+    fn differences(&self, theirs: &ModeShape, ours: &Mode) -> Result<Differences> {
+        let nearness = 1.0 + 1e-3 / theirs.relative_gap_to_neighbour;
+
+        let energies = &theirs.kinetic_energy_fraction;
+        let fraction = |name: &str| energies.get(name).copied().unwrap_or(f64::NAN);
+        let of_cables = self.robot.cables.iter().zip(&ours.cable_energy_fractions);
+        let gaps = of_cables.map(|(cable, ours)| (ours - fraction(&cable.name)).abs());
+        let energy = worst(gaps.chain([(ours.platform_energy_fraction - fraction("platform")).abs()]));
+
+        let (a, b) = self.displacements(theirs, ours)?;
+        // One sign for all cables of the mode.
+        let off = |sign: f64| worst(a.iter().zip(&b).map(|(a, b)| (a - sign * b).abs()));
+        let (same, opposite) = (off(1.0), off(-1.0));
+        let shape = if opposite < same { opposite } else { same } / largest(&a);
+
+        Ok(Differences {
+            frequency: (ours.frequency_hz / theirs.frequency_hz - 1.0).abs(),
+            energy: energy / nearness,
+            modal_mass: theirs.modal_mass_kg.map(|mass| (ours.modal_mass / mass - 1.0).abs() / nearness),
+            shape,
+        })
+    }
+
+    /// Theirs and ours, all cables, for unit modal mass, world axes.
+    fn displacements(&self, theirs: &ModeShape, ours: &Mode) -> Result<(Vec<f64>, Vec<f64>)> {
+        let (mut a, mut b) = (Vec::new(), Vec::new());
+        for (i, cable) in self.robot.cables.iter().enumerate() {
+            let stations = CableStations::new(self.robot, self.rest, self.dynamics, i, self.fractions, false)?;
+            let axes = stations.axes;
+            let given = theirs.cable_displacement_m.get(&cable.name).context("displacements of every cable")?;
+            ensure!(given.len() == self.fractions.len(), "a displacement at every place");
+            for (moved, expected) in stations.in_mode(self.dynamics, ours).into_iter().zip(given) {
+                let [e, n, across] = moved;
+                let moved: Vec3 = (axes.e * e + axes.n * n + axes.b * across) / ours.modal_mass.sqrt();
+                a.extend(expected);
+                b.extend(moved.iter());
+            }
+        }
+        Ok((a, b))
+    }
+
+    fn largest_displacements(&self, theirs: &ModeShape, ours: &Mode) -> Result<(f64, f64)> {
+        let (a, b) = self.displacements(theirs, ours)?;
+        Ok((largest(&a), largest(&b)))
+    }
+}

@@ -1,0 +1,58 @@
+//! Each section by itself: every comparison passes, and says where its numbers come from.
+
+use super::*;
+use crate::validation::reference::{damped, exact, independent, published};
+
+/// Fails with the rows that do not pass, as docs/validation.md has them.
+fn check(section: Result<Section>) {
+    let section = section.unwrap();
+    let failed: Vec<String> = section.rows.iter().filter(|row| !row.pass).map(markdown::line).collect();
+    assert!(failed.is_empty(), "{}:\n{}", section.title, failed.join("\n"));
+
+    // A table without rows, or numbers without a source, would compare nothing that can be looked up.
+    assert!(!section.rows.is_empty(), "{}", section.title);
+    for row in &section.rows {
+        assert!(row.source.len() > 20, "{}, {}: {:?} is no source", row.case, row.quantity, row.source);
+        assert!(!row.theirs.is_empty() && row.tolerance >= 0.0, "{}, {}", row.case, row.quantity);
+    }
+}
+
+#[test]
+fn one_hanging_cable_has_the_forces_and_the_stiffness_of_others() {
+    check(catenary::section(&published().unwrap()));
+}
+
+#[test]
+fn the_papers_robot_rests_where_moorpy_finds_it() {
+    check(robots::section(&published().unwrap()));
+}
+
+#[test]
+fn fourteen_robots_are_those_of_the_independent_program() {
+    check(independent::section(&independent().unwrap()));
+}
+
+#[test]
+fn exact_cables_vibrate_as_those_of_the_independent_program() {
+    check(exact::section(&published().unwrap(), &exact().unwrap(), &independent().unwrap()));
+}
+
+#[test]
+fn damped_modes_shapes_and_points_on_cables_are_those_of_the_independent_program() {
+    check(damped::section(&damped().unwrap(), &independent().unwrap()));
+}
+
+#[test]
+fn the_closed_form_has_the_stiffness_and_the_frequencies_of_others() {
+    check(Ok(dynamics::section(&published().unwrap())));
+}
+
+#[test]
+fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multiplicity() {
+    check(cube::section(&published().unwrap()));
+}
+
+#[test]
+fn what_the_paper_prints_of_itself_follows_where_it_can() {
+    check(paper::section(&published().unwrap()));
+}

@@ -1,0 +1,211 @@
+//! Stiffness and mass of a cable in the blocks that its condensation takes, and the condensation.
+//!
+//! The functions of a mesh are of three kinds: inner ones i (nodes between elements, bubbles), the two ends b, and those
+//! beyond the degree, which serve the error estimate. The clamped modes solve `M_ii φ = μ K_ii φ`; of each the ends need
+//! only its products with the columns K_ib and M_ib, so that no eigenvector is formed
+//! ([`projected`](crate::math::projected)).
+
+use super::shape::Displacements;
+use super::{ExactError, PoleResidue};
+use crate::math::{DMat, projected};
+
+/// Functions of one element by kind: place in the matrices of the element, and number among those of the kind.
+pub(super) struct Functions {
+    pub(super) inner: Vec<(usize, usize)>,
+    pub(super) ends: Vec<(usize, usize)>,
+    pub(super) beyond: Vec<(usize, usize)>,
+}
+
+impl Functions {
+    /// Functions that are not inner ones, the two ends before all others.
+    fn outer(&self) -> impl Iterator<Item = (usize, usize)> {
+        let beyond = self.beyond.iter().map(|(place, number)| (*place, 2 + number));
+        self.ends.iter().copied().chain(beyond)
+    }
+}
+
+/// Stiffness and mass of a cable by kinds of functions, D components per function; its ends have N = 2D components.
+pub(super) struct Partition<const D: usize, const N: usize> {
+    /// Inner unknowns.
+    unknowns: usize,
+    /// Outer unknowns: ends, and functions beyond the degree.
+    outer: usize,
+    /// K_ii and M_ii, by columns.
+    stiffness: Vec<f64>,
+    mass: Vec<f64>,
+    /// One row per inner unknown: K_io of the outer unknowns, M_io of them, the function's values at the stations.
+    rows: Vec<f64>,
+    /// Length of a row.
+    row_length: usize,
+    /// M_bb of the ends.
+    end_mass: [[f64; N]; N],
+    /// Diagonal of stiffness and mass of each unknown beyond the degree.
+    beyond: Vec<(f64, f64)>,
+    /// Values of the two end functions at each station.
+    values_at_ends: Vec<[f64; 2]>,
+}
+
+/// All pairs of components, of a row and of a column.
+fn components<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
+    (0..D).flat_map(|column| (0..D).map(move |row| (row, column)))
+}
+
+impl<const D: usize, const N: usize> Partition<D, N> {
+    /// Zero, for so many inner functions, functions beyond the degree, and stations.
+    pub(super) fn new(inner: usize, beyond: usize, stations: usize) -> Self {
+        let (unknowns, outer) = (D * inner, D * (2 + beyond));
+        let row_length = 2 * outer + D * stations;
+        Self {
+            unknowns,
+            outer,
+            stiffness: vec![0.0; unknowns * unknowns],
+            mass: vec![0.0; unknowns * unknowns],
+            rows: vec![0.0; unknowns * row_length],
+            row_length,
+            end_mass: [[0.0; N]; N],
+            beyond: vec![(0.0, 0.0); D * beyond],
+            values_at_ends: vec![[0.0; 2]; stations],
+        }
+    }
+
+    /// Adds an element's share of K_ii and M_ii. `stiffness` has one matrix for each sum of two components' numbers
+    /// (hh, hv, vv in plane, one out of plane); mass is the same for each component.
+    pub(super) fn add_inner(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
+        for &(b, column) in &functions.inner {
+            for &(a, row) in &functions.inner {
+                for (i, j) in components::<D>() {
+                    self.stiffness[(D * column + j) * self.unknowns + D * row + i] += stiffness[i + j][(a, b)];
+                }
+                for d in 0..D {
+                    self.mass[(D * column + d) * self.unknowns + D * row + d] += mass[(a, b)];
+                }
+            }
+        }
+    }
+
+    /// Adds an element's share of K_io and M_io.
+    pub(super) fn add_columns(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
+        for (b, column) in functions.outer() {
+            for &(a, row) in &functions.inner {
+                for (i, j) in components::<D>() {
+                    self.rows[(D * row + i) * self.row_length + D * column + j] += stiffness[i + j][(a, b)];
+                }
+                for d in 0..D {
+                    self.rows[(D * row + d) * self.row_length + self.outer + D * column + d] += mass[(a, b)];
+                }
+            }
+        }
+    }
+
+    /// Adds an element's share of M_bb.
+    pub(super) fn add_end_mass(&mut self, functions: &Functions, mass: &DMat) {
+        for &(b, column) in &functions.ends {
+            for &(a, row) in &functions.ends {
+                for d in 0..D {
+                    self.end_mass[D * row + d][D * column + d] += mass[(a, b)];
+                }
+            }
+        }
+    }
+
+    /// Sets the diagonals of an element's functions beyond the degree.
+    pub(super) fn set_beyond(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
+        for &(a, number) in &functions.beyond {
+            for d in 0..D {
+                self.beyond[D * number + d] = (stiffness[2 * d][(a, a)], mass[(a, a)]);
+            }
+        }
+    }
+
+    /// Sets the values that the functions of the element under a station have there.
+    pub(super) fn set_station(&mut self, functions: &Functions, station: usize, values: &[f64]) {
+        for &(a, row) in &functions.inner {
+            for d in 0..D {
+                self.rows[(D * row + d) * self.row_length + 2 * self.outer + D * station + d] = values[a];
+            }
+        }
+        for &(a, end) in &functions.ends {
+            self.values_at_ends[station][end] = values[a];
+        }
+    }
+
+    /// Poles and residues of the ends, whose static stiffness is `still`, up to ω = `limit` and beyond.
+    pub(super) fn reduce(self, still: [[f64; N]; N], limit: f64) -> Result<Condensed<D, N>, ExactError> {
+        let Self { stiffness, mass, rows, row_length, outer, end_mass, beyond, values_at_ends, .. } = self;
+        let (values, products) = projected::pencil(stiffness, mass, rows, row_length).ok_or(ExactError::NoTension)?;
+
+        // Low frequencies first. A value that is not positive is one that rounding made of an infinite frequency.
+        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
+        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+
+        let (mut mass, mut error) = (end_mass, 0.0_f64);
+        let (mut poles, mut participation) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
+        let mut stations = Displacements::of_ends(&values_at_ends);
+        for k in order {
+            let mode = ClampedMode::new(values[k], &products[k * row_length..(k + 1) * row_length], outer);
+            mode.take_from(&mut mass);
+            poles.push(1.0 / mode.mu);
+            participation.push(mode.participation());
+            stations.add_mode(mode.at_stations, mode.stiff, mode.mu);
+            if 1.0 / mode.mu < limit * limit {
+                error = error.max(mode.error(&beyond, N));
+            }
+        }
+
+        Ok(Condensed { ends: PoleResidue { stiffness: still, mass, poles, participation }, error, stations })
+    }
+}
+
+/// A clamped mode φ by its products, `φᵀKφ = 1`.
+struct ClampedMode<'a> {
+    /// μ = 1/ω².
+    mu: f64,
+    /// a = K_oi φ.
+    stiff: &'a [f64],
+    /// b = M_oi φ.
+    heavy: &'a [f64],
+    /// Displacements of the stations.
+    at_stations: &'a [f64],
+}
+
+impl<'a> ClampedMode<'a> {
+    /// From the products of φ with the rows of a [`Partition`].
+    fn new(mu: f64, products: &'a [f64], outer: usize) -> Self {
+        let (by_outer, at_stations) = products.split_at(2 * outer);
+        let (stiff, heavy) = by_outer.split_at(outer);
+        Self { mu, stiff, heavy, at_stations }
+    }
+
+    /// Takes its share out of the mass of the ends: `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`.
+    fn take_from<const N: usize>(&self, mass: &mut [[f64; N]; N]) {
+        let Self { mu, stiff, heavy, .. } = self;
+        for i in 0..N {
+            for j in 0..N {
+                mass[i][j] -= heavy[i] * stiff[j] + stiff[i] * heavy[j] - mu * stiff[i] * stiff[j];
+            }
+        }
+    }
+
+    /// `g = (b − μ a)/√μ` of the ends.
+    fn participation<const N: usize>(&self) -> [f64; N] {
+        std::array::from_fn(|i| (self.heavy[i] - self.mu * self.stiff[i]) / self.mu.sqrt())
+    }
+
+    /// Estimated relative error of the clamped frequency: half of what the functions beyond the degree, numbered from
+    /// `first` among the outer ones, would take off ω², to first order in each, over ω².
+    fn error(&self, beyond: &[(f64, f64)], first: usize) -> f64 {
+        let lost = |(e, (stiffness, mass)): (usize, &(f64, f64))| {
+            let answer = self.stiff[first + e] - self.heavy[first + e] / self.mu;
+            answer * answer / (stiffness - mass / self.mu).abs().max(f64::MIN_POSITIVE)
+        };
+        0.5 * beyond.iter().enumerate().map(lost).sum::<f64>()
+    }
+}
+
+/// A cable condensed onto its ends.
+pub(super) struct Condensed<const D: usize, const N: usize> {
+    pub(super) ends: PoleResidue<N>,
+    /// Estimated relative error of the clamped frequencies below the limit.
+    pub(super) error: f64,
+    pub(super) stations: Displacements<D, N>,
+}

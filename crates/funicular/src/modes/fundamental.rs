@@ -1,0 +1,166 @@
+//! The first natural frequency alone, with exact cables, for sweeps over many poses.
+//!
+//! The lowest eigenvalue of a definite pencil lies between a shift at which the pencil is positive definite and any
+//! Rayleigh quotient. Both come cheaply here, since the first frequency is not above the first clamped one of any cable:
+//! one element a cable serves, and its unknowns but the lowest bubbles go out by one factorisation at a frequency, all
+//! cables side by side (docs/theory.md, section 9).
+
+mod batched_cable;
+mod condensed_cables;
+mod factor;
+mod lever_axes;
+mod pencil;
+mod search;
+
+use super::{Kind, Mode, below};
+use crate::cable::Sag;
+use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
+use crate::robot::Robot;
+use crate::statics::Equilibrium;
+use pencil::Pencil;
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// The first natural mode of a robot.
+///
+/// Energies and shape are of a motion whose Rayleigh quotient is the frequency's, and contain of other modes what its
+/// width of 5e-10 leaves room for: with the next frequency a part d above, at most `√(5e-10/d)` of them, and the energies
+/// are off by no more than twice that; usually by less than 1e-6.
+#[derive(Debug, Clone, PartialEq)]
+pub struct First {
+    /// Natural frequency, undamped [Hz].
+    pub frequency_hz: f64,
+    /// Whose vibration it is.
+    pub kind: Kind,
+    /// Kinetic energy of the platform over that of the robot.
+    pub platform_energy_fraction: f64,
+    /// Kinetic energy of each cable over that of the robot, file order.
+    pub cable_energy_fractions: Vec<f64>,
+    /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
+    /// if the platform is at rest.
+    pub shape: [f64; 6],
+    /// Directions in which the equilibrium is unstable; they have no frequency.
+    pub unstable_directions: usize,
+    /// No natural frequency lies below by more than 5e-10 of it, and one lies not above.
+    pub certified: bool,
+}
+
+/// Why there is no first frequency to give.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FirstError {
+    /// The robot cannot be linearised with exact cables.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+    /// Nothing vibrates: the platform is unstable in every direction.
+    #[error("no natural frequency below {below_hz:.3e} Hz: the equilibrium is unstable in {directions} directions")]
+    None {
+        /// Searched up to here [Hz].
+        below_hz: f64,
+        /// Directions that are not opposed.
+        directions: usize,
+    },
+}
+
+/// The lowest natural frequency of a robot with exact cables, undamped, and its mode.
+///
+/// The same as the first of [`below`] with [`Linearisation::default`], some twenty times faster, more where cables are
+/// slack. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, go through
+/// [`first_of_all`].
+///
+/// # Errors
+/// [`FirstError`]: a cable without tension or without a shape, or nothing that vibrates.
+///
+/// # Example
+/// ```
+/// # use funicular::{modes, robot::{Pose, Robot}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+/// let pose = Pose::new([0.5, 0.1, 0.6], [0.0, 1.0, 0.0]);
+/// let rest = statics::inverse(&robot, &pose, StaticModel::Catenary)?;
+/// let first = modes::first(&robot, &rest)?;
+/// assert!(first.certified && (first.frequency_hz - 1.145_088).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, section 9, equations (35a) to (35c).
+pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
+    if let Some(found) = Pencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
+        return Ok(found);
+    }
+    first_of_all(robot, equilibrium)
+}
+
+/// As [`first`], by counting and separating all natural frequencies below a limit that is raised until there is one: the
+/// slow way, which knows every robot.
+///
+/// # Errors
+/// As [`first`].
+pub fn first_of_all(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
+    let strings = equilibrium.cables.iter().enumerate().map(|(i, state)| {
+        let string = Sag::of(robot, i, state).string_frequency_hz();
+        if string > 0.0 { string } else { f64::INFINITY }
+    });
+    let lowest = strings.fold(f64::INFINITY, f64::min);
+    // No limit of a cable follows without mass: then the platform's, from weight over a length.
+    let mut below_hz = if lowest.is_finite() { 1.1 * lowest } else { 10.0 };
+    let mut directions = 0;
+    for _ in 0..MOST_DOUBLINGS {
+        let dynamics = Dynamics::about(robot, equilibrium, Linearisation::default(), below_hz)?;
+        let found = below(&dynamics, below_hz);
+        directions = found.unstable_directions;
+        if let Some(mode) = found.modes.into_iter().next() {
+            return Ok(First::of_mode(mode, directions, found.certified));
+        }
+        below_hz *= 2.0;
+    }
+    Err(FirstError::None { below_hz, directions })
+}
+
+/// From a tenth of a hertz to what no rope's sound reaches.
+const MOST_DOUBLINGS: usize = 24;
+
+impl First {
+    fn of_mode(mode: Mode, unstable_directions: usize, certified: bool) -> Self {
+        let Mode { frequency_hz, kind, platform_energy_fraction, cable_energy_fractions, shape, .. } = mode;
+        Self {
+            frequency_hz,
+            kind,
+            platform_energy_fraction,
+            cable_energy_fractions,
+            shape,
+            unstable_directions,
+            certified,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Pose;
+    use crate::statics::{self, StaticModel};
+
+    #[test]
+    fn usual_poses_taut_or_slack_never_need_the_slow_way() {
+        let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+        let mut poses = [0; 2];
+        for i in 0..5 {
+            for j in 0..5 {
+                for k in 0..5 {
+                    let [x, y, z] = [(i, 0.5), (j, 0.25), (k, 0.4)].map(|(at, step)| (f64::from(at) - 2.0) * step);
+                    let pose = Pose::new([x, y, z + 1.0], [0.5, -0.5, 1.0]);
+                    let Ok(rest) = statics::inverse(&robot, &pose, StaticModel::Catenary) else { continue };
+                    let catenaries = rest.cables.iter().map(|state| &state.hanging.as_ref().unwrap().catenary);
+                    let slackness = catenaries.map(|c| c.weight() / c.horizontal_force()).fold(0.0, f64::max);
+                    // Beyond, loops hang down far below the robot.
+                    if slackness < 1000.0 {
+                        poses[usize::from(slackness > 3.0)] += 1;
+                        let found = Pencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
+                        assert!(found.is_some(), "{x}, {y}, {z}");
+                    }
+                }
+            }
+        }
+        assert!(poses.iter().all(|count| *count > 25), "{poses:?}");
+    }
+}

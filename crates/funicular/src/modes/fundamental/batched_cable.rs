@@ -1,0 +1,352 @@
+//! Several exact cables side by side at one frequency, each condensed onto its platform end and one more function.
+//!
+//! The first natural frequency of a robot is not above the first clamped one of any of its cables, so that a mesh of
+//! modest degree resolves every cable, and one factorisation a frequency costs less than the clamped modes. The unknowns
+//! are those of `mesh`: one element, or, where a cable hangs nearly without tension, several that grow with the distance
+//! from its lowest point. Elements are worked on side by side, whole cables in one group, the elements of all others in
+//! another. Unknowns are eliminated from the highest bubble down. Kept beside the platform end are, in plane and out of
+//! plane, the lowest bubble, or the node at the lowest point: they carry the first clamped modes, so that what has been
+//! eliminated has its poles far above.
+
+mod element;
+mod element_integrals;
+mod mesh;
+mod node_elimination;
+
+pub(super) use element::place;
+
+use crate::catenary::Catenary;
+use crate::math::simd::{LANES, Lane, Lanes};
+use element::{Element, Shapes};
+use mesh::Mesh;
+use node_elimination::Chain;
+use pulp::Simd;
+use std::array::from_fn;
+
+/// Most degrees of an element. Robots take up to 20.
+pub(super) const MOST_DEGREES: usize = 32;
+
+/// Most Legendre terms of C, those of the smallest ellipse.
+const MOST_TERMS: usize = 45;
+
+/// Coefficients of C below this part are left out.
+const TRUNCATION: f64 = 1e-13;
+
+/// Up to [`LANES`] cables, either all of one element or all of several.
+#[derive(Debug)]
+pub(super) struct Abreast {
+    /// Which of the cables that were asked for.
+    members: Vec<usize>,
+    /// Elements side by side; the last lanes repeat the last element.
+    packs: Vec<Element>,
+    /// Of each cable, if it has several elements.
+    chains: Vec<Chain>,
+    /// Legendre terms of C.
+    terms: usize,
+    /// Components of e along the horizontal and up, of each cable: the chord's, or upright where the cable is slack.
+    axes: Vec<[f64; 2]>,
+}
+
+/// Unknowns kept in plane: n and e of the end, n of the bubble or node.
+pub(super) const IN_PLANE: usize = 3;
+/// Unknowns kept out of plane: the end, the bubble or node.
+pub(super) const ACROSS: usize = 2;
+
+/// The dynamic stiffness of the kept unknowns [N/m], lower triangles by rows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kept {
+    pub(super) plane: [Lane; 6],
+    pub(super) across: [Lane; 3],
+    /// Least pivot of what was eliminated: positive if nothing of it has a natural frequency below.
+    pub(super) least_pivot: Lane,
+}
+
+impl Default for Kept {
+    /// Zero, of nothing eliminated.
+    fn default() -> Self {
+        Self { plane: Default::default(), across: Default::default(), least_pivot: [f64::INFINITY; LANES] }
+    }
+}
+
+/// Amplitudes of all functions of elements side by side: of each pack, in plane and out of plane.
+#[derive(Debug)]
+pub(super) struct Motion(Vec<[Lanes; 2]>);
+
+impl Abreast {
+    /// All cables, of mass m per unstrained length [kg/m] each, in groups. None if one has no tension somewhere.
+    pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
+        let meshes = cables.iter().map(|(catenary, _)| Mesh::of(catenary)).collect::<Option<Vec<_>>>()?;
+        let (whole, cut): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
+        let groups = whole.chunks(LANES).chain(cut.chunks(LANES));
+        Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
+    }
+
+    fn of(cables: &[(&Catenary, f64)], meshes: &[Mesh], members: &[usize]) -> Self {
+        let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
+        let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
+        let terms = terms.min(MOST_TERMS);
+        let mut elements = Vec::with_capacity(2 * LANES);
+        let mut chains = Vec::new();
+        for i in members {
+            let mesh = &meshes[*i];
+            if mesh.kept > 0 {
+                chains.push(Chain::new(mesh, elements.len()));
+            }
+            elements.extend(mesh.nodes.windows(2).map(|ends| (*i, ends[0], ends[1])));
+        }
+        let shapes = elements.chunks(LANES).map(|pack| {
+            let mut shapes = Shapes::default();
+            for lane in 0..LANES {
+                let (i, from, to) = pack[lane.min(pack.len() - 1)];
+                shapes.set(lane, cables[i], meshes[i].axis, from, to);
+            }
+            shapes
+        });
+        let shapes: Vec<Shapes> = shapes.collect();
+        Self {
+            members: members.to_vec(),
+            packs: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
+            chains,
+            terms,
+            axes: members.iter().map(|i| meshes[*i].axis).collect(),
+        }
+    }
+
+    /// Which cables these are, by their lanes.
+    pub(super) fn members(&self) -> &[usize] {
+        &self.members
+    }
+
+    /// In several elements.
+    pub(super) fn is_cut(&self) -> bool {
+        !self.chains.is_empty()
+    }
+
+    /// Number of Legendre terms that C takes.
+    pub(super) fn terms(&self) -> usize {
+        self.terms
+    }
+
+    /// Components of a cable's axis e along the horizontal and up.
+    pub(super) fn axis(&self, lane: usize) -> [f64; 2] {
+        self.axes[lane]
+    }
+
+    /// K − xM of the kept unknowns at x = ω² [rad²/s²], from functions up to `degree`, which is at least 2.
+    pub(super) fn kept(&mut self, x: f64, degree: usize) -> Kept {
+        pulp::Arch::new().dispatch(Factorise { cables: self, x, degree })
+    }
+
+    /// Motion of all functions for motions of the kept unknowns, at the frequency and the degree of the last
+    /// [`kept`](Self::kept).
+    pub(super) fn moved(&self, plane: [Lane; IN_PLANE], across: [Lane; ACROSS]) -> Motion {
+        pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
+    }
+
+    /// `aᵀ M b` in plane and out of plane [kg × motion²].
+    pub(super) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
+        pulp::Arch::new().dispatch(Mass { cables: self, a, b })
+    }
+}
+
+struct Expand<'a> {
+    shapes: &'a [Shapes],
+    terms: usize,
+}
+
+impl pulp::WithSimd for Expand<'_> {
+    type Output = Vec<Element>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Element> {
+        let Self { shapes, terms } = self;
+        let mut elements = Vec::with_capacity(shapes.len());
+        for shapes in shapes {
+            elements.push(Element::new(simd, shapes, terms));
+        }
+        elements
+    }
+}
+
+struct Factorise<'a> {
+    cables: &'a mut Abreast,
+    x: f64,
+    degree: usize,
+}
+
+impl pulp::WithSimd for Factorise<'_> {
+    type Output = Kept;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Kept {
+        let Self { cables: Abreast { packs, chains, .. }, x, degree } = self;
+        if chains.is_empty() {
+            let mut least_pivot = [f64::INFINITY; LANES];
+            let element = &mut packs[0];
+            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
+            return Kept {
+                plane: from_fn(|k| element.plane_factor[k].0),
+                across: from_fn(|k| element.across_factor[k].0),
+                least_pivot,
+            };
+        }
+        let mut least_pivots = Vec::with_capacity(packs.len());
+        for element in packs.iter_mut() {
+            let mut least_pivot = [f64::INFINITY; LANES];
+            element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut least_pivot);
+            least_pivots.push(least_pivot);
+        }
+        node_elimination::condense(chains, packs, &least_pivots)
+    }
+}
+
+struct Substitute<'a> {
+    cables: &'a Abreast,
+    plane: [Lane; IN_PLANE],
+    across: [Lane; ACROSS],
+}
+
+impl pulp::WithSimd for Substitute<'_> {
+    type Output = Motion;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+        let Self { cables: Abreast { packs, chains, .. }, plane, across } = self;
+        if chains.is_empty() {
+            return Motion(vec![packs[0].moved(simd, &plane, &across)]);
+        }
+        let mut all = Vec::with_capacity(packs.len());
+        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &plane, &across)) {
+            all.push(element.moved(simd, &ends.plane, &ends.across));
+        }
+        Motion(all)
+    }
+}
+
+struct Mass<'a> {
+    cables: &'a Abreast,
+    a: &'a Motion,
+    b: &'a Motion,
+}
+
+impl pulp::WithSimd for Mass<'_> {
+    type Output = [Lane; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> [Lane; 2] {
+        let Self { cables: Abreast { packs, chains, .. }, a, b } = self;
+        if chains.is_empty() {
+            return packs[0].mass::<S, 1>(simd, &a.0[0], &b.0[0]);
+        }
+        let mut masses = Vec::with_capacity(packs.len());
+        for ((element, a), b) in packs.iter().zip(&a.0).zip(&b.0) {
+            masses.push(element.mass::<S, 2>(simd, a, b));
+        }
+        node_elimination::sums(chains, &masses)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cable::exact::Exact;
+    use crate::catenary::Rope;
+    use proptest::prelude::*;
+
+    /// The entries of one cable, in plane and out of plane.
+    fn of(kept: &Kept, lane: usize) -> ([f64; 6], [f64; 3]) {
+        (from_fn(|entry| kept.plane[entry][lane]), from_fn(|entry| kept.across[entry][lane]))
+    }
+
+    /// Slope, length over chord, elasticity.
+    fn cable((slope, slack, stiffness): (f64, f64, f64)) -> Catenary {
+        let (span, rise) = (6.0 * (1.0 - slope * slope).sqrt(), 6.0 * slope);
+        let rope = Rope {
+            unstrained_length: 6.0 * slack,
+            weight_per_length: 0.657_27,
+            axial_stiffness: 10f64.powf(stiffness),
+        };
+        Catenary::between(span, rise, rope).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..Default::default() })]
+
+        /// Up to the first clamped frequency, from taut cables to such as hang in a loop; at a degree that resolves all.
+        #[test]
+        fn cables_side_by_side_have_the_stiffness_of_each_by_its_poles(
+            shapes in prop::collection::vec((-0.9f64..0.9, 0.99f64..1.3, 4.5f64..6.0), 1..=LANES), part in 0.0f64..0.98,
+        ) {
+            const MASS: f64 = 0.067;
+            let cables: Vec<Catenary> = shapes.into_iter().map(cable).collect();
+            let oracles: Vec<Exact> = cables.iter().map(|c| Exact::new(c, MASS, 60.0).unwrap()).collect();
+            let first = |e: &Exact| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
+            let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
+            let pairs: Vec<_> = cables.iter().map(|c| (c, MASS)).collect();
+            let mut groups = Abreast::groups(&pairs).unwrap();
+            let kept: Vec<Kept> = groups.iter_mut().map(|group| group.kept(x, 30)).collect();
+            let lanes = |(k, group): (usize, &Abreast)| -> Vec<_> {
+                group.members().iter().enumerate().map(|(lane, i)| (k, lane, *i)).collect()
+            };
+            let places: Vec<_> = groups.iter().enumerate().flat_map(lanes).collect();
+            prop_assert_eq!(places.len(), cables.len());
+            for (k, lane, i) in places {
+                let (abreast, kept, exact) = (&groups[k], &kept[k], &oracles[i]);
+                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
+                prop_assert!(kept.least_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
+                let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
+                let k = exact.undamped(x.sqrt());
+                let [c, s] = abreast.axis(lane);
+                let theirs = [
+                    k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
+                    (k.normal - k.axial) * c * s + k.coupling * (c * c - s * s),
+                    k.axial * s * s - 2.0 * k.coupling * c * s + k.normal * c * c,
+                    k.out_of_plane,
+                ];
+                let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
+                // Where the cable hangs in a loop, what is left is a millionth of the elastic stiffness, whose rounding stays.
+                let rope = cables[i].rope();
+                let elastic = rope.axial_stiffness / rope.unstrained_length;
+                for (ours, theirs) in ours.into_iter().zip(theirs) {
+                    let bound = 1e-8 * size + 1e-12 * elastic;
+                    prop_assert!((ours - theirs).abs() < bound, "{ours} for {theirs}, largest {size}, elastic {elastic}");
+                }
+            }
+        }
+
+        /// Unit motions of the end, bubbles following.
+        #[test]
+        fn the_mass_of_a_motion_is_minus_the_change_of_stiffness(
+            shape in (-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), part in 0.1f64..0.5, n in -1.0f64..1.0, e in -1.0f64..1.0,
+        ) {
+            const MASS: f64 = 0.067;
+            let catenary = cable(shape);
+            let exact = Exact::new(&catenary, MASS, 20.0).unwrap();
+            let x = part * exact.in_plane.poles[0].min(exact.out_of_plane.poles[0]);
+            let abreast = &mut Abreast::groups(&[(&catenary, MASS)]).unwrap()[0];
+            let mut work = |x: f64| {
+                let ([nn, en, ee, ..], [oo, ..]) = of(&abreast.kept(x, 24), 0);
+                [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
+            };
+            let step = 1e-3 * x;
+            let change = {
+                let (more, less) = (work(x + step), work(x - step));
+                [0, 1].map(|k| (less[k] - more[k]) / (2.0 * step))
+            };
+            abreast.kept(x, 24);
+            let lanes = |value: f64| [value; LANES];
+            let motion = abreast.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
+            let mass = abreast.mass(&motion, &motion).map(|lane| lane[0]);
+            for (mass, change) in mass.into_iter().zip(change) {
+                prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_loop_without_tension_is_left_to_others() {
+        let rope = Rope { unstrained_length: 8.0, weight_per_length: 0.6, axial_stiffness: 1e5 };
+        let slack = Catenary::between(0.0, 6.0, rope).unwrap();
+        assert!(Abreast::groups(&[(&slack, 0.06)]).is_none());
+    }
+}

@@ -1,0 +1,215 @@
+//! Cables of several elements: the elements of all of them side by side, and the nodes cable by cable.
+
+use super::element::{Element, place};
+use super::mesh::Mesh;
+use super::{ACROSS, IN_PLANE, Kept};
+use crate::math::Matrix;
+use crate::math::simd::{LANES, Lane, Lanes};
+
+/// One cable's elements, and its nodes at the last frequency.
+#[derive(Debug, Clone)]
+pub(super) struct Chain {
+    /// Number of its first element among those of all chains.
+    first: usize,
+    elements: usize,
+    /// The node that is kept beside the platform end, node 0.
+    kept: usize,
+    plane: Nodes<2>,
+    across: Nodes<1>,
+    /// What the kept unknowns do to e of the kept node, and the inverse of its pivot.
+    level: ([f64; IN_PLANE], f64),
+}
+
+impl Chain {
+    pub(super) fn new(mesh: &Mesh, first: usize) -> Self {
+        Self {
+            first,
+            elements: mesh.nodes.len() - 1,
+            kept: mesh.kept,
+            plane: Nodes::default(),
+            across: Nodes::default(),
+            level: ([0.0; IN_PLANE], 0.0),
+        }
+    }
+
+    /// Eliminates the nodes between elements that are condensed onto their ends; writes the lane of `into`.
+    fn condense(&mut self, packs: &[Element], least_pivots: &[Lane], lane: usize, into: &mut Kept) {
+        let mut least = self.of(least_pivots).fold(f64::INFINITY, f64::min);
+        let entry = |factor: fn(&Element) -> &Lanes, e: usize, row: usize, column: usize| {
+            let at = self.first + e;
+            factor(&packs[at / LANES])[place(row.max(column), row.min(column))][at % LANES]
+        };
+        let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.plane_factor, e, row, column);
+        let out_of_plane =
+            |e: usize, row: usize, column: usize| entry(|element| &element.across_factor, e, row, column);
+        let [own, between, kept] = self.plane.eliminate(in_plane, self.elements, self.kept, &mut least);
+        let pivot = kept[(1, 1)];
+        least = if pivot < least { pivot } else { least };
+        let level = [between[(0, 1)], between[(1, 1)], kept[(0, 1)]];
+        self.level = (level, 1.0 / pivot);
+        let all = [own[(0, 0)], own[(1, 0)], own[(1, 1)], between[(0, 0)], between[(1, 0)], kept[(0, 0)]];
+        for row in 0..IN_PLANE {
+            for column in 0..=row {
+                let at = place(row, column);
+                into.plane[at][lane] = all[at] - level[row] * level[column] / pivot;
+            }
+        }
+        let all = self.across.eliminate(out_of_plane, self.elements, self.kept, &mut least);
+        for (into, k) in into.across.iter_mut().zip(all) {
+            into[lane] = k[(0, 0)];
+        }
+        into.least_pivot[lane] = least;
+    }
+
+    /// Puts the motion of all nodes, as it follows from that of the kept unknowns, into the ends of the elements.
+    fn spread(&self, plane: [f64; IN_PLANE], across: [f64; ACROSS], ends: &mut [Ends]) {
+        let [n, e, q] = plane;
+        let (level, inverse) = self.level;
+        let level = -inverse * (level[0] * n + level[1] * e + level[2] * q);
+        let plane = self.plane.follow([n, e].into(), [q, level].into(), self.elements, self.kept);
+        let across = self.across.follow([across[0]].into(), [across[1]].into(), self.elements, self.kept);
+        for (node, (plane, across)) in plane.iter().zip(&across).enumerate() {
+            // The second end of one element and the first of the next; the anchor does not move.
+            for (element, side) in [(node.checked_sub(1), 1), (Some(node), 0)] {
+                let Some(element) = element else { continue };
+                let at = self.first + element;
+                let ends = &mut ends[at / LANES];
+                ends.plane[2 * side][at % LANES] = plane[0];
+                ends.plane[2 * side + 1][at % LANES] = plane[1];
+                ends.across[side][at % LANES] = across[0];
+            }
+        }
+    }
+
+    /// Those of its elements, from what packs have.
+    fn of(&self, packs: &[Lane]) -> impl Iterator<Item = f64> {
+        (self.first..self.first + self.elements).map(|at| packs[at / LANES][at % LANES])
+    }
+}
+
+/// Motion of both ends of elements side by side.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Ends {
+    pub(super) plane: [Lane; 4],
+    pub(super) across: [Lane; 2],
+}
+
+/// Elimination of a chain's nodes but two, D unknowns each.
+#[derive(Debug, Clone, Default)]
+struct Nodes<const D: usize> {
+    /// Of each node that was eliminated: the inverse of its pivot.
+    inverse: Vec<Block<D>>,
+    /// Stiffness of each node against the next: row the node's.
+    next: Vec<Block<D>>,
+    /// Of the platform end against each node up to the kept one.
+    end: Vec<Block<D>>,
+}
+
+type Block<const D: usize> = Matrix<D, D>;
+type Column<const D: usize> = Matrix<D, 1>;
+
+impl<const D: usize> Nodes<D> {
+    /// From the stiffness `entry(element, row, column)` of condensed elements: what is left of the platform end, of it
+    /// against the kept node, and of that.
+    fn eliminate(
+        &mut self,
+        entry: impl Fn(usize, usize, usize) -> f64,
+        elements: usize,
+        kept: usize,
+        least_pivot: &mut f64,
+    ) -> [Block<D>; 3] {
+        let part =
+            |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
+        let Self { inverse, next, end } = self;
+        let mut own: Vec<Block<D>> = (0..elements).map(|e| part(e, 0, 0)).collect();
+        for (e, block) in own.iter_mut().enumerate().skip(1) {
+            *block += part(e - 1, 1, 1);
+        }
+        next.clear();
+        next.extend((0..elements - 1).map(|e| part(e, 0, 1)));
+        inverse.clear();
+        inverse.resize(elements, Block::zeros());
+        // From the anchor towards the kept node.
+        for node in (kept + 1..elements).rev() {
+            inverse[node] = inverted(&own[node], least_pivot);
+            let before = next[node - 1];
+            own[node - 1] -= before * inverse[node] * before.transpose();
+        }
+        // From the platform towards it.
+        end.clear();
+        end.extend([Block::zeros(), next[0]]);
+        for node in 1..kept {
+            inverse[node] = inverted(&own[node], least_pivot);
+            let (to_end, to_next) = (end[node] * inverse[node], next[node].transpose() * inverse[node]);
+            own[0] -= to_end * end[node].transpose();
+            own[node + 1] -= to_next * next[node];
+            end.push(-to_end * next[node]);
+        }
+        [own[0], end[kept], own[kept]]
+    }
+
+    /// Motion of all nodes.
+    fn follow(&self, platform: Column<D>, at_kept: Column<D>, elements: usize, kept: usize) -> Vec<Column<D>> {
+        let mut all = vec![Column::zeros(); elements];
+        (all[0], all[kept]) = (platform, at_kept);
+        for node in (1..kept).rev() {
+            all[node] = -self.inverse[node] * (self.end[node].transpose() * platform + self.next[node] * all[node + 1]);
+        }
+        for node in kept + 1..elements {
+            all[node] = -self.inverse[node] * self.next[node - 1].transpose() * all[node - 1];
+        }
+        all
+    }
+}
+
+/// By the last unknown, then the first; D is 1 or 2.
+fn inverted<const D: usize>(block: &Block<D>, least_pivot: &mut f64) -> Block<D> {
+    let mut note = |pivot: f64| {
+        *least_pivot = if pivot < *least_pivot { pivot } else { *least_pivot };
+        1.0 / pivot
+    };
+    let last = D - 1;
+    let inverse = note(block[(last, last)]);
+    if D == 1 {
+        return Block::repeat(inverse);
+    }
+    let factor = block[(0, last)] * inverse;
+    let first = note(block[(0, 0)] - factor * block[(0, last)]);
+    Block::from_fn(|i, j| match i + j {
+        0 => first,
+        1 => -factor * first,
+        _ => inverse + factor * factor * first,
+    })
+}
+
+/// What is left of the nodes of chains, whose elements are condensed onto their ends.
+pub(super) fn condense(chains: &mut [Chain], packs: &[Element], least_pivots: &[Lane]) -> Kept {
+    let mut kept = Kept::default();
+    // Where there is no cable, pivots are to be divided by.
+    (kept.plane[5], kept.across[2]) = ([1.0; LANES], [1.0; LANES]);
+    for (lane, chain) in chains.iter_mut().enumerate() {
+        chain.condense(packs, least_pivots, lane, &mut kept);
+    }
+    kept
+}
+
+/// Motions of packs of elements that follow those of the kept unknowns of chains.
+pub(super) fn ends(chains: &[Chain], packs: usize, plane: &[Lane; IN_PLANE], across: &[Lane; ACROSS]) -> Vec<Ends> {
+    let mut ends = vec![Ends::default(); packs];
+    for (lane, chain) in chains.iter().enumerate() {
+        chain.spread(plane.map(|of| of[lane]), across.map(|of| of[lane]), &mut ends);
+    }
+    ends
+}
+
+/// The sums over each chain, of what packs have.
+pub(super) fn sums(chains: &[Chain], of_packs: &[[Lane; 2]]) -> [Lane; 2] {
+    let mut sums = [[0.0; LANES]; 2];
+    for (component, sums) in sums.iter_mut().enumerate() {
+        let of_packs: Vec<Lane> = of_packs.iter().map(|both| both[component]).collect();
+        for (sum, chain) in sums.iter_mut().zip(chains) {
+            *sum = chain.of(&of_packs).sum();
+        }
+    }
+    sums
+}

@@ -1,0 +1,144 @@
+//! The cables of a pencil, side by side in groups: as a matrix about rest, and with all unknowns.
+
+use super::batched_cable::{ACROSS, Abreast, IN_PLANE, Kept, MOST_DEGREES, place};
+use crate::math::simd::{LANES, Lane};
+use std::array::from_fn;
+
+/// K − xM of the kept unknowns of each group, and the mass of motions that follow.
+pub(super) trait Cables {
+    fn kept(&mut self, x: f64, into: &mut Vec<Kept>);
+
+    /// `aᵀ M b` of each arm of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at the x of
+    /// the last call of `kept`.
+    fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane>;
+
+    /// To be called where the search closes in.
+    fn refine(&mut self) {}
+}
+
+/// Motion of a group's kept unknowns, in plane and out of plane.
+pub(super) type Ends = ([Lane; IN_PLANE], [Lane; ACROSS]);
+
+/// Matrices of each group about x = 0, the eliminated unknowns following the kept ones as at rest.
+pub(super) struct Reduced {
+    pub(super) stiffness: Vec<Kept>,
+    pub(super) mass: Vec<Kept>,
+}
+
+/// All unknowns, finer where the search closes in: so its last step checks the discretisation, too.
+pub(super) struct Whole<'a> {
+    pub(super) groups: &'a mut [Abreast],
+    pub(super) degrees: Vec<usize>,
+}
+
+/// Two digits of half a wave, more where C varies; three degrees more give nine digits. Elements have a part of the wave.
+pub(super) fn degree_of_start(group: &Abreast) -> usize {
+    if group.is_cut() { 5 } else { 4 + group.terms() / 8 }
+}
+
+impl Reduced {
+    pub(super) fn of(groups: &mut [Abreast]) -> Self {
+        let (stiffness, mass) = groups.iter_mut().map(|group| tangent(group, 0.0)).unzip();
+        Self { stiffness, mass }
+    }
+
+    /// Lets what has been eliminated follow as at x where a cable is cut. False if x is above a natural frequency of that:
+    /// then it follows as before.
+    pub(super) fn follow(&mut self, groups: &mut [Abreast], x: f64) -> bool {
+        let cut = groups.iter_mut().enumerate().filter(|(_, group)| group.is_cut());
+        let tangents: Vec<_> = cut.map(|(i, group)| (i, tangent(group, x))).collect();
+        let below = tangents.iter().all(|(_, (stiffness, _))| stiffness.least_pivot.iter().all(|pivot| *pivot > 0.0));
+        if below {
+            for (i, (stiffness, mass)) in tangents {
+                (self.stiffness[i], self.mass[i]) = (stiffness, mass);
+            }
+        }
+        below
+    }
+}
+
+/// Stiffness and mass of a group's kept unknowns such that K − xM and its slope are right at x.
+fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
+    let mut stiffness = group.kept(x, degree_of_start(group));
+    let unit = |k: usize| {
+        let one = |j: usize| if j == k { [1.0; LANES] } else { [0.0; LANES] };
+        group.moved(from_fn(one), from_fn(one))
+    };
+    let units = [unit(0), unit(1), unit(2)];
+    let mut masses = Kept::default();
+    for (row, motion) in units.iter().enumerate() {
+        for (column, other) in units[..=row].iter().enumerate() {
+            let [plane, across] = group.mass(motion, other);
+            masses.plane[place(row, column)] = plane;
+            if row < ACROSS {
+                masses.across[place(row, column)] = across;
+            }
+        }
+    }
+    for (k, m) in stiffness.plane.iter_mut().zip(&masses.plane).chain(stiffness.across.iter_mut().zip(&masses.across)) {
+        for i in 0..LANES {
+            k[i] += x * m[i];
+        }
+    }
+    (stiffness, masses)
+}
+
+impl Cables for Reduced {
+    fn kept(&mut self, x: f64, into: &mut Vec<Kept>) {
+        into.clear();
+        into.extend(self.stiffness.iter().zip(&self.mass).map(|(k, m)| Kept {
+            plane: from_fn(|entry| from_fn(|i| k.plane[entry][i] - x * m.plane[entry][i])),
+            across: from_fn(|entry| from_fn(|i| k.across[entry][i] - x * m.across[entry][i])),
+            least_pivot: k.least_pivot,
+        }));
+    }
+
+    fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane> {
+        let m = &self.mass[group];
+        pairs(motions, |(plane, across), (other_plane, other_across)| {
+            let mut sums = [0.0; LANES];
+            let mut add = |entry: &Lane, a: &Lane, b: &Lane| {
+                for i in 0..LANES {
+                    sums[i] += entry[i] * a[i] * b[i];
+                }
+            };
+            for row in 0..IN_PLANE {
+                for column in 0..IN_PLANE {
+                    let at = place(row.max(column), row.min(column));
+                    add(&m.plane[at], &plane[row], &other_plane[column]);
+                    if row.max(column) < ACROSS {
+                        add(&m.across[at], &across[row], &other_across[column]);
+                    }
+                }
+            }
+            sums
+        })
+    }
+}
+
+/// The lower triangle, by rows, of a form over pairs.
+fn pairs<T>(all: &[T], form: impl Fn(&T, &T) -> Lane) -> Vec<Lane> {
+    (0..all.len()).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| form(&all[i], &all[j])).collect()
+}
+
+impl Cables for Whole<'_> {
+    fn kept(&mut self, x: f64, into: &mut Vec<Kept>) {
+        into.clear();
+        into.extend(self.groups.iter_mut().zip(&self.degrees).map(|(group, degree)| group.kept(x, *degree)));
+    }
+
+    fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane> {
+        let group = &self.groups[group];
+        let all: Vec<_> = motions.iter().map(|(plane, across)| group.moved(*plane, *across)).collect();
+        pairs(&all, |a, b| {
+            let [plane, across] = group.mass(a, b);
+            from_fn(|i| plane[i] + across[i])
+        })
+    }
+
+    fn refine(&mut self) {
+        for degree in &mut self.degrees {
+            *degree = (*degree + 2).min(MOST_DEGREES);
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The pencil at a shift, factored: bubbles first, then the platform.
+
+use super::batched_cable::Kept;
+use super::lever_axes::Motion;
+use super::pencil::Pencil;
+use crate::math::Mat6;
+use crate::math::simd::{LANES, Lane, Part, sum};
+use pulp::Simd;
+
+pub(super) struct Factor {
+    /// L below the diagonal, inverse pivots on it.
+    platform: Mat6,
+    bubbles: Vec<Bubbles>,
+    /// Pivots that are not positive; as many eigenvalues lie below the shift, if those of what has been eliminated do not.
+    pub(super) negative: usize,
+}
+
+/// Of a group's cables: stiffness of the bubbles against the end, and the inverses of their pivots.
+#[derive(Default)]
+struct Bubbles {
+    normal: Lane,
+    along: Lane,
+    out: Lane,
+    inverse: Lane,
+    inverse_across: Lane,
+}
+
+struct Factorise<'a> {
+    pencil: &'a Pencil,
+    kept: &'a [Kept],
+    x: f64,
+}
+
+impl pulp::WithSimd for Factorise<'_> {
+    type Output = Factor;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Factor {
+        let Self { pencil, kept, x } = self;
+        let n = pencil.freedoms;
+        let mut d = pencil.constant - pencil.mass * x;
+        let mut negative = 0;
+        let mut all = Vec::with_capacity(kept.len());
+        for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
+            for lane in 0..cables.len() {
+                let pivots = [k.least_pivot[lane], k.least_pivot[lane], k.plane[5][lane], k.across[2][lane]];
+                negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
+            }
+            let mut bubbles = Bubbles::default();
+            let [nn, en, ee, qn, qe, qq] = &k.plane;
+            let [oo, bo, bb] = &k.across;
+            let mut entries = [[0.0; LANES]; 21];
+            for part in Part::all(simd) {
+                let (qn, qe, bo) = (part.of(qn), part.of(qe), part.of(bo));
+                let (inverse, inverse_across) = (part.inverse(part.of(qq)), part.inverse(part.of(bb)));
+                let (by_qn, by_qe) = (part.neg(part.mul(qn, inverse)), part.neg(part.mul(qe, inverse)));
+                let nn = part.mul_add(qn, by_qn, part.of(nn));
+                let en = part.mul_add(qn, by_qe, part.of(en));
+                let ee = part.mul_add(qe, by_qe, part.of(ee));
+                let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_across)), part.of(oo));
+                let mut entry = entries.iter_mut();
+                for j in 0..6 {
+                    let (normal, along) = (part.of(&arms.normal[j]), part.of(&arms.along[j]));
+                    let by_n = part.mul_add(nn, normal, part.mul(en, along));
+                    let by_e = part.mul_add(en, normal, part.mul(ee, along));
+                    let by_b = part.mul(oo, part.of(&arms.out[j]));
+                    for (i, entry) in (j..6).zip(&mut entry) {
+                        part.set(entry, arms.wrench(part, i, [by_n, by_e, by_b]));
+                    }
+                }
+                part.set(&mut bubbles.normal, qn);
+                part.set(&mut bubbles.along, qe);
+                part.set(&mut bubbles.out, bo);
+                part.set(&mut bubbles.inverse, inverse);
+                part.set(&mut bubbles.inverse_across, inverse_across);
+            }
+            let mut entry = entries.iter();
+            for j in 0..6 {
+                for (i, entry) in (j..6).zip(&mut entry) {
+                    d[(i, j)] += sum(entry);
+                }
+            }
+            all.push(bubbles);
+        }
+        for k in 0..n {
+            negative += usize::from(not_positive(d[(k, k)]));
+            let inverse = 1.0 / d[(k, k)];
+            for j in k + 1..n {
+                let factor = d[(j, k)] * inverse;
+                for i in j..n {
+                    d[(i, j)] -= d[(i, k)] * factor;
+                }
+            }
+            for j in k + 1..n {
+                d[(j, k)] *= inverse;
+            }
+            d[(k, k)] = inverse;
+        }
+        Factor { platform: d, bubbles: all, negative }
+    }
+}
+
+fn not_positive(pivot: f64) -> bool {
+    pivot.is_nan() || pivot <= 0.0
+}
+
+impl Factor {
+    /// Without exchanges: a positive definite pencil needs none, and of another one only a direction is wanted.
+    pub(super) fn of(pencil: &Pencil, kept: &[Kept], x: f64) -> Self {
+        pulp::Arch::new().dispatch(Factorise { pencil, kept, x })
+    }
+
+    #[inline(always)]
+    pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &Pencil, force: &Motion, into: &mut Motion) {
+        let n = pencil.freedoms;
+        let mut v = *force.platform();
+        for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
+            let [f, g] = force.bubbles(group);
+            let mut wrench = [[0.0; LANES]; 6];
+            for part in Part::all(simd) {
+                let f = part.mul(part.of(f), part.of(&bubbles.inverse));
+                let g = part.mul(part.of(g), part.of(&bubbles.inverse_across));
+                let ends = [
+                    part.mul(part.of(&bubbles.normal), f),
+                    part.mul(part.of(&bubbles.along), f),
+                    part.mul(part.of(&bubbles.out), g),
+                ];
+                for (i, wrench) in wrench.iter_mut().enumerate() {
+                    part.set(wrench, arms.wrench(part, i, ends));
+                }
+            }
+            for (v, wrench) in v.iter_mut().zip(&wrench) {
+                *v -= sum(wrench);
+            }
+        }
+        for j in 0..n {
+            for i in j + 1..n {
+                v[i] -= self.platform[(i, j)] * v[j];
+            }
+        }
+        for j in (0..n).rev() {
+            v[j] *= self.platform[(j, j)];
+            for i in j + 1..n {
+                v[j] -= self.platform[(i, j)] * v[i];
+            }
+        }
+        *into.platform_mut() = v;
+        for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
+            let [f, g] = force.bubbles(group);
+            let [q, p] = into.bubbles_mut(group);
+            for part in Part::all(simd) {
+                let [n, e, b] = arms.ends(part, &v);
+                let left = part.mul_add(part.neg(n), part.of(&bubbles.normal), part.of(f));
+                let left = part.mul_add(part.neg(e), part.of(&bubbles.along), left);
+                part.set(q, part.mul(left, part.of(&bubbles.inverse)));
+                let left = part.mul_add(part.neg(b), part.of(&bubbles.out), part.of(g));
+                part.set(p, part.mul(left, part.of(&bubbles.inverse_across)));
+            }
+        }
+    }
+}

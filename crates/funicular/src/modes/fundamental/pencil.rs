@@ -1,0 +1,218 @@
+//! The whole robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
+
+use super::batched_cable::{Abreast, Kept};
+use super::condensed_cables::{Reduced, Whole, degree_of_start};
+use super::lever_axes::{Arms, Motion};
+use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
+use super::{First, Kind, TAU};
+use crate::catenary::space::HangingCable;
+use crate::dynamics::{self, Still};
+use crate::math::simd::{LANES, Line, Part, sum};
+use crate::math::{Mat6, Vec6};
+use crate::robot::{Freedoms, Robot};
+use crate::statics::Equilibrium;
+use pulp::Simd;
+use std::array::from_fn;
+
+/// A robot about its equilibrium.
+pub(super) struct Pencil {
+    pub(super) freedoms: usize,
+    motions: Freedoms,
+    ell: f64,
+    /// Stiffness of what has no frequency, and mass of the platform; scaled, in the platform's coordinates.
+    pub(super) constant: Mat6,
+    pub(super) mass: Mat6,
+    /// Columns of the mass.
+    mass_columns: [Line; 6],
+    /// Of each group of cables that have mass.
+    pub(super) arms: Vec<Arms>,
+    /// Which cables these are.
+    pub(super) members: Vec<Vec<usize>>,
+    groups: Vec<Abreast>,
+    cable_count: usize,
+}
+
+/// Tangents that are drawn before all unknowns are looked at, and the relative change of x that ends it.
+const MOST_TANGENTS: usize = 3;
+const CLOSE_ENOUGH: f64 = 0.2;
+
+impl Pencil {
+    /// None if a cable is none that this way knows.
+    pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+        let Still { mut constant, mass, coordinates } = dynamics::still(robot, equilibrium);
+        let mut massive = Vec::with_capacity(equilibrium.cables.len());
+        let mut curves = Vec::with_capacity(equilibrium.cables.len());
+        for (i, state) in equilibrium.cables.iter().enumerate() {
+            let hanging = state.hanging.as_ref()?;
+            let mass_per_length = robot.cables[i].material.mass_per_length;
+            if hanging.catenary.parallel_tension() <= 0.0 {
+                return None;
+            }
+            if mass_per_length == 0.0 {
+                constant += dynamics::constant_cable(robot, state, &hanging.tangent_w());
+                continue;
+            }
+            massive.push((i, hanging));
+            curves.push((&hanging.catenary, mass_per_length));
+        }
+        let groups = Abreast::groups(&curves)?;
+        let (mut arms, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
+        for group in &groups {
+            let mut axes = Arms::default();
+            for (lane, at) in group.members().iter().enumerate() {
+                let (cable, hanging): (usize, &HangingCable) = massive[*at];
+                let (level_w, up_w) = hanging.axes_w();
+                let [cos, sin] = group.axis(lane);
+                let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
+                let lever = &equilibrium.cables[cable].lever_w;
+                axes.set(lane, [n, e, e.cross(&n)].map(|u| coordinates.reduce_force(&u, lever)));
+            }
+            arms.push(axes);
+            members.push(group.members().iter().map(|at| massive[*at].0).collect());
+        }
+        let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
+        let (freedoms, cable_count) = (coordinates.count(), robot.cables.len());
+        let (motions, ell) = (coordinates.freedoms(), coordinates.ell());
+        Some(Self { freedoms, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
+    }
+
+    /// None if the equilibrium is unstable, or the search does not end.
+    pub(super) fn first(&mut self) -> Option<First> {
+        let mut groups = std::mem::take(&mut self.groups);
+        let cut = groups.iter().any(Abreast::is_cut);
+        let mut start = Reduced::of(&mut groups);
+        let metric = start.mass.clone();
+        let motion = self.any_motion(&metric, 0);
+        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if cut { &ROUGH } else { &NEAR })?;
+        if cut {
+            near = self.nearer(near, &mut start, &mut groups)?;
+        }
+        let degrees = groups.iter().map(|group| degree_of_start(group) + 1).collect();
+        let mut whole = Whole { groups: &mut groups, degrees };
+        // Below rather than above, where another motion may be the nearest.
+        let x = if cut { 0.95 * near.square } else { near.square };
+        near.motions.truncate(1);
+        let found = lowest(self, &mut whole, &start.mass, x, near.motions, &EXACT)?;
+        Some(self.report(&found))
+    }
+
+    /// A better start where cables are cut: at rest, what has been eliminated moves otherwise than at the frequency, which
+    /// comes out far too high.
+    fn nearer(&self, mut near: Found, start: &mut Reduced, groups: &mut [Abreast]) -> Option<Found> {
+        let mut x = 0.7 * near.square;
+        for _ in 0..MOST_TANGENTS {
+            if start.follow(groups, x) {
+                let metric = start.mass.clone();
+                near.motions.truncate(1);
+                near = lowest(self, start, &metric, 0.75 * x, near.motions, &ROUGH)?;
+                if (near.square - x).abs() < CLOSE_ENOUGH * x {
+                    break;
+                }
+                x = near.square;
+            } else {
+                x *= 0.7;
+            }
+        }
+        Some(near)
+    }
+
+    /// Not at right angles to any mode that somebody built; another one for each number.
+    pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> Motion {
+        // Even over its range, and of either sign but for the first.
+        let part = |i: usize| {
+            let even = ((i + 97 * number) as f64 * 0.754_877_666).fract();
+            if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
+        };
+        let mut motion = Motion::any(masses.len());
+        *motion.platform_mut() = from_fn(|i| if i < self.freedoms { part(i) } else { 0.0 });
+        let mut next = 6;
+        for (group, (mass, members)) in masses.iter().zip(&self.members).enumerate() {
+            for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.plane[5], &mass.across[2]]) {
+                let used = members.len();
+                *line =
+                    Line(from_fn(
+                        |i| if i < used { (self.mass[(0, 0)] / mass[i]).sqrt() * part(next + i) } else { 0.0 },
+                    ));
+                next += used;
+            }
+        }
+        motion
+    }
+
+    /// B y with the masses about x = 0, which inverse iteration goes by: any positive definite B serves it.
+    #[inline(always)]
+    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &Motion, into: &mut Motion) {
+        let motion = y.platform();
+        let mut platform = [0.0; LANES];
+        for part in Part::all(simd) {
+            let mut sum = part.splat(0.0);
+            for (column, by) in self.mass_columns.iter().zip(motion) {
+                sum = part.mul_add(part.of(column), part.splat(*by), sum);
+            }
+            part.set(&mut platform, sum);
+        }
+        for (group, (arms, mass)) in self.arms.iter().zip(masses).enumerate() {
+            let [q, p] = y.bubbles(group);
+            let [force_q, force_p] = into.bubbles_mut(group);
+            let mut wrench = [[0.0; LANES]; 6];
+            for part in Part::all(simd) {
+                let mut plane = [part.splat(0.0); 6];
+                for (entry, mass) in plane.iter_mut().zip(&mass.plane) {
+                    *entry = part.of(mass);
+                }
+                let [nn, en, ee, qn, qe, qq] = plane;
+                let [oo, bo, bb] = [part.of(&mass.across[0]), part.of(&mass.across[1]), part.of(&mass.across[2])];
+                let ([n, e, b], q, p) = (arms.ends(part, motion), part.of(q), part.of(p));
+                let forces = [
+                    part.mul_add(nn, n, part.mul_add(en, e, part.mul(qn, q))),
+                    part.mul_add(en, n, part.mul_add(ee, e, part.mul(qe, q))),
+                    part.mul_add(oo, b, part.mul(bo, p)),
+                ];
+                part.set(force_q, part.mul_add(qn, n, part.mul_add(qe, e, part.mul(qq, q))));
+                part.set(force_p, part.mul_add(bo, b, part.mul(bb, p)));
+                for (i, wrench) in wrench.iter_mut().enumerate() {
+                    part.set(wrench, arms.wrench(part, i, forces));
+                }
+            }
+            for (platform, wrench) in platform.iter_mut().zip(&wrench) {
+                *platform += sum(wrench);
+            }
+        }
+        *into.platform_mut() = platform;
+    }
+
+    /// `aᵀ M b` of the platform alone.
+    pub(super) fn platform_mass(&self, a: &Motion, b: &Motion) -> f64 {
+        let [a, b] = [a, b].map(|motion| Vec6::from_column_slice(&motion.platform()[..6]));
+        a.dot(&(self.mass * b))
+    }
+
+    fn report(&self, found: &Found) -> First {
+        let mut cable_energy_fractions = vec![0.0; self.cable_count];
+        for (members, masses) in self.members.iter().zip(&found.cables) {
+            for (cable, mass) in members.iter().zip(masses) {
+                cable_energy_fractions[*cable] = mass / found.mass;
+            }
+        }
+        let motion = &found.motions[0];
+        let platform_energy_fraction = self.platform_mass(motion, motion) / found.mass;
+        let motion_w = self.motions.expanded(&Vec6::from_column_slice(&motion.platform()[..6]));
+        let largest = motion_w[motion_w.iamax()];
+        // What moves a platform at rest is rounding.
+        let at_rest = platform_energy_fraction < 1e-15;
+        let shape = from_fn(|i| match i {
+            _ if at_rest => 0.0,
+            0..3 => motion_w[i] / largest,
+            _ => motion_w[i] / largest / self.ell,
+        });
+        First {
+            frequency_hz: found.square.sqrt() / TAU,
+            kind: Kind::of(platform_energy_fraction),
+            platform_energy_fraction,
+            cable_energy_fractions,
+            shape,
+            unstable_directions: 0,
+            certified: true,
+        }
+    }
+}

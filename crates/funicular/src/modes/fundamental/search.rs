@@ -1,0 +1,292 @@
+//! The lowest eigenvalue of a pencil, between a shift at which it is positive definite and a Rayleigh quotient.
+
+use super::batched_cable::{Kept, place};
+use super::condensed_cables::{Cables, Ends};
+use super::factor::Factor;
+use super::lever_axes::Motion;
+use super::pencil::Pencil;
+use crate::math::simd::{LANES, Lane, sum};
+use crate::math::{DMat, symmetric_part};
+use pulp::Simd;
+
+/// How far a search goes.
+pub(super) struct Aim {
+    /// Relative width in ω² between the shift and the Rayleigh quotient.
+    width: f64,
+    /// Most steps of inverse iteration at one shift; they end when the quotient stands still.
+    steps: usize,
+    /// The last step has to be finer than the one before.
+    checked: bool,
+}
+
+/// Rounding, which is the stiffest spring's over the softest motion's, comes to 1e-13 in usual robots.
+pub(super) const EXACT: Aim = Aim { width: 1e-9, steps: 6, checked: true };
+/// Where a step costs little.
+pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
+
+/// One shift, at rest or well below: as good as cables allow whose unknowns follow as at another frequency.
+pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
+
+/// Evaluations after which the slow way is faster.
+const MOST_EVALUATIONS: usize = 40;
+
+/// Motions that go along where frequencies are close to each other.
+const BLOCK: usize = 3;
+
+/// Motions, and the Rayleigh quotient of the first.
+pub(super) struct Found {
+    pub(super) square: f64,
+    pub(super) motions: Vec<Motion>,
+    /// Mass of platform and cables in the first motion.
+    pub(super) mass: f64,
+    /// The part of each cable, in groups.
+    pub(super) cables: Vec<Lane>,
+}
+
+/// The lowest eigenvalue within the aim's width, from a shift x and motions near it; none if the pencil is not positive
+/// definite at rest, or the search does not end.
+///
+/// Inverse iteration at each shift; the next shift is half the width below the quotient, so that the search ends with the
+/// first one that is positive definite. Where this leads to a higher mode, or above several, more motions go along, and
+/// shifts are halved between what is known.
+pub(super) fn lowest(
+    pencil: &Pencil,
+    cables: &mut impl Cables,
+    metric: &[Kept],
+    mut x: f64,
+    mut motions: Vec<Motion>,
+    aim: &Aim,
+) -> Option<Found> {
+    let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+    let mut kept = Vec::with_capacity(metric.len());
+    let mut before = f64::INFINITY;
+    let mut refined = false;
+    let mut last: Option<Found> = None;
+    for _ in 0..MOST_EVALUATIONS {
+        cables.kept(x, &mut kept);
+        let factor = Factor::of(pencil, &kept, x);
+        if let Some(found) = last.take() {
+            // A finer discretisation has nothing below either.
+            if aim.checked && refined && factor.negative == 0 {
+                return Some(found);
+            }
+            motions = found.motions;
+        }
+        if factor.negative == 0 {
+            low = x;
+        } else if x == 0.0 {
+            return None;
+        } else {
+            high = high.min(x);
+        }
+        if factor.negative > 1 {
+            motions.extend(
+                (motions.len()..factor.negative.clamp(2, BLOCK)).map(|number| pencil.any_motion(metric, number)),
+            );
+        }
+        let mut found = improved(pencil, cables, metric, &factor, x, std::mem::take(&mut motions), aim);
+        let quotient = found.square;
+        if !quotient.is_finite() {
+            return None;
+        }
+        if !aim.checked && factor.negative == 0 && quotient - x <= aim.width * quotient {
+            return Some(found);
+        }
+        let next = quotient * (1.0 - 0.5 * aim.width);
+        // A quotient that does not fall belongs to another mode.
+        let leads = quotient > 0.0 && quotient <= high && quotient < before;
+        // Only a shift that a coarser discretisation led to checks this one.
+        refined = leads && (quotient - x).abs() < CLOSE * quotient;
+        if refined {
+            cables.refine();
+        }
+        if leads {
+            (before, high) = (quotient, quotient);
+        } else {
+            let more = found.motions.len()..BLOCK;
+            found.motions.extend(more.map(|number| pencil.any_motion(metric, number)));
+        }
+        last = Some(found);
+        // A lower bound of a coarser discretisation may lie above.
+        low = if low < high { low } else { 0.9 * high };
+        x = match () {
+            () if leads => next,
+            () if low > 0.0 => 0.25 * low + 0.75 * high,
+            () => 0.75 * high,
+        };
+    }
+    None
+}
+
+/// Relative distance of a shift from its quotient below which a coarse discretisation would be felt.
+const CLOSE: f64 = 0.1;
+
+/// Inverse iteration at a shift, and what is best of several motions.
+fn improved(
+    pencil: &Pencil,
+    cables: &impl Cables,
+    metric: &[Kept],
+    factor: &Factor,
+    x: f64,
+    motions: Vec<Motion>,
+    aim: &Aim,
+) -> Found {
+    let Iterated { motions, work, ends } =
+        pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, aim });
+    let count = motions.len();
+    // Of each pair of motions, the masses of the cables in groups.
+    let mut parts = vec![Vec::with_capacity(ends.len()); place(count, 0)];
+    for (group, ends) in ends.iter().enumerate() {
+        for (part, masses) in parts.iter_mut().zip(cables.mass(group, ends)) {
+            part.push(masses);
+        }
+    }
+    let mass = |i: usize, j: usize| {
+        let by_cables: f64 = parts[place(i.max(j), i.min(j))].iter().map(sum).sum();
+        pencil.platform_mass(&motions[i], &motions[j]) + by_cables
+    };
+    if count == 1 {
+        let mass = mass(0, 0);
+        return Found { square: x + work[0] / mass, mass, motions, cables: parts.swap_remove(0) };
+    }
+    let work = |i: usize, j: usize| work[count * i + j];
+    combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), motions, &parts)
+}
+
+struct Iteration<'a> {
+    pencil: &'a Pencil,
+    metric: &'a [Kept],
+    factor: &'a Factor,
+    x: f64,
+    motions: Vec<Motion>,
+    aim: &'a Aim,
+}
+
+struct Iterated {
+    motions: Vec<Motion>,
+    /// `yᵀ (K − xM) z` of all pairs of motions.
+    work: Vec<f64>,
+    /// The kept unknowns of each group, of each motion.
+    ends: Vec<Vec<Ends>>,
+}
+
+impl pulp::WithSimd for Iteration<'_> {
+    type Output = Iterated;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Iterated {
+        let Self { pencil, metric, factor, x, mut motions, aim } = self;
+        let count = motions.len();
+        let (mut forces, mut images) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for motion in &motions {
+            let mut force = Motion::any(metric.len());
+            pencil.inertia(simd, metric, motion, &mut force);
+            forces.push(force);
+            images.push(Motion::any(metric.len()));
+        }
+        let mut before = f64::INFINITY;
+        for _ in 0..aim.steps {
+            // A z = B y, so zᵀ A z without another product.
+            std::mem::swap(&mut images, &mut forces);
+            let mut least = f64::INFINITY;
+            for k in 0..count {
+                factor.solve(simd, pencil, &images[k], &mut motions[k]);
+                // Apart from each other, or all become the first.
+                let (done, rest) = motions.split_at_mut(k);
+                let (images_done, images_rest) = images.split_at_mut(k);
+                let (forces_done, forces_rest) = forces.split_at_mut(k);
+                let (motion, image, force) = (&mut rest[0], &mut images_rest[0], &mut forces_rest[0]);
+                for i in 0..k {
+                    let part = forces_done[i].dot(simd, motion);
+                    motion.add(simd, -part, &done[i]);
+                    image.add(simd, -part, &images_done[i]);
+                }
+                pencil.inertia(simd, metric, motion, force);
+                let size = 1.0 / force.dot(simd, motion).sqrt();
+                for vector in [&mut *force, &mut *motion, &mut *image] {
+                    vector.scale(simd, size);
+                }
+                least = least.min(motion.dot(simd, image));
+            }
+            if (least - before).abs() <= 0.01 * least.abs() + 0.1 * aim.width * (x + least).abs() {
+                break;
+            }
+            before = least;
+        }
+        let mut work = Vec::with_capacity(count * count);
+        for motion in &motions {
+            for image in &images {
+                work.push(motion.dot(simd, image));
+            }
+        }
+        let mut ends = Vec::with_capacity(metric.len());
+        for (group, arms) in pencil.arms.iter().enumerate() {
+            let mut of_group = Vec::with_capacity(count);
+            for motion in &motions {
+                of_group.push(motion.kept(simd, arms, group));
+            }
+            ends.push(of_group);
+        }
+        Iterated { motions, work, ends }
+    }
+}
+
+/// `Σ factor motion`.
+struct Sum<'a> {
+    motions: &'a [Motion],
+    factors: Vec<f64>,
+    groups: usize,
+}
+
+impl pulp::WithSimd for Sum<'_> {
+    type Output = Motion;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+        let Self { motions, factors, groups } = self;
+        let mut sum = Motion::any(groups);
+        sum.clear();
+        for (motion, factor) in motions.iter().zip(factors) {
+            sum.add(simd, factor, motion);
+        }
+        sum
+    }
+}
+
+/// The motions in which stiffness and mass are diagonal, ascending by their quotient.
+fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec<Lane>]) -> Found {
+    let count = motions.len();
+    let groups = parts[0].len();
+    let factor = mass.clone().cholesky();
+    let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
+        return Found { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
+    };
+    let symmetric = symmetric_part(work);
+    let eigen = (&inverse * symmetric * inverse.transpose()).symmetric_eigen();
+    let vectors = inverse.transpose() * &eigen.eigenvectors;
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let motion = |&k: &usize| {
+        let factors = vectors.column(k).iter().copied().collect();
+        pulp::Arch::new().dispatch(Sum { motions: &motions, factors, groups })
+    };
+    let first = vectors.column(order[0]);
+    let of_group = |group: usize| {
+        let mut masses = [0.0; LANES];
+        for i in 0..count {
+            for j in 0..count {
+                let part = &parts[place(i.max(j), i.min(j))][group];
+                for (mass, part) in masses.iter_mut().zip(part) {
+                    *mass += first[i] * first[j] * part;
+                }
+            }
+        }
+        masses
+    };
+    Found {
+        square: x + eigen.eigenvalues[order[0]],
+        motions: order.iter().map(motion).collect(),
+        mass: 1.0,
+        cables: (0..groups).map(of_group).collect(),
+    }
+}

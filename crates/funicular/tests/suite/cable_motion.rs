@@ -1,0 +1,80 @@
+//! Points along the cables: forces on them, and what a mode adds to their responses.
+
+use crate::library::{at_rest, independent_robot};
+use funicular::cable::CableModel;
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::math::Vec3;
+use funicular::modes;
+use funicular::response::{self, Direction, Port, Quantity};
+use funicular::robot::Damping;
+
+const EXACT: Linearisation =
+    Linearisation { cable_model: CableModel::Exact, assembly: Assembly::Consistent, in_plane_only: false };
+
+#[test]
+fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {
+    let robot = independent_robot("insa-4mm-10.55kg");
+    let rest = at_rest(&robot);
+    let closed = Linearisation { cable_model: CableModel::ClosedForm, ..EXACT };
+    let dynamics = Dynamics::about(&robot, &rest, closed, 5.0).unwrap();
+    let refused = CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], false).unwrap_err();
+    assert!(refused.to_string().contains("needs the model `exact`"), "{refused}");
+    let dynamics = Dynamics::about(&robot, &rest, EXACT, 5.0).unwrap();
+    let make = || CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], true).unwrap();
+    let (one, other) = (make(), make());
+    let port = |stations| Port::Cable { stations, station: 0, direction_w: Vec3::z() };
+    let between = |a, b| response::between(&dynamics, &[1.0], &port(a), &port(b), Quantity::Displacement);
+    assert!(between(&one, &one).is_ok());
+    assert_eq!(between(&one, &other).unwrap_err(), response::ResponseError::SameCable);
+}
+
+#[test]
+fn what_a_mode_adds_to_a_response_is_its_residue() {
+    // Beside a natural frequency, undamped, (ω_n² − ω²) X tends to the product of what both ports see, over the modal
+    // mass; also where a cable's pole lies so near that its amplitude is an unknown of its own.
+    let mut robot = independent_robot("insa-4mm-10.55kg");
+    for cable in &mut robot.cables {
+        cable.material.damping = Damping::Ratio(0.0);
+    }
+    let rest = at_rest(&robot);
+    let dynamics = Dynamics::about(&robot, &rest, EXACT, 12.0).unwrap();
+    let found = modes::below(&dynamics, 10.0);
+    let on = |cable, fractions: &[f64]| CableStations::new(&robot, &rest, &dynamics, cable, fractions, true).unwrap();
+    let (one, other) = (on(2, &[0.37, 0.8]), on(4, &[0.25]));
+    let z = Port::Platform(Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose));
+    let port = |stations, station, direction_w| Port::Cable { stations, station, direction_w };
+    let pairs = [
+        (z.clone(), z.clone()),
+        (z, port(&one, 0, Vec3::x())),
+        (port(&one, 1, Vec3::y()), port(&other, 0, Vec3::z())),
+        (port(&one, 1, Vec3::y()), port(&one, 0, Vec3::x())),
+    ];
+    let residue = |(input, output): &(Port, Port), mode: &modes::Mode| {
+        input.in_mode(&dynamics, mode) * output.in_mode(&dynamics, mode) / mode.modal_mass
+    };
+    let largest = pairs.each_ref().map(|pair| found.modes.iter().map(|m| residue(pair, m).abs()).fold(0.0, f64::max));
+    let mut beside_poles = 0;
+    for (i, mode) in found.modes.iter().enumerate() {
+        let gap = |j: usize| found.modes.get(j).map_or(1.0, |m| (m.frequency_hz / mode.frequency_hz - 1.0).abs());
+        let gap = gap(i + 1).min(if i > 0 { gap(i - 1) } else { 1.0 });
+        let pole = dynamics.clamped_frequencies_below(75.0).into_iter().map(|(pole, _)| pole / std::f64::consts::TAU);
+        let to_pole = pole.map(|pole| (pole / mode.frequency_hz - 1.0).abs()).fold(1.0, f64::min);
+        if gap < 1e-4 {
+            continue;
+        }
+        beside_poles += usize::from(to_pole < 4e-4);
+        let beside = mode.frequency_hz * (1.0 + 1e-5 * gap);
+        let square = |hz: f64| (hz * std::f64::consts::TAU).powi(2);
+        let distance = square(mode.frequency_hz) - square(beside);
+        for (pair, largest) in pairs.iter().zip(largest) {
+            let response =
+                response::between(&dynamics, &[beside], &pair.0, &pair.1, Quantity::Displacement).unwrap()[0];
+            let residue = residue(pair, mode);
+            // A neighbour at `gap` adds 1e-5 of its own.
+            let off = (response.re * distance - residue).abs();
+            assert!(off < 1e-3 * residue.abs() + 3e-5 * largest, "mode {i}: {off:e} of {residue}");
+        }
+    }
+    assert!(beside_poles > 3, "{beside_poles} modes lie beside a pole");
+}

@@ -1,0 +1,169 @@
+//! The first natural frequency alone against the first of the whole list.
+
+use crate::library::library;
+use crate::random::campaign::robots::{self, Kind};
+use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
+use funicular::modes::{self, First, FirstError};
+use funicular::robot::{Cable, Pose, Robot};
+use funicular::statics::{self, Equilibrium, Stability, StaticModel};
+use proptest::prelude::*;
+
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
+
+/// What is wrong with the first mode of a robot, measured by the list up to a tenth above it; energies as good as usual.
+fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
+    fault_beyond(robot, rest, first, |_| 1e-6)
+}
+
+/// The same with a bound of the energies' error, of how far the next frequency is above, relative.
+fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, most: impl Fn(f64) -> f64) -> Option<String> {
+    let limit = 1.1 * first.frequency_hz;
+    let all = modes::below(&Dynamics::about(robot, rest, Linearisation::default(), limit).unwrap(), limit);
+    let Some(mode) = all.modes.first() else { return Some(format!("none below {limit} Hz")) };
+    let off = (first.frequency_hz / mode.frequency_hz - 1.0).abs();
+    if !first.certified || off > 1e-9 {
+        return Some(format!("{} Hz is {off:e} off", first.frequency_hz));
+    }
+    let total = first.platform_energy_fraction + first.cable_energy_fractions.iter().sum::<f64>();
+    if (total - 1.0).abs() > 1e-12 {
+        return Some(format!("energies sum to {total}"));
+    }
+    // A mode that another one is near to is any mixture of both.
+    let apart = all.modes.get(1).map_or(1.0, |next| next.frequency_hz / mode.frequency_hz - 1.0);
+    if apart < 1e-3 {
+        return None;
+    }
+    let energy = (first.platform_energy_fraction - mode.platform_energy_fraction).abs();
+    let shape = first.shape.iter().zip(&mode.shape).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let size = mode.shape.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
+    // The platform hardly moves in a cable's own mode, and its largest component may be another one.
+    let moves = mode.platform_energy_fraction > 1e-6;
+    (energy > most(apart) || first.kind != mode.kind || (moves && shape > 1e-4 * size))
+        .then(|| format!("energy {energy:e}, shape {shape:e} off, {apart:e} from the next mode"))
+}
+
+#[test]
+fn the_first_frequency_of_every_robot_of_the_library_is_that_of_the_whole_list() {
+    for (name, robot, rest) in library() {
+        let first = modes::first(&robot, &rest).unwrap();
+        assert_eq!(fault(&robot, &rest, &first), None, "{name}");
+    }
+}
+
+#[test]
+fn the_first_frequency_of_random_robots_is_that_of_the_whole_list() {
+    let mut compared = 0;
+    for index in 0..200 {
+        let sample = robots::sample(index);
+        if sample.kind != Kind::Proper {
+            continue;
+        }
+        let start = Some(&sample.pose);
+        let Ok(rest) = statics::forward(&sample.robot, &sample.lengths, StaticModel::Catenary, start) else { continue };
+        if !matches!(rest.stability, Stability::Stable { .. }) {
+            continue;
+        }
+        match modes::first(&sample.robot, &rest) {
+            Ok(first) => {
+                assert_eq!(fault(&sample.robot, &rest, &first), None, "robot {index} ({:?})", sample.layout);
+                compared += 1;
+            }
+            Err(refused) => {
+                let all = Dynamics::about(&sample.robot, &rest, Linearisation::default(), sample.below_hz);
+                assert_eq!(refused, FirstError::Dynamics(all.unwrap_err()), "robot {index}");
+            }
+        }
+    }
+    assert!(compared > 150, "{compared}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
+
+    /// Half of these poses are held by cables that hang nearly without tension, whose first frequencies are those of loops.
+    #[test]
+    fn the_first_frequency_of_the_papers_robot_is_that_of_the_whole_list_at_any_pose(
+        x in -3.0f64..3.0, y in -1.2f64..1.2, z in 0.0f64..2.4, turn in prop::array::uniform3(-3.0f64..3.0),
+    ) {
+        let robot = Robot::from_toml(YUAN).unwrap();
+        let held = statics::inverse(&robot, &Pose::new([x, y, z], turn), StaticModel::Catenary);
+        prop_assume!(held.is_ok());
+        let rest = held.unwrap();
+        prop_assume!(matches!(rest.stability, Stability::Stable { .. }));
+        let first = modes::first(&robot, &rest).unwrap();
+        // What the frequency's width of 5e-10 leaves room for.
+        prop_assert_eq!(fault_beyond(&robot, &rest, &first, |apart| 2.0 * (5e-10 / apart).sqrt()), None);
+    }
+}
+
+/// A plate in the xz plane on four cables that cross each other, two of them from below, at rest.
+fn plate(rope_mass: f64) -> (Robot, Equilibrium) {
+    let robot = Robot::from_toml(&format!(
+        "name = \"plate\"\n[platform]\nfreedoms = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
+         [materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = {rope_mass}\n\
+         [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 3.0]\nattachment_m = [-0.3, 0.0, -0.2]\n\
+         [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, 3.2]\nattachment_m = [0.3, 0.0, -0.2]\n\
+         [[cables]]\nname = \"3\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, -2.0]\nattachment_m = [-0.3, 0.0, 0.2]\n\
+         [[cables]]\nname = \"4\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, -2.0]\nattachment_m = [0.3, 0.0, 0.2]\n"
+    ))
+    .unwrap();
+    let pose = Pose::new([0.1, 0.0, 0.4], [0.0; 3]);
+    let chord = |cable: &Cable| cable.chord_w(&pose).norm();
+    let lengths: Vec<f64> = robot.cables.iter().map(|cable| 0.998 * chord(cable)).collect();
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
+    (robot, rest)
+}
+
+#[test]
+fn a_planar_platform_may_have_its_first_frequency_in_a_cable_that_swings_out_of_the_plane() {
+    let (robot, rest) = plate(0.3);
+    let first = modes::first(&robot, &rest).unwrap();
+    assert_eq!(fault(&robot, &rest, &first), None);
+    assert!(first.platform_energy_fraction < 1e-12, "{first:?}");
+    assert!(first.shape.iter().all(|part| *part == 0.0), "{first:?}");
+}
+
+#[test]
+fn with_massless_cables_the_platform_alone_vibrates() {
+    let (robot, rest) = plate(0.0);
+    let first = modes::first(&robot, &rest).unwrap();
+    assert_eq!(fault(&robot, &rest, &first), None);
+    assert_eq!(first.kind, modes::Kind::Platform);
+}
+
+#[test]
+fn an_unstable_equilibrium_has_the_first_frequency_of_the_list_and_says_so() {
+    let robot = Robot::from_toml(&YUAN.replace("center_of_mass_m = [0.0, 0.0, 0.0]", "center_of_mass_m = [0, 0, 8]"));
+    let pose = Pose::new([0.3, -0.2, 0.7], [0.0; 3]);
+    let (robot, model) = (robot.unwrap(), StaticModel::Catenary);
+    let rest = statics::inverse(&robot, &pose, model).unwrap();
+    assert!(matches!(rest.stability, Stability::Unstable { .. }), "{:?}", rest.stability);
+    let first = modes::first(&robot, &rest).unwrap();
+    let limit = 1.1 * first.frequency_hz;
+    let all = modes::below(&Dynamics::about(&robot, &rest, Linearisation::default(), limit).unwrap(), limit);
+    assert!(first.unstable_directions > 0);
+    assert_eq!(first.unstable_directions, all.unstable_directions);
+    assert!((first.frequency_hz / all.modes[0].frequency_hz - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_cable_without_tension_is_named() {
+    let robot = Robot::from_toml(&YUAN.replacen("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.0", 1)).unwrap();
+    let pose = Pose::new([0.3, -0.2, 0.7], [0.0; 3]);
+    let mut rest = statics::inverse(&robot, &pose, StaticModel::Spring).unwrap();
+    let lengths: Vec<f64> =
+        rest.cables.iter().enumerate().map(|(i, c)| c.unstrained_length + if i == 2 { 2.0 } else { 0.0 }).collect();
+    rest = statics::forward(&robot, &lengths, StaticModel::Spring, Some(&pose)).unwrap();
+    let refused = modes::first(&robot, &rest).unwrap_err();
+    assert!(
+        matches!(refused, FirstError::Dynamics(DynamicsError::NoTension { ref cable, .. }) if cable == "3"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn ideal_cables_have_no_first_frequency() {
+    let robot = Robot::from_toml(YUAN).unwrap();
+    let rest = statics::inverse(&robot, &Pose::new([0.3, -0.2, 0.7], [0.0; 3]), StaticModel::Ideal).unwrap();
+    assert_eq!(modes::first(&robot, &rest), Err(FirstError::Dynamics(DynamicsError::Rigid)));
+}

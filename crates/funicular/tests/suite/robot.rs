@@ -1,0 +1,5 @@
+//! The robot: its file, the motion of its platform, wind and other loads along its cables.
+
+mod freedoms;
+mod spec;
+mod wind;

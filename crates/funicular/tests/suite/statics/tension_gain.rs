@@ -1,0 +1,36 @@
+//! Nearness to a singular pose.
+
+use funicular::robot::{Pose, Robot};
+use funicular::statics::{self, StaticModel};
+
+/// Three unit forces, two of them at an angle φ: the least singular value squared is 1 − cos φ.
+#[test]
+fn the_tension_gain_grows_towards_a_singular_pose_and_is_warned_of() {
+    for (degrees, warned) in [(90.0_f64, false), (30.0, false), (2.0, true)] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        // Loaded so that all tensions are 10 N.
+        let text = format!(
+            "name = \"three\"\ngravity_m_s2 = [-10, {}, {}]\n[platform]\nmass_kg = 1\nfreedoms = \"point-mass\"\n\
+             [materials.r]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0\n\
+             [[cables]]\nname = \"1\"\nmaterial = \"r\"\nanchor_m = [5, 0, 0]\n\
+             [[cables]]\nname = \"2\"\nmaterial = \"r\"\nanchor_m = [0, 0, 5]\n\
+             [[cables]]\nname = \"3\"\nmaterial = \"r\"\nanchor_m = [0, {}, {}]\n",
+            -10.0 * sin,
+            -10.0 * (1.0 + cos),
+            5.0 * sin,
+            5.0 * cos
+        );
+        let robot = Robot::from_toml(&text).unwrap();
+        let held = statics::inverse(&robot, &Pose::new([0.0; 3], [0.0; 3]), StaticModel::Catenary).unwrap();
+        assert!(held.cables.iter().all(|cable| (cable.tension_platform - 10.0).abs() < 1e-9));
+        let gain = statics::tension_gain(&robot, &held).unwrap();
+        assert!((gain * (1.0 - cos).sqrt() - 1.0).abs() < 1e-9, "{gain}");
+        let warnings: Vec<String> =
+            funicular::validity::of_statics(&robot, &held).iter().map(ToString::to_string).collect();
+        assert_eq!(
+            warnings.iter().any(|warning| warning.starts_with("the pose is nearly singular")),
+            warned,
+            "{warnings:?}"
+        );
+    }
+}
