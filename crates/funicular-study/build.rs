@@ -1,29 +1,38 @@
 //! Packs plotly.js as the pages carry it, once for all pages: a third of its size, and nothing to do at run time.
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD as BASE64;
-use flate2::Compression;
-use flate2::write::GzEncoder;
-use plotly::Plot;
-use std::io::Write as _;
-use std::path::PathBuf;
-
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
-    encoder.write_all(plotly_script().as_bytes()).expect("memory takes all that is written");
-    let packed = BASE64.encode(encoder.finish().expect("memory takes all that is written"));
-    let folder = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo says where"));
-    std::fs::write(folder.join("plotly.js.gz.base64"), packed).expect("cargo's folder can be written to");
+    #[cfg(feature = "pages")]
+    pages::pack_plotly();
 }
 
-/// plotly.js itself.
-///
-/// The crate hands out plotly.js and `MathJax` together, each in a script element; formulas here are plain text, so the
-/// second, of 2 MB, stays out.
-fn plotly_script() -> String {
-    let sources = Plot::offline_js_sources();
-    let (_, from) = sources.split_once('>').expect("a script element begins");
-    let (script, _) = from.split_once("</script>").expect("a script element ends");
-    script.to_owned()
+#[cfg(feature = "pages")]
+mod pages {
+    use base64::Engine as _;
+    use base64::engine::general_purpose::STANDARD as BASE64;
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+    use plotly::Plot;
+    use std::io::Write as _;
+    use std::path::PathBuf;
+
+    /// Writes the packed script where `pages` includes it.
+    pub(super) fn pack_plotly() {
+        let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+        encoder.write_all(plotly_script().as_bytes()).expect("memory takes all that is written");
+        let packed = BASE64.encode(encoder.finish().expect("memory takes all that is written"));
+        let folder = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo says where"));
+        std::fs::write(folder.join("plotly.js.gz.base64"), packed).expect("cargo's folder can be written to");
+    }
+
+    /// plotly.js itself.
+    ///
+    /// The crate hands out plotly.js and `MathJax` together, each in a script element; formulas here are plain text, so the
+    /// second, of 2 MB, stays out.
+    fn plotly_script() -> String {
+        let sources = Plot::offline_js_sources();
+        let (_, from) = sources.split_once('>').expect("a script element begins");
+        let (script, _) = from.split_once("</script>").expect("a script element ends");
+        script.to_owned()
+    }
 }

@@ -10,7 +10,7 @@ use funicular_study::import::{self, SourceFile};
 use funicular_study::pages;
 use funicular_study::request::Request;
 use funicular_study::wording::{Words, worded};
-use funicular_study::{NoSolution, Results, Watch, analyses, at_rest, export, json, run};
+use funicular_study::{Watch, at_rest, export, json, run};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::fs;
@@ -51,22 +51,6 @@ impl Watch for CtrlC {
     }
 }
 
-/// Results as JSON, with the texts of their warnings in the words of Python.
-fn json_of<R: Found>(results: &R, command: &'static str) -> PyResult<Vec<u8>> {
-    let warnings: Vec<String> = results.warnings().iter().map(|text| worded(text, Words::Python)).collect();
-    let mut bytes = Vec::new();
-    json::write(&mut bytes, command, results.robot(), results, &warnings).map_err(|error| {
-        errors::study(
-            &NoSolution(format!(
-                "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; \
-                 change the frequency or check the units"
-            ))
-            .into(),
-        )
-    })?;
-    Ok(bytes)
-}
-
 /// A dictionary of JSON.
 fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<Keyed<'py>> {
     let dictionary = py.import("json")?.call_method1("loads", (PyBytes::new(py, bytes),))?;
@@ -75,7 +59,7 @@ fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<Keyed<'py>> {
 
 /// Results with the keys of the program's JSON.
 pub(crate) fn plain<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Keyed<'py>> {
-    loaded(py, &json_of(results, R::COMMAND)?)
+    loaded(py, &json::of_results(results, Words::Python).map_err(|error| errors::study(&error.into()))?)
 }
 
 /// [`plain`] results with arrays for lists of numbers.
@@ -101,18 +85,7 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     let bytes = interruptible(py, move || {
         let mut watch = CtrlC::new();
         let results = run(&request, &mut watch).map_err(|error| watch.or(&error.into()))?;
-        match &results {
-            Results::Check(found) => json_of(found, analyses::check::Checked::COMMAND),
-            Results::Statics(found) => json_of(found, analyses::statics::Statics::COMMAND),
-            Results::Stiffness(found) => json_of(found, analyses::stiffness::Stiffness::COMMAND),
-            Results::Modes(found) => json_of(found, analyses::modes::Modes::COMMAND),
-            Results::Frf(found) => json_of(found, analyses::frf::Frf::COMMAND),
-            Results::Compare(found) => json_of(found, analyses::compare::Compared::COMMAND),
-            Results::PoseError(found) => json_of(found, analyses::pose_error::PoseErrors::COMMAND),
-            Results::Cable(found) => json_of(found, analyses::cable::CableResult::COMMAND),
-            Results::Reduce(found) => json_of(found, analyses::reduce::Reduced::COMMAND),
-            Results::Validate(found) => json_of(found, analyses::validate::Validated::COMMAND),
-        }
+        results.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
     })??;
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }

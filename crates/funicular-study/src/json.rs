@@ -1,5 +1,8 @@
 //! JSON: one line a key, every digit, and no `null`.
 
+use crate::analyses::Found;
+use crate::error::{Error, NoSolution};
+use crate::wording::{Words, worded};
 use serde::Serialize;
 use serde_json::ser::{CharEscape, Formatter};
 use std::io::{self, Write};
@@ -14,6 +17,22 @@ struct Envelope<'a, R> {
     #[serde(flatten)]
     results: &'a R,
     warnings: &'a [String],
+}
+
+/// Results of a command as JSON, with the warnings in the words of a front end.
+///
+/// # Errors
+/// [`NoSolution`]: a result that is not finite.
+pub fn of_results<R: Found>(results: &R, words: Words) -> Result<Vec<u8>, Error> {
+    let warnings: Vec<String> = results.warnings().iter().map(|text| worded(text, words)).collect();
+    let mut bytes = Vec::new();
+    write(&mut bytes, R::COMMAND, results.robot(), results, &warnings).map_err(|error| {
+        anyhow::Error::from(NoSolution(format!(
+            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the \
+             frequency or check the units"
+        )))
+    })?;
+    Ok(bytes)
 }
 
 /// Writes results of a command for a robot.

@@ -6,7 +6,7 @@
 //! (program, Python package, browser) translate into a request and out of the results, and decide nothing themselves.
 //!
 //! This crate has no disk and no threads; it compiles for WebAssembly. Beside the analyses it holds all that turns results
-//! into other forms: [`import`] and [`export`] of other programs' files, [`pages`] in HTML, and [`validation`].
+//! into other forms: [`import`] and [`export`] of other programs' files, [`pages`] in HTML (feature `pages`), and [`validation`].
 //!
 //! # Example
 //! ```
@@ -35,6 +35,7 @@ pub mod frequency_range;
 pub mod import;
 pub mod json;
 pub mod names;
+#[cfg(feature = "pages")]
 pub mod pages;
 pub mod request;
 pub mod robot_file;

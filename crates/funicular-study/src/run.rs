@@ -13,8 +13,10 @@ use crate::analyses::{
     validate::{self, Validated},
 };
 use crate::error::Error;
+use crate::json;
 use crate::request::{Request, RobotText};
 use crate::watch::Watch;
+use crate::wording::Words;
 use anyhow::{Result, anyhow};
 use funicular::robot::Robot;
 use serde::Serialize;
@@ -34,6 +36,27 @@ pub enum Results {
     Cable(CableResult),
     Reduce(Reduced),
     Validate(Validated),
+}
+
+impl Results {
+    /// The results as JSON, with the warnings in the words of a front end.
+    ///
+    /// # Errors
+    /// A result that is not a finite number, as at an undamped resonance: kind [`NoSolution`](crate::ErrorKind).
+    pub fn to_json(&self, words: Words) -> Result<Vec<u8>, Error> {
+        match self {
+            Self::Check(found) => json::of_results(found, words),
+            Self::Statics(found) => json::of_results(found, words),
+            Self::Stiffness(found) => json::of_results(found, words),
+            Self::Modes(found) => json::of_results(found, words),
+            Self::Frf(found) => json::of_results(found, words),
+            Self::Compare(found) => json::of_results(found, words),
+            Self::PoseError(found) => json::of_results(found, words),
+            Self::Cable(found) => json::of_results(found, words),
+            Self::Reduce(found) => json::of_results(found, words),
+            Self::Validate(found) => json::of_results(found, words),
+        }
+    }
 }
 
 /// Runs a request.

@@ -6,13 +6,14 @@
 //! and one that goes down. One file a model.
 
 pub mod closed_form;
+mod damping;
 pub mod exact;
 pub mod spring;
 pub mod static_sag;
 
 use crate::catenary::space::any_normal;
 use crate::math::{Complex, Mat3, Vec3};
-use crate::robot::{Damping, Robot};
+use crate::robot::Robot;
 use crate::statics::CableState;
 use closed_form::ClosedForm;
 use exact::ExactEnd;
@@ -293,6 +294,7 @@ impl EndStiffness {
         let axes = LocalAxes::of_cable(robot, i, state);
         let sag = Sag::of(robot, i, state);
         let material = &robot.cables[i].material;
+
         if sag.tension <= 0.0 && matches!(model, CableModel::StaticSag | CableModel::ClosedForm | CableModel::Exact) {
             return Err(NoStiffness::NoTension);
         }
@@ -317,52 +319,5 @@ impl EndStiffness {
                 Self::Dynamic(DynamicCable::Exact(Box::new(cable)))
             }
         })
-    }
-}
-
-/// The square of the cable's complex frequency `ω_c²` [rad²/s²] at ω [rad/s], e^{+iωt}: real and imaginary part.
-#[inline]
-pub fn damped_square(omega: f64, damping: Damping, mass_per_length: f64) -> (f64, f64) {
-    let square = omega * omega;
-    match damping {
-        Damping::Ratio(xi) => (square, -2.0 * xi * square),
-        Damping::Viscous(c) if mass_per_length > 0.0 => (square, -omega * c / mass_per_length),
-        Damping::Viscous(_) => (square, 0.0),
-    }
-}
-
-/// The same at a complex ω of positive real part, and its derivative by ω.
-pub(crate) fn damped_square_with_slope(omega: Complex, damping: Damping, mass_per_length: f64) -> (Complex, Complex) {
-    match damping {
-        Damping::Ratio(xi) => {
-            let loss = Complex::new(1.0, -2.0 * xi);
-            (omega * omega * loss, 2.0 * omega * loss)
-        }
-        Damping::Viscous(c) if mass_per_length > 0.0 => {
-            let rate = Complex::new(0.0, c / mass_per_length);
-            (omega * (omega - rate), 2.0 * omega - rate)
-        }
-        Damping::Viscous(_) => (omega * omega, 2.0 * omega),
-    }
-}
-
-/// The complex ω of positive real or imaginary part at which `ω_c²` is the square of an undamped frequency [rad/s].
-pub(crate) fn damped_zero(undamped: f64, damping: Damping, mass_per_length: f64) -> Complex {
-    match damping {
-        Damping::Ratio(xi) => undamped / Complex::new(1.0, -2.0 * xi).sqrt(),
-        Damping::Viscous(c) if mass_per_length > 0.0 => {
-            let half = c / (2.0 * mass_per_length);
-            Complex::new(0.0, half) + Complex::from(undamped * undamped - half * half).sqrt()
-        }
-        Damping::Viscous(_) => undamped.into(),
-    }
-}
-
-/// Damping ratio that a cable's damping gives to a vibration that is the cable's alone, at ω [rad/s].
-pub fn damping_ratio(omega: f64, damping: Damping, mass_per_length: f64) -> f64 {
-    match damping {
-        Damping::Ratio(xi) => xi,
-        Damping::Viscous(c) if mass_per_length > 0.0 => c / (2.0 * mass_per_length * omega),
-        Damping::Viscous(_) => 0.0,
     }
 }

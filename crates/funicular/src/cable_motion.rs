@@ -8,7 +8,7 @@ mod weighted;
 pub use weighted::WeightedMotions;
 
 use crate::cable::exact::{Exact, ExactError, Stations, Swing};
-use crate::cable::{CableModel, DynamicCable, LocalAxes, damped_square};
+use crate::cable::{CableModel, DynamicCable, LocalAxes};
 use crate::dynamics::Dynamics;
 use crate::math::{CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
@@ -75,9 +75,10 @@ impl CableStations {
     ) -> Result<Self, CableMotionError> {
         let state = &equilibrium.cables[i];
         let arc_lengths: Vec<f64> = fractions.iter().map(|part| part * state.unstrained_length).collect();
-        let term = dynamics.terms.iter().position(|term| term.cable == i);
+        let term = dynamics.terms().iter().position(|term| term.cable() == i);
         let chord_w = state.chord_w();
-        let (kind, axes) = match term.map(|at| (at, &dynamics.terms[at].form)) {
+
+        let (kind, axes) = match term.map(|at| (at, dynamics.terms()[at].form())) {
             Some((_, DynamicCable::ClosedForm(_))) => return Err(CableMotionError::Model(CableModel::ClosedForm)),
             Some((term, DynamicCable::Exact(end))) => {
                 let hanging = state.hanging.as_ref().expect("an exact cable hangs");
@@ -100,6 +101,7 @@ impl CableStations {
                 (Kind::Straight(parts), LocalAxes::of_cable(robot, i, state))
             }
         };
+
         let points_w = fractions
             .iter()
             .zip(&arc_lengths)
@@ -115,9 +117,10 @@ impl CableStations {
     /// modal mass of 1 kg. The mode is one of the same `dynamics` as the stations.
     pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> Vec<[f64; 3]> {
         let motion = &mode.motion;
-        let motion_w = dynamics.motions.expanded(&motion.platform);
+        let motion_w = dynamics.coordinates().expand(&motion.platform);
         let largest = motion_w[motion_w.iamax()];
         let scale = if largest == 0.0 { 1.0 } else { 1.0 / largest };
+
         match &self.kind {
             Kind::Straight(parts) => {
                 let shape = mode.shape;
@@ -127,11 +130,13 @@ impl CableStations {
                 parts.iter().map(|part| [e, n, b].map(|axis| part * axis.dot(&end_w))).collect()
             }
             Kind::Exact { exact, stations, term } => {
-                let of = &dynamics.terms[*term];
-                let start = [&of.along, &of.normal, &of.out].map(|axis| Complex::from(axis.dot(&motion.platform)));
+                let of = &dynamics.terms()[*term];
+                let start = of.axes().map(|axis| Complex::from(axis.dot(&motion.platform)));
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
                 let mut swing = swing(dynamics, exact, start, square.into());
-                let DynamicCable::Exact(end) = &of.form else { unreachable!("made of this term") };
+                let DynamicCable::Exact(end) = of.form() else { unreachable!("made of this term") };
+
+                // Modes whose poles lie at the frequency have amplitudes of their own.
                 for near in motion.near.iter().filter(|near| near.term == *term) {
                     // Where stations are loaded the cable is discretised anew, and a mode's sign is its own.
                     let (family, same_sign) = if near.across {
@@ -145,6 +150,7 @@ impl CableStations {
                     };
                     family[near.pole] = if same_sign { near.amplitude } else { -near.amplitude }.into();
                 }
+
                 let at = |k: usize| stations.displacement(k, &swing).map(|u| u.re * scale);
                 (0..self.arc_lengths.len()).map(at).collect()
             }
@@ -157,11 +163,12 @@ impl CableStations {
     pub fn transmission(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3, omega: f64) -> CVec6 {
         let LocalAxes { e, n, b } = self.axes;
         let towards = self.local(direction_w);
+
         // Row of the displacement along the direction by the end's displacement in (e, n, b).
         let row: [Complex; 3] = match &self.kind {
             Kind::Straight(parts) => towards.map(|part| Complex::from(part * parts[at])),
-            Kind::Exact { exact, stations, term } => {
-                let square = damped_square_of(dynamics, *term, omega);
+            Kind::Exact { exact, stations, .. } => {
+                let square = dynamics.cable_square(self.cable, omega);
                 std::array::from_fn(|axis| {
                     let start = std::array::from_fn(|k| Complex::from(f64::from(u8::from(k == axis))));
                     let swing = swing(dynamics, exact, start, square);
@@ -170,6 +177,8 @@ impl CableStations {
                 })
             }
         };
+
+        // As a wrench about the platform origin.
         let mut vector = CVec6::zeros();
         for (axis, part) in [e, n, b].into_iter().zip(row) {
             let moment = self.lever_w.cross(&axis);
@@ -223,8 +232,8 @@ impl CableStations {
         match &self.kind {
             // A taut massless string: its end forces fix where a force on it acts, and no model here says how it yields.
             Kind::Straight(_) => Complex::new(f64::NAN, 0.0),
-            Kind::Exact { exact, stations, term } => {
-                let square = damped_square_of(dynamics, *term, omega);
+            Kind::Exact { exact, stations, .. } => {
+                let square = dynamics.cable_square(self.cable, omega);
                 stations.receptance(exact, (at, out), (loaded, force), square)
             }
         }
@@ -249,11 +258,4 @@ fn swing(dynamics: &Dynamics, exact: &Exact, start: [Complex; 3], square: Comple
         swing.out_of_plane.fill(0.0.into());
     }
     swing
-}
-
-/// ω_c² of a cable whose stiffness depends on frequency.
-fn damped_square_of(dynamics: &Dynamics, term: usize, omega: f64) -> Complex {
-    let (damping, mass_per_length) = dynamics.damping[dynamics.terms[term].cable];
-    let (re, im) = damped_square(omega, damping, mass_per_length);
-    Complex::new(re, im)
 }

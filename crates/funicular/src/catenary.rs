@@ -118,6 +118,7 @@ impl Catenary {
         if w == 0.0 {
             return Self::straight(span, rise, rope);
         }
+
         let k = w * length / (2.0 * ea);
         let (x, z) = (span / length, rise / length);
         // A span this far below the length is a vertical cable to every digit; squares of smaller ones underflow.
@@ -126,6 +127,7 @@ impl Catenary {
             let vertical_mean = w * rise / (2.0 * (1.0 + k));
             return Self { rope, span, rise, horizontal: 0.0, vertical_mean, slope: Slope::Loop };
         }
+
         let root = root(if x < VERTICAL { 0.0 } else { x }, z, k);
         let Hyperbolic { sinh, cosh, v_cosh_minus_sinh, .. } = root.hyperbolic;
         let tanh_v = sinh / cosh;
@@ -226,6 +228,7 @@ impl Catenary {
         let (ta, t) = (hypot(h, va), hypot(h, v));
         let sum = ta + t;
         let compliance = 1.0 / self.rope.axial_stiffness;
+
         match self.slope {
             Slope::Slack => {
                 let part = s / self.rope.unstrained_length;
@@ -234,6 +237,7 @@ impl Catenary {
             _ if sum == 0.0 => return [0.0, 0.0],
             _ => {}
         }
+
         let part_weight = self.rope.weight_per_length * s;
         let u = part_weight / sum;
         let x = if h == 0.0 {
@@ -458,17 +462,22 @@ fn root(x: f64, z: f64, k: f64) -> Root {
     let chord = hypot(x, z);
     let stretch = chord - 1.0;
     let chord2_minus_1 = stretch * (chord + 1.0);
+
+    // Start.
     let mut v = start(x, z, k, chord, stretch);
     let (mut low, mut high) = (0.0, f64::INFINITY);
+
     // Robots take 2 or 3 passes; of a million cables over eight decades of sag, slope and strain 99.5 % at most 4, the
     // worst 14. The rest is a guard.
     for _ in 0..80 {
+        // F and its slope.
         let h = Hyperbolic::of(v);
         let across = v + k;
         let (a, inverse_cosh) = (h.sinh / across, 1.0 / h.cosh);
         let tanh = h.sinh * inverse_cosh;
         let along = tanh + k;
         let b = tanh / along;
+
         // F = (xa)² + (zb)² − 1, written by differences from 1 so that a taut cable keeps its digits.
         let value = if a < 2.0 {
             let one_minus_a = (k - h.sinh_minus_v) / across;
@@ -477,15 +486,19 @@ fn root(x: f64, z: f64, k: f64) -> Root {
         } else {
             (x * a).powi(2) + z2 * b * b - 1.0
         };
+
         let a_by_v = (k * h.cosh + h.v_cosh_minus_sinh) / (across * across);
         let b_by_v = k * inverse_cosh * inverse_cosh / (along * along);
         let slope = 2.0 * (x * a) * (x * a_by_v) + 2.0 * z2 * b * b_by_v;
+
+        // The bracket.
         if value > 0.0 {
             high = v;
         } else {
             low = v;
         }
         let rest = 1.0 - z2 * b * b;
+
         // Deep sag: F grows like e^{2v}; its logarithm is nearly straight.
         let step = if v > 1.0 && rest > 0.0 && value.abs() > 0.01 * rest && value > -rest {
             let ratio = value / rest;
@@ -493,11 +506,14 @@ fn root(x: f64, z: f64, k: f64) -> Root {
         } else {
             value / slope
         };
+
         // Newton squares the error: a step below 1e-8 is the last that counts.
         if step.abs() <= 1e-8 * v {
             v -= step;
             break;
         }
+
+        // Inside the bracket.
         let next = v - step;
         v = if next > low && next < high {
             next
@@ -509,6 +525,7 @@ fn root(x: f64, z: f64, k: f64) -> Root {
             0.1 * high
         };
     }
+
     Root { v, hyperbolic: Hyperbolic::of(v) }
 }
 
@@ -531,6 +548,7 @@ fn start(x: f64, z: f64, k: f64, chord: f64, stretch: f64) -> f64 {
         let cube_root = if elastic > inextensible { q.cbrt() } else { elastic };
         inextensible + if elastic < cube_root { elastic } else { cube_root }
     };
+
     if v < 1.5 {
         // The cubic is convex for v > 0 and the start is not left of its root: two steps leave about one per cent.
         let mut v = v;

@@ -95,6 +95,7 @@ pub fn compare(
         Err(DynamicsError::Exact { .. }) => (CableModel::ClosedForm, with(CableModel::ClosedForm)?),
         Err(other) => return Err(other),
     };
+
     let truth = modes::below(&dynamics, below_hz);
     let models: Vec<ModelResult> = CableModel::ALL
         .into_iter()
@@ -106,6 +107,8 @@ pub fn compare(
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
             let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
             let matches = match_modes(found, &truth.modes, &dynamics.mass(), model.is_dynamic());
+
+            // How many modes of the reference are hit, and which within the tolerance.
             let mut hit = vec![false; truth.modes.len()];
             let mut right = hit.clone();
             for m in &matches {
@@ -113,12 +116,14 @@ pub fn compare(
                 right[m.reference_index] |= m.relative_difference.abs() <= TOLERANCE;
             }
             let mut missed = hit.iter().filter(|h| !**h).count();
+
             if model.is_dynamic() {
                 // It has the cables' resonances, too; among dozens of them shapes of the platform tell little, and what
                 // counts is whether each frequency is there.
                 right = frequencies_within(TOLERANCE, found, &truth.modes);
                 missed = truth.modes.len().saturating_sub(found.len());
             }
+
             let first_wrong_hz = right.iter().position(|r| !r).map(|i| truth.modes[i].frequency_hz);
             ModelResult { model, modes, matches, missed, first_wrong_hz }
         })
@@ -145,6 +150,8 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
 fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) -> Vec<Match> {
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
+
+    // Every pair that may be one motion, with a score.
     let mut candidates = Vec::new();
     for (i, ours) in found.iter().enumerate() {
         let x = vector(ours);
@@ -156,13 +163,9 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
             if !(both_at_rest || own * other > 0.0 || by_frequency) {
                 continue;
             }
-            let correlation = if both_at_rest {
-                1.0
-            } else if own * other > 0.0 {
-                inner(&x, &y).powi(2) / (own * other)
-            } else {
-                0.0
-            };
+
+            let correlation = if both_at_rest { 1.0 } else { modes::mac(&x, &y, inner) };
+
             let ratio = ours.frequency_hz / theirs.frequency_hz;
             let distance = (1.0 - ratio).abs();
             let score = if by_frequency {
@@ -180,6 +183,8 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
             candidates.push((score, correlation, i, j));
         }
     }
+
+    // The best pairs first.
     candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (mut done, mut used) = (vec![None; found.len()], vec![false; truth.len()]);
     for (_, correlation, i, j) in candidates {
@@ -195,6 +200,7 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
             });
         }
     }
+
     done.into_iter().flatten().collect()
 }
 
@@ -210,6 +216,8 @@ fn advise(
     let deepest = (0..sags.len()).max_by(|&i, &j| sags[i].ratio().total_cmp(&sags[j].ratio())).unwrap_or(0);
     let ratio = sags[deepest].ratio();
     let lambda2 = sags.iter().map(|s| s.lambda2).fold(0.0, f64::max);
+
+    // What the cables do below the limit.
     let cable_modes = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).count();
     let clamped = dynamics.clamped_frequencies_below(below_hz * TAU);
     let string = match clamped.first() {
@@ -220,16 +228,20 @@ fn advise(
         ),
         None => format!("no cable resonance lies below the {below_hz} Hz asked"),
     };
+
+    // The simplest model that is right.
     let reference = dynamics.linearisation.cable_model;
     let simplest = models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(reference, |m| m.model);
     let percent = 100.0 * TOLERANCE;
     let result = |model: CableModel| models.iter().find(|m| m.model == model);
     let lost = result(CableModel::CatenaryTangent).map_or(0, |m| m.missed);
     let total = truth.modes.len();
+
     let constant = format!(
         "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant cable \
          stiffness misses {lost} of them"
     );
+
     let choice = match simplest {
         _ if truth.modes.is_empty() => {
             format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
@@ -248,6 +260,7 @@ fn advise(
             "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the {reference} ones; {string}"
         ),
     };
+
     let range = if ratio > SHALLOW_SAG_LIMIT {
         " The sag is beyond d/l = 1/20, the range of the closed form: take its cable resonances as approximate."
     } else {

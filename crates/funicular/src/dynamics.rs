@@ -1,14 +1,16 @@
 //! The robot linearised about a static equilibrium: stiffness at a frequency, mass, and the number of natural
 //! frequencies below a frequency.
 
+mod blocks;
 mod complex;
 mod count;
 mod pencil;
 
+pub(crate) use blocks::{CableBlocks, PlatformBlocks};
 pub(crate) use pencil::NullVector;
 
 use crate::cable::exact::ExactError;
-use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, damping_ratio};
+use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, Freedoms, Robot};
@@ -98,36 +100,51 @@ impl DynamicsError {
 /// coordinates ([`Freedoms::reduced`]), zero beyond their number.
 #[derive(Debug, Clone)]
 pub struct Dynamics {
-    pub(crate) ell: f64,
-    /// The platform's coordinates.
-    pub(crate) motions: Freedoms,
-    /// Their number.
-    pub(crate) freedoms: usize,
+    coordinates: Coordinates,
     /// Scaled stiffness that does not depend on frequency [N/m].
-    pub(crate) constant: Mat6,
-    /// Scaled mass [kg].
-    pub(crate) mass: Mat6,
+    constant: Mat6,
+    /// Scaled mass of the platform [kg].
+    mass: Mat6,
     /// Scaled viscous damping of the platform [N s/m].
-    pub(crate) platform_damping: Mat6,
-    pub(crate) terms: Vec<Term>,
+    platform_damping: Mat6,
+    terms: Vec<Term>,
     /// How it was made.
     pub linearisation: Linearisation,
-    pub(crate) cable_count: usize,
-    /// Of each cable: damping and mass per length [kg/m].
-    pub(crate) damping: Vec<(Damping, f64)>,
+    /// Damping and mass per length [kg/m] of each cable.
+    damping: Vec<(Damping, f64)>,
 }
 
 /// A cable whose stiffness depends on frequency: its local axes as scaled 6-vectors (u; r × u/ℓ).
 #[derive(Debug, Clone)]
 pub(crate) struct Term {
-    pub(crate) cable: usize,
-    pub(crate) form: DynamicCable,
-    pub(crate) along: Vec6,
-    pub(crate) normal: Vec6,
-    pub(crate) out: Vec6,
+    cable: usize,
+    form: DynamicCable,
+    along: Vec6,
+    normal: Vec6,
+    out: Vec6,
 }
 
 impl Term {
+    /// Which cable it is, file order.
+    pub(crate) fn cable(&self) -> usize {
+        self.cable
+    }
+
+    /// Stiffness of its end in local axes.
+    pub(crate) fn form(&self) -> &DynamicCable {
+        &self.form
+    }
+
+    /// Scaled 6-vectors of its axes (e, n, b): a platform that moves by x displaces the end by their products with x.
+    pub(crate) fn axes(&self) -> [&Vec6; 3] {
+        [&self.along, &self.normal, &self.out]
+    }
+
+    /// Displacement (e, n, b) of the end for a scaled motion of the platform.
+    fn displacement(&self, x: &Vec6) -> [f64; 3] {
+        self.axes().map(|axis| axis.dot(x))
+    }
+
     /// The scaled 6-vector of a direction (e, n, b).
     fn vector(&self, [e, n, b]: [f64; 3]) -> Vec6 {
         self.along * e + self.normal * n + self.out * b
@@ -151,6 +168,8 @@ impl Dynamics {
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
         let coordinates = Coordinates::of(robot);
+
+        // Cables: constant ones into the stiffness, the others as terms.
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -166,20 +185,20 @@ impl Dynamics {
                 }
             }
         }
+
+        // Static forces on their lever arms.
         if assembly == Assembly::Consistent {
             constant += static_terms(robot, equilibrium);
         }
+
         Ok(Self {
-            ell: coordinates.ell(),
-            motions: coordinates.freedoms(),
-            freedoms: coordinates.count(),
+            coordinates,
             // Symmetric to rounding at an equilibrium; exactly so for what follows.
             constant: coordinates.reduce_symmetric(&constant),
             mass: coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose)),
             platform_damping: coordinates.reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose)),
             terms,
             linearisation,
-            cable_count: robot.cables.len(),
             damping: robot.cables.iter().map(|c| (c.material.damping, c.material.mass_per_length)).collect(),
         })
     }
@@ -202,7 +221,37 @@ impl Dynamics {
 
     /// Number of freedoms of the platform.
     pub fn freedoms(&self) -> usize {
-        self.freedoms
+        self.coordinates.count()
+    }
+
+    /// Coordinates of the platform, with its length ℓ.
+    pub(crate) fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
+    /// Number of cables, those without mass included.
+    pub(crate) fn cable_count(&self) -> usize {
+        self.damping.len()
+    }
+
+    /// Cables whose stiffness depends on frequency.
+    pub(crate) fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    /// Scaled stiffness that does not depend on frequency [N/m]: static forces on their lever arms, cables without mass.
+    pub(crate) fn constant_stiffness(&self) -> &Mat6 {
+        &self.constant
+    }
+
+    /// Scaled mass of the platform [kg].
+    pub(crate) fn platform_mass(&self) -> &Mat6 {
+        &self.mass
+    }
+
+    /// Scaled viscous damping of the platform [N s/m].
+    pub(crate) fn platform_damping(&self) -> &Mat6 {
+        &self.platform_damping
     }
 
     /// Stiffness with all damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m]; zero for motions
@@ -213,27 +262,28 @@ impl Dynamics {
 
     /// Mass matrix about the platform origin, world axes, 6×6 [kg, kg m, kg m²].
     pub fn mass(&self) -> Mat6 {
-        let (scale, mass) = (self.scale(), self.motions.expanded_matrix(&self.mass));
+        let (scale, mass) = (self.scale(), self.coordinates.freedoms().expanded_matrix(&self.mass));
         Mat6::from_fn(|i, j| mass[(i, j)] * scale[i] * scale[j])
     }
 
     /// ℓ or 1: factors from scaled forces to wrench components.
     pub(crate) fn scale(&self) -> [f64; 6] {
-        [1.0, 1.0, 1.0, self.ell, self.ell, self.ell]
+        let ell = self.coordinates.ell();
+        [1.0, 1.0, 1.0, ell, ell, ell]
     }
 
-    /// The same of each of the platform's coordinates.
-    pub(crate) fn coordinate_scale(&self) -> [f64; 6] {
-        std::array::from_fn(|k| if self.motions.is_rotation(k) { self.ell } else { 1.0 })
+    /// ℓ or 1: factor of each of the platform's coordinates.
+    fn coordinate_scale(&self) -> [f64; 6] {
+        std::array::from_fn(|k| if self.coordinates.freedoms().is_rotation(k) { self.coordinates.ell() } else { 1.0 })
     }
 
     /// A matrix over motions in world axes, still scaled, of one over the platform's coordinates.
     pub(crate) fn expanded(&self, matrix: &CMat6) -> CMat6 {
-        match self.motions {
+        let freedoms = self.coordinates.freedoms();
+        match freedoms {
             Freedoms::Rigid | Freedoms::PointMass => *matrix,
             Freedoms::Planar(_) => {
-                let parts =
-                    [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|part| self.motions.expanded_matrix(&part));
+                let parts = [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|part| freedoms.expanded_matrix(&part));
                 parts[0].zip_map(&parts[1], Complex::new)
             }
         }
@@ -244,13 +294,19 @@ impl Dynamics {
         CMat6::from_fn(|i, j| matrix[(i, j)] * (scale[i] * scale[j]))
     }
 
-    pub(crate) fn scaled_stiffness(&self, omega: f64) -> CMat6 {
+    /// Scaled stiffness with all damping, `K(ω) + iωC` [N/m].
+    fn scaled_stiffness(&self, omega: f64) -> CMat6 {
         let mut total = self.constant.zip_map(&self.platform_damping, |k, c| Complex::new(k, omega * c));
         for term in &self.terms {
             let k = term.form.damped(omega);
             add_local(&mut total, term, &k, |z, product| z * product);
         }
         total
+    }
+
+    /// Scaled dynamic stiffness with all damping, `D = K(ω) + iωC − ω²M` [N/m].
+    pub(crate) fn damped_dynamic_stiffness(&self, omega: f64) -> CMat6 {
+        self.scaled_stiffness(omega) - self.mass.map(|m| Complex::new(m * omega * omega, 0.0))
     }
 
     /// Scaled undamped dynamic stiffness `D = K(ω) − ω²M` [N/m].
@@ -266,19 +322,43 @@ impl Dynamics {
     /// scaled motion `x`.
     pub(crate) fn moving_masses(&self, omega: f64, x: &Vec6) -> (f64, Vec<f64>) {
         let platform = x.dot(&(self.mass * x));
-        let mut cables = vec![0.0; self.cable_count];
+        let mut cables = vec![0.0; self.cable_count()];
         for term in &self.terms {
             let m = term.form.moving_mass(omega);
-            let (a, n, b) = (term.along.dot(x), term.normal.dot(x), term.out.dot(x));
+            let [a, n, b] = term.displacement(x);
             cables[term.cable] = m.axial * a * a + 2.0 * m.coupling * a * n + m.normal * n * n + m.out_of_plane * b * b;
         }
         (platform, cables)
     }
 
+    /// Viscous damping of the platform for a unit scaled motion x, `xᵀCx` [N s/m].
+    pub(crate) fn platform_damping_along(&self, x: &Vec6) -> f64 {
+        x.dot(&(self.platform_damping * x))
+    }
+
     /// Damping ratio of cable `i` for a vibration that is its own, at ω [rad/s].
     pub(crate) fn cable_damping_ratio(&self, i: usize, omega: f64) -> f64 {
         let (damping, mass_per_length) = self.damping[i];
-        damping_ratio(omega, damping, mass_per_length)
+        damping.ratio_at(omega, mass_per_length)
+    }
+
+    /// Square of the complex frequency of cable `i`, `ω_c²` [rad²/s²], at ω [rad/s].
+    pub(crate) fn cable_square(&self, i: usize, omega: f64) -> Complex {
+        let (damping, mass_per_length) = self.damping[i];
+        let (re, im) = damping.square(omega, mass_per_length);
+        Complex::new(re, im)
+    }
+
+    /// Complex frequency ω [rad/s] at which cable `i` vibrates alone, from its undamped one, with the fraction `losses` of
+    /// its damping.
+    pub(crate) fn cable_zero(&self, i: usize, undamped: f64, losses: f64) -> Complex {
+        let (damping, mass_per_length) = self.damping[i];
+        damping.times(losses).zero(undamped, mass_per_length)
+    }
+
+    /// Mass per length of cable `i` where its stiffness depends on frequency, else zero: its model has no mass [kg/m].
+    pub(crate) fn moving_mass_per_length(&self, i: usize) -> f64 {
+        if self.terms.iter().any(|term| term.cable == i) { self.damping[i].1 } else { 0.0 }
     }
 
     /// Whether every exact cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies below

@@ -7,9 +7,12 @@
 mod checks;
 pub mod damped;
 mod fundamental;
+mod mac;
 pub mod track;
 
 pub use fundamental::{First, FirstError, first, first_of_all};
+
+pub use mac::mac;
 
 pub use checks::{MOST, TooMany, check_count, damped_partners};
 
@@ -222,7 +225,7 @@ impl List<'_> {
     fn determinant(&self, omega: f64) -> f64 {
         let d = self.dynamics.dynamic_stiffness(omega);
         // By elimination: the expansion of 3×3 would have the squares of a pole's large term cancel, and lose the sign.
-        if self.dynamics.freedoms == 6 {
+        if self.dynamics.freedoms() == 6 {
             d.determinant()
         } else {
             d.fixed_view::<3, 3>(0, 0).clone_owned().lu().determinant()
@@ -238,9 +241,9 @@ impl List<'_> {
     fn add_all(&mut self, omega: f64, motions: Vec<NullVector>) {
         let several = motions.len();
         for motion in motions {
-            let motion_w = self.dynamics.motions.expanded(&motion.platform);
+            let motion_w = self.dynamics.coordinates().expand(&motion.platform);
             let largest = motion_w[motion_w.iamax()];
-            let ell = self.dynamics.ell;
+            let ell = self.dynamics.coordinates().ell();
             let shape = std::array::from_fn(|i| motion_w[i] / largest / if i < 3 { 1.0 } else { ell });
             self.add(omega, several, motion, shape, (1.0 / largest).powi(2));
         }
@@ -251,7 +254,7 @@ impl List<'_> {
         let NullVector { platform_energy, ref cable_energies, residual, .. } = motion;
         let by_cables: f64 =
             cable_energies.iter().enumerate().map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega)).sum();
-        let by_platform = motion.platform.dot(&(self.dynamics.platform_damping * motion.platform)) / (2.0 * omega);
+        let by_platform = self.dynamics.platform_damping_along(&motion.platform) / (2.0 * omega);
         self.modes.push(Mode {
             frequency_hz: omega / TAU,
             multiplicity: several,
@@ -276,11 +279,12 @@ impl List<'_> {
         if several == 0 {
             return;
         }
+
         let omega = cluster.iter().map(|p| p.0).sum::<f64>() / cluster.len() as f64;
         let mut motions = self.dynamics.null_vectors(omega, several);
         if motions.iter().all(|motion| motion.near.is_empty()) {
             // The closed form has no amplitudes of its poles: the cables of the cluster share the energy.
-            let mut cable_energies = vec![0.0; self.dynamics.cable_count];
+            let mut cable_energies = vec![0.0; self.dynamics.cable_count()];
             for (_, cable) in cluster {
                 cable_energies[*cable] += 1.0 / cluster.len() as f64;
             }
@@ -293,6 +297,7 @@ impl List<'_> {
             };
             motions = vec![still; several];
         }
+
         for motion in motions {
             self.add(omega, several, NullVector { platform: Vec6::zeros(), ..motion }, [0.0; 6], 1.0);
         }

@@ -6,9 +6,8 @@
 //! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 13.
 
 use crate::cable::DynamicCable;
-use crate::cable::exact::Exact;
 use crate::cable_motion::{CableMotionError, CableStations};
-use crate::dynamics::{Dynamics, Term};
+use crate::dynamics::{CableBlocks, Dynamics, PlatformBlocks};
 use crate::math::{CDMat, Complex, DMat, Vec3, Vec6, symmetric_part};
 use crate::modes;
 use crate::response::{self, Direction, Port, Quantity, ResponseError};
@@ -153,26 +152,32 @@ pub fn reduce(
     outputs: &[(Place, Quantity)],
     wanted: Wanted,
 ) -> Result<SecondOrder, ReductionError> {
-    if dynamics.terms.iter().any(|term| !matches!(term.form, DynamicCable::Exact(_))) {
+    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::Exact(_))) {
         return Err(ReductionError::Model);
     }
     // The answer of a cable to a force on itself has a kink, which the modes that are kept do not.
     let loaded = inputs.iter().any(|place| matches!(place, Place::Cable { .. }));
     let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
+
+    // What the reduced model has to answer.
     let listed = modes::below(dynamics, wanted.below_hz);
     let natural: Vec<f64> = listed.modes.iter().map(|mode| mode.frequency_hz).collect();
     let mut frequencies: Vec<f64> =
         (1..=GRID).map(|i| wanted.below_hz * i as f64 / GRID as f64).chain(natural.iter().copied()).collect();
     frequencies.sort_by(f64::total_cmp);
     let reference = full.responses(dynamics, &frequencies).ok();
+
+    // As few clamped modes as the tolerance allows.
     for part in KEPT {
         let cut = dynamics.with_poles_below(part * wanted.below_hz * TAU);
         let truncation_error = reference.as_ref().and_then(|reference| {
             let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
             Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?))
         });
+
         let reduced = modes::below(&cut, wanted.below_hz * (1.0 + 1e-9));
         let frequency_error = relative_error(&natural, &reduced.modes);
+
         if truncation_error.unwrap_or(frequency_error) <= wanted.tolerance || part.is_infinite() {
             let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
             let mut model = assembled(&cut, &channels, outputs, wanted)?;
@@ -240,10 +245,12 @@ impl Channels {
                 }
             }
         }
+
         let stations: Vec<CableStations> = fractions
             .iter()
             .map(|(cable, all)| CableStations::new(robot, equilibrium, dynamics, *cable, all, loaded))
             .collect::<Result<_, _>>()?;
+
         let channel = |place: &Place| match place {
             Place::Platform(direction) => Channel::Platform(direction.vector(&equilibrium.pose)),
             Place::Cable { cable, fraction, direction_w } => {
@@ -284,7 +291,7 @@ impl Channels {
     /// The row of a channel over the coordinates.
     fn row(&self, channel: &Channel, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
         let mut row = vec![0.0; layout.coordinates.len()];
-        let coordinates = |vector: &Vec6| dynamics.motions.reduced(vector);
+        let coordinates = |vector: &Vec6| dynamics.coordinates().freedoms().reduced(vector);
         match channel {
             Channel::Platform(vector) => {
                 row[..layout.freedoms].copy_from_slice(&coordinates(vector).as_slice()[..layout.freedoms]);
@@ -310,29 +317,88 @@ struct Layout {
 }
 
 impl Layout {
-    fn of(dynamics: &Dynamics) -> Self {
-        let across = !dynamics.linearisation.in_plane_only;
-        let mut coordinates: Vec<Coordinate> = (0..dynamics.freedoms).map(Coordinate::Platform).collect();
-        let mut first_of_term = Vec::new();
-        for (term, exact) in exact_cables(dynamics) {
+    fn new(freedoms: usize, cables: &[CableBlocks]) -> Self {
+        let mut coordinates: Vec<Coordinate> = (0..freedoms).map(Coordinate::Platform).collect();
+        let mut first_of_term = Vec::with_capacity(cables.len());
+        for blocks in cables {
             first_of_term.push(coordinates.len());
-            let clamped = |out_of_plane: bool, pole: &f64| Coordinate::Clamped {
-                cable: term.cable,
-                out_of_plane,
-                frequency_hz: pole.sqrt() / TAU,
-            };
-            coordinates.extend(exact.in_plane.poles.iter().map(|pole| clamped(false, pole)));
-            coordinates.extend(exact.out_of_plane.poles.iter().filter(|_| across).map(|pole| clamped(true, pole)));
+            coordinates.extend(blocks.modes.iter().map(|mode| Coordinate::Clamped {
+                cable: blocks.cable,
+                out_of_plane: mode.out_of_plane,
+                frequency_hz: mode.pole.sqrt() / TAU,
+            }));
         }
-        Self { freedoms: dynamics.freedoms, first_of_term, coordinates }
+        Self { freedoms, first_of_term, coordinates }
     }
 }
 
-fn exact_cables(dynamics: &Dynamics) -> impl Iterator<Item = (&Term, &Exact)> {
-    dynamics.terms.iter().filter_map(|term| match &term.form {
-        DynamicCable::Exact(end) => Some((term, &end.exact)),
-        DynamicCable::ClosedForm(_) => None,
-    })
+/// Matrices over all coordinates.
+struct Matrices {
+    mass: DMat,
+    /// Viscous damping.
+    damping: DMat,
+    /// Loss of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
+    ratio: DMat,
+    stiffness: DMat,
+}
+
+impl Matrices {
+    /// The platform alone, with n coordinates in all.
+    fn of_platform(platform: &PlatformBlocks, n: usize) -> Self {
+        let f = platform.mass.nrows();
+        let at_corner = |block: &DMat| {
+            let mut matrix = DMat::zeros(n, n);
+            matrix.view_mut((0, 0), (f, f)).copy_from(block);
+            matrix
+        };
+        Self {
+            mass: at_corner(&platform.mass),
+            damping: at_corner(&platform.damping),
+            ratio: DMat::zeros(n, n),
+            stiffness: at_corner(&platform.stiffness),
+        }
+    }
+
+    /// Adds a cable whose clamped modes have the coordinates from number `from` on.
+    fn add_cable(&mut self, cable: &CableBlocks, from: usize) {
+        let f = cable.end_mass.nrows();
+        let n = self.mass.nrows();
+
+        // Stiffness: of the end, and ω_k² of each clamped mode.
+        let mut at_end = self.stiffness.view_mut((0, 0), (f, f));
+        at_end += &cable.end_stiffness;
+        for (k, mode) in cable.modes.iter().enumerate() {
+            self.stiffness[(from + k, from + k)] = mode.pole;
+        }
+
+        // Mass: of the end, 1 of each clamped mode, and between both how the mode takes part.
+        let mut mass = DMat::zeros(n, n);
+        mass.view_mut((0, 0), (f, f)).copy_from(&cable.end_mass);
+        for (k, mode) in cable.modes.iter().enumerate() {
+            let at = from + k;
+            mass[(at, at)] = 1.0;
+            for (i, g) in mode.participation.iter().enumerate() {
+                mass[(i, at)] = *g;
+                mass[(at, i)] = *g;
+            }
+        }
+
+        // Damping acts where the mass is.
+        match cable.damping {
+            Damping::Viscous(c) => self.damping += &mass * (c / cable.mass_per_length),
+            Damping::Ratio(xi) => self.ratio += &mass * xi,
+        }
+        self.mass += mass;
+    }
+
+    /// Viscous damping with what stands for constant ratios.
+    fn all_damping(&self, at: DampingAt) -> Result<DMat, ReductionError> {
+        let by_ratio = match at {
+            DampingAt::Hz(hz) => &self.ratio * (2.0 * TAU * hz),
+            DampingAt::NaturalFrequencies => at_natural_frequencies(&self.mass, &self.stiffness, &self.ratio)?,
+        };
+        Ok(&self.damping + by_ratio)
+    }
 }
 
 /// The matrices of a robot whose cables have the poles that are to be kept.
@@ -342,69 +408,25 @@ fn assembled(
     outputs: &[(Place, Quantity)],
     wanted: Wanted,
 ) -> Result<SecondOrder, ReductionError> {
-    let layout = Layout::of(dynamics);
-    let (f, n) = (layout.freedoms, layout.coordinates.len());
-    let scale = dynamics.coordinate_scale();
-    let across = !dynamics.linearisation.in_plane_only;
-    let unscaled = |matrix: &crate::math::Mat6, i: usize, j: usize| matrix[(i, j)] * scale[i] * scale[j];
-    let (mut mass, mut stiffness, mut damping) = (DMat::zeros(n, n), DMat::zeros(n, n), DMat::zeros(n, n));
-    // Loss of cables with a constant ratio: the coefficient of 2ω.
-    let mut ratio = DMat::zeros(n, n);
-    for i in 0..f {
-        for j in 0..f {
-            mass[(i, j)] = unscaled(&dynamics.mass, i, j);
-            stiffness[(i, j)] = unscaled(&dynamics.constant, i, j);
-            damping[(i, j)] = unscaled(&dynamics.platform_damping, i, j);
-        }
-    }
-    for ((term, exact), from) in exact_cables(dynamics).zip(&layout.first_of_term) {
-        let mut of_cable = DMat::zeros(n, n);
-        let plane = [&term.along, &term.normal];
-        for i in 0..f {
-            for j in 0..f {
-                let (mut k, mut m) = (0.0, 0.0);
-                for (p, u) in plane.iter().enumerate() {
-                    for (q, v) in plane.iter().enumerate() {
-                        k += exact.in_plane.stiffness[p][q] * u[i] * v[j];
-                        m += exact.in_plane.mass[p][q] * u[i] * v[j];
-                    }
-                }
-                if across {
-                    k += exact.out_of_plane.stiffness[0][0] * term.out[i] * term.out[j];
-                    m += exact.out_of_plane.mass[0][0] * term.out[i] * term.out[j];
-                }
-                stiffness[(i, j)] += k * scale[i] * scale[j];
-                of_cable[(i, j)] = m * scale[i] * scale[j];
-            }
-        }
-        let in_plane = exact.in_plane.participation.iter().map(|g| term.along * g[0] + term.normal * g[1]);
-        let out_of_plane = exact.out_of_plane.participation.iter().filter(|_| across).map(|g| term.out * g[0]);
-        let poles = exact.in_plane.poles.iter().chain(&exact.out_of_plane.poles);
-        for (k, (g, pole)) in in_plane.chain(out_of_plane).zip(poles).enumerate() {
-            let at = from + k;
-            stiffness[(at, at)] = *pole;
-            of_cable[(at, at)] = 1.0;
-            for i in 0..f {
-                of_cable[(i, at)] = g[i] * scale[i];
-                of_cable[(at, i)] = g[i] * scale[i];
-            }
-        }
-        match dynamics.damping[term.cable] {
-            (Damping::Viscous(c), mass_per_length) => damping += &of_cable * (c / mass_per_length),
-            (Damping::Ratio(xi), _) => ratio += &of_cable * xi,
-        }
-        mass += of_cable;
+    let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
+    let layout = Layout::new(dynamics.freedoms(), &cables);
+    let n = layout.coordinates.len();
+
+    let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), n);
+    for (cable, from) in cables.iter().zip(&layout.first_of_term) {
+        matrices.add_cable(cable, *from);
     }
     if dynamics.has_damping_ratios() {
-        damping += match wanted.damping_at {
-            DampingAt::Hz(hz) => ratio * (2.0 * TAU * hz),
-            DampingAt::NaturalFrequencies => at_natural_frequencies(&mass, &stiffness, &ratio)?,
-        };
+        matrices.damping = matrices.all_damping(wanted.damping_at)?;
     }
+
     let rows = |channels_of: &[Channel]| {
         let all: Vec<f64> = channels_of.iter().flat_map(|channel| channels.row(channel, dynamics, &layout)).collect();
         DMat::from_row_slice(channels_of.len(), n, &all)
     };
+    let (input, output) = (rows(&channels.inputs).transpose(), rows(&channels.outputs));
+
+    let Matrices { mass, damping, stiffness, .. } = matrices;
     if mass.clone().cholesky().is_none() {
         return Err(ReductionError::Mass);
     }
@@ -412,8 +434,8 @@ fn assembled(
         mass,
         damping,
         stiffness,
-        input: rows(&channels.inputs).transpose(),
-        output: rows(&channels.outputs),
+        input,
+        output,
         quantities: outputs.iter().map(|(_, quantity)| *quantity).collect(),
         coordinates: layout.coordinates,
         below_hz: wanted.below_hz,
@@ -479,15 +501,22 @@ impl SecondOrder {
     /// As a state space; an output that is a velocity or an acceleration is one there, too.
     pub fn state_space(&self) -> StateSpace {
         let (n, inputs, outputs) = (self.mass.nrows(), self.input.ncols(), self.output.nrows());
+
         let factor = self.mass.clone().cholesky().expect("checked when it was made");
         let (by_motion, by_velocity) = (-factor.solve(&self.stiffness), -factor.solve(&self.damping));
         let by_force = factor.solve(&self.input);
+
+        // State.
         let mut a = DMat::zeros(2 * n, 2 * n);
         a.view_mut((0, n), (n, n)).fill_with_identity();
         a.view_mut((n, 0), (n, n)).copy_from(&by_motion);
         a.view_mut((n, n), (n, n)).copy_from(&by_velocity);
+
+        // Input.
         let mut b = DMat::zeros(2 * n, inputs);
         b.view_mut((n, 0), (n, inputs)).copy_from(&by_force);
+
+        // Outputs.
         let (mut c, mut d) = (DMat::zeros(outputs, 2 * n), DMat::zeros(outputs, inputs));
         for (i, quantity) in self.quantities.iter().enumerate() {
             let row = self.output.rows(i, 1);

@@ -158,6 +158,8 @@ pub fn between(
     if let (Port::Platform(input), Port::Platform(output)) = (input, output) {
         return frf(dynamics, frequencies_hz, input, output, quantity);
     }
+
+    // A force on a cable moves that cable itself, too, not only the platform.
     let own = match (input, output) {
         (
             Port::Cable { stations, station: loaded, direction_w: force_w },
@@ -170,6 +172,7 @@ pub fn between(
         }
         _ => None,
     };
+
     let all = kernel::all_entries(dynamics, frequencies_hz);
     let entry = |(receptance, frequency_hz): (&CMat6, &f64)| {
         let omega = frequency_hz * TAU;
@@ -216,12 +219,12 @@ pub fn receptances(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<CM
 ///
 /// Motions that the platform does not have have zero rows and columns, if they are along axes.
 pub fn receptance(dynamics: &Dynamics, omega: f64) -> CMat6 {
-    let mut d = dynamics.scaled_stiffness(omega) - dynamics.mass.map(|m| Complex::new(m * omega * omega, 0.0));
-    for i in dynamics.freedoms..6 {
+    let mut d = dynamics.damped_dynamic_stiffness(omega);
+    for i in dynamics.freedoms()..6 {
         d[(i, i)] = Complex::new(1.0, 0.0);
     }
     let mut inverse = d.try_inverse().unwrap_or_else(|| CMat6::repeat(Complex::new(f64::INFINITY, 0.0)));
-    for i in dynamics.freedoms..6 {
+    for i in dynamics.freedoms()..6 {
         inverse[(i, i)] = Complex::new(0.0, 0.0);
     }
     let inverse = dynamics.expanded(&inverse);

@@ -101,16 +101,6 @@ pub enum Damping {
     Viscous(f64),
 }
 
-impl Damping {
-    /// Part of it.
-    pub(crate) fn times(self, part: f64) -> Self {
-        match self {
-            Self::Ratio(xi) => Self::Ratio(xi * part),
-            Self::Viscous(c) => Self::Viscous(c * part),
-        }
-    }
-}
-
 /// A rope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {

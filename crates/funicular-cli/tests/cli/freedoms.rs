@@ -1,7 +1,6 @@
-//! Planar platforms, robots with few cables, and loads, as a user meets them.
+//! Planar platforms and robots with few cables, as a user meets them.
 
-use super::{json, run, run_with, stderr, stdout, succeed, yuan};
-use serde_json::Value;
+use super::{json_of, numbers, run, run_with, stderr, stdout};
 
 /// A plate in the xz plane on three cables.
 const PLATE: &str = r#"name = "plate"
@@ -39,16 +38,6 @@ fn two_cables() -> String {
     head.to_owned() + &rest[rest.find("[state]").unwrap()..]
 }
 
-fn json_of(arguments: &[&str], file: &str) -> Value {
-    let output = run_with(&[arguments, &["--format", "json"]].concat(), file);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    serde_json::from_str(stdout(&output)).unwrap()
-}
-
-fn six(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
-}
-
 #[test]
 fn every_analysis_of_a_planar_robot_gives_six_components_with_zeros_out_of_the_plane() {
     let checked = json_of(&["check", "-"], PLATE);
@@ -58,7 +47,7 @@ fn every_analysis_of_a_planar_robot_gives_six_components_with_zeros_out_of_the_p
     let found = modes["modes"].as_array().unwrap();
     assert_eq!((&modes["certified"], found.len() as u64), (&true.into(), modes["count_below"].as_u64().unwrap()));
     for mode in found {
-        let shape = six(&mode["shape"]);
+        let shape = numbers(&mode["shape"]);
         assert!(shape.len() == 6 && [1, 3, 5].iter().all(|&i| shape[i] == 0.0), "{shape:?}");
     }
     for hz in ["0", "3"] {
@@ -113,8 +102,8 @@ fn of_a_pose_that_two_cables_cannot_hold_the_nearest_is_given_and_said() {
     assert!(distance > 1e-3 && distance < 0.1, "{distance}");
     assert!(found["warnings"][0].as_str().unwrap().contains("cannot hold the pose asked"));
     // Asked for what was found, there is nothing to say.
-    let position = six(&found["pose"]["position_m"]);
-    let angles = six(&found["pose"]["roll_pitch_yaw_deg"]);
+    let position = numbers(&found["pose"]["position_m"]);
+    let angles = numbers(&found["pose"]["roll_pitch_yaw_deg"]);
     let pose = [position, angles].concat().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
     let again = json_of(&["statics", "-", "--pose", &pose], &file);
     assert!(
@@ -130,25 +119,4 @@ fn of_a_pose_that_two_cables_cannot_hold_the_nearest_is_given_and_said() {
     assert!(
         ideal.status.code() == Some(2) && stderr(&ideal).contains("2 cables for 3 freedoms can hold no given pose")
     );
-}
-
-#[test]
-fn a_load_is_the_files_or_the_options() {
-    let file = format!("{}\n[loads]\nforce_n = [0, 0, -98.1]\n", yuan());
-    let of_file = json_of(&["statics", "-"], &file);
-    let of_options = json(&["statics", "ROBOT", "--force", "0,0,-98.1"]);
-    assert_eq!(of_file["pose"], of_options["pose"]);
-    assert_eq!(six(&of_options["load"]["force_n"]), [0.0, 0.0, -98.1]);
-    let none = json_of(&["statics", "-", "--force-n", "0,0,0"], &file);
-    let bare = json(&["statics", "ROBOT"]);
-    assert!(none["pose"] == bare["pose"] && bare.get("load").is_none());
-    assert!(succeed(&["statics", "ROBOT", "--moment", "0,1,0"]).contains("moment (0.0000, 1.0000, 0.0000) N m"));
-    for arguments in [
-        &["modes", "ROBOT", "--below-hz", "3", "--force-n", "5,0,0", "--load-point-m", "0,0,-0.1"][..],
-        &["stiffness", "ROBOT", "--moment-n-m", "0,1,0"],
-    ] {
-        succeed(arguments);
-    }
-    let refused = run(&["statics", "ROBOT", "--load-point-m", "0,0,1"]);
-    assert!(refused.status.code() == Some(2) && stderr(&refused).contains("give --force-n"));
 }

@@ -1,20 +1,30 @@
 //! The program as a user meets it: command line in; output, messages and exit code out.
 
 mod bad_input;
+mod cable;
+mod compare;
 mod export;
 mod files;
 mod freedoms;
+mod frf;
 mod import;
 mod links;
+mod modes;
 mod pages;
 mod plots;
+mod pose_error;
 mod readme;
+mod reduce;
 mod request;
 mod results;
+mod statics;
+mod stiffness;
 mod sweeps;
+mod validate;
 mod wind;
 
 use assert_cmd::Command;
+use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Output;
 
@@ -68,7 +78,35 @@ fn succeed(arguments: &[&str]) -> String {
 }
 
 /// JSON of a command that succeeds.
-fn json(arguments: &[&str]) -> serde_json::Value {
+fn json(arguments: &[&str]) -> Value {
     let text = succeed(&[arguments, &["--format", "json"]].concat());
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}"))
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is a number"))
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap_or_else(|| panic!("{value} is an array")).iter().map(number).collect()
+}
+
+fn close(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance
+}
+
+/// The table of a CSV: header and rows of equal length.
+fn csv(arguments: &[&str]) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = succeed(&[arguments, &["--format", "csv"]].concat());
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let rows = reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect();
+    (header, rows)
+}
+
+/// Results of a command whose robot file is this text.
+fn json_of(arguments: &[&str], file: &str) -> Value {
+    let output = run_with(&[arguments, &["--format", "json"]].concat(), file);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_str(stdout(&output)).unwrap()
 }

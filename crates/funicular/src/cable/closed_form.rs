@@ -13,7 +13,7 @@
 //! growth of sin and cos with damping divides out. Poles: Δ = 0 (symmetric modes in plane), σ = 0 (antisymmetric ones,
 //! both directions), c = 0 (symmetric ones out of plane). Derivation: docs/theory.md, equations (20) to (26).
 
-use super::{LocalAxes, LocalStiffness, Sag, damped_square};
+use super::{LocalAxes, LocalStiffness, Sag};
 use crate::math::{Complex, roots};
 use crate::robot::Damping;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -167,7 +167,7 @@ impl ClosedForm {
 
     /// Damped stiffness in local axes at ω [rad/s], [N/m].
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
-        let (re, im) = damped_square(omega, self.damping, self.sag.mass_per_length);
+        let (re, im) = self.damping.square(omega, self.sag.mass_per_length);
         let mut k = stiffness(Entire::complex(Complex::new(re, im) * self.gamma_by_square), &self.sag);
         if self.in_plane_only {
             k.out_of_plane = Complex::new(0.0, 0.0);

@@ -19,12 +19,11 @@ mod poles;
 mod shape;
 
 pub(crate) use mesh::{ellipse, has_tension};
-pub(crate) use poles::EndSeries;
 pub use poles::PoleResidue;
 pub(crate) use shape::Swing;
 pub use shape::{Displacements, Stations};
 
-use super::{LocalAxes, LocalStiffness, damped_square};
+use super::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::Complex;
@@ -38,9 +37,9 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exact {
     /// In plane: components (horizontal, up) of the start, then of the end.
-    pub in_plane: PoleResidue<4>,
+    pub in_plane: PoleResidue<4, 3>,
     /// Out of plane: start, then end.
-    pub out_of_plane: PoleResidue<2>,
+    pub out_of_plane: PoleResidue<2, 1>,
     /// Highest angular frequency it was made for [rad/s].
     pub limit: f64,
     /// Estimated relative error of the clamped frequencies below the limit.
@@ -81,8 +80,6 @@ pub struct ExactEnd {
     pub mass_per_length: f64,
     /// Leave out the stiffness across, as the paper does.
     pub in_plane_only: bool,
-    pub(crate) plane: EndSeries<3>,
-    pub(crate) across: EndSeries<1>,
     /// How many poles in plane and across are its own, where the others have been compressed.
     pub(crate) kept: Option<(usize, usize)>,
 }
@@ -101,10 +98,8 @@ impl ExactEnd {
     ) -> Result<Self, ExactError> {
         let exact = Exact::new(&hanging.catenary, mass_per_length, limit)?;
         let (e, n) = hanging.axes_w();
-        let plane = EndSeries::of(&exact.in_plane, [(0, 0), (0, 1), (1, 1)]);
-        let across = EndSeries::of(&exact.out_of_plane, [(0, 0)]);
         let axes = LocalAxes { e, n, b: e.cross(&n) };
-        Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, plane, across, kept: None })
+        Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, kept: None })
     }
 
     /// With the poles below x, and a few in place of the others: see [`PoleResidue::compressed`].
@@ -114,42 +109,51 @@ impl ExactEnd {
         cut.exact.in_plane = self.exact.in_plane.compressed(plane, 2).0;
         cut.exact.out_of_plane = self.exact.out_of_plane.compressed(across, 1).0;
         cut.kept = Some((plane, across));
-        cut.plane = EndSeries::of(&cut.exact.in_plane, [(0, 0), (0, 1), (1, 1)]);
-        cut.across = EndSeries::of(&cut.exact.out_of_plane, [(0, 0)]);
         cut
     }
 
-    fn in_plane_if_asked<T: Default>(&self, mut k: LocalStiffness<T>) -> LocalStiffness<T> {
-        if self.in_plane_only {
-            k.out_of_plane = T::default();
-        }
-        k
+    /// Motion in the cable's plane.
+    pub(crate) fn plane(&self) -> &PoleResidue<4, 3> {
+        &self.exact.in_plane
+    }
+
+    /// Motion out of the cable's plane, unless it is left out.
+    pub(crate) fn out_of_plane(&self) -> Option<&PoleResidue<2, 1>> {
+        (!self.in_plane_only).then_some(&self.exact.out_of_plane)
+    }
+
+    /// Entries in plane, with those out of plane unless they are left out.
+    fn with_out_of_plane<T: Default>(
+        &self,
+        in_plane: [T; 3],
+        entries: impl FnOnce(&PoleResidue<2, 1>) -> [T; 1],
+    ) -> LocalStiffness<T> {
+        local(in_plane, self.out_of_plane().map_or_else(Default::default, entries))
     }
 
     /// Undamped stiffness at ω [rad/s], [N/m].
     pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        let [axial, coupling, normal] = self.plane.undamped(x, 0..0);
-        let [out_of_plane] = if self.in_plane_only { [0.0] } else { self.across.undamped(x, 0..0) };
-        LocalStiffness { axial, coupling, normal, out_of_plane }
+        self.with_out_of_plane(self.plane().undamped(x, 0..0), |across| across.undamped(x, 0..0))
     }
 
     /// Damped stiffness at ω [rad/s], [N/m].
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
-        let (re, im) = damped_square(omega, self.damping, self.mass_per_length);
-        self.in_plane_if_asked(self.exact.damped(Complex::new(re, im)))
+        let (re, im) = self.damping.square(omega, self.mass_per_length);
+        let square = Complex::new(re, im);
+        self.with_out_of_plane(self.plane().damped(square), |across| across.damped(square))
     }
 
     /// Minus the derivative of the undamped stiffness by ω² [kg].
     pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
-        self.in_plane_if_asked(self.exact.moving_mass(omega))
+        let x = omega * omega;
+        self.with_out_of_plane(self.plane().moving_mass(x, 0..0), |across| across.moving_mass(x, 0..0))
     }
 
     /// Number of clamped-clamped frequencies below ω [rad/s].
     pub fn clamped_modes_below(&self, omega: f64) -> usize {
         let x = omega * omega;
-        let across = if self.in_plane_only { 0 } else { self.exact.out_of_plane.poles_below(x) };
-        self.exact.in_plane.poles_below(x) + across
+        self.plane().poles_below(x) + self.out_of_plane().map_or(0, |across| across.poles_below(x))
     }
 
     /// The clamped-clamped frequencies below ω [rad/s], ascending.
@@ -159,39 +163,49 @@ impl ExactEnd {
         all
     }
 
-    /// The poles below x, in plane and then across.
+    /// The poles below x, in plane and then out of plane.
     pub(crate) fn poles_below(&self, x: f64) -> impl Iterator<Item = f64> + '_ {
-        let Exact { in_plane, out_of_plane, .. } = &self.exact;
-        let count = if self.in_plane_only { 0 } else { out_of_plane.poles_below(x) };
-        in_plane.poles[..in_plane.poles_below(x)].iter().chain(&out_of_plane.poles[..count]).copied()
+        let plane = &self.plane().poles[..self.plane().poles_below(x)];
+        let across = self.out_of_plane().map_or(&[][..], |across| &across.poles[..across.poles_below(x)]);
+        plane.iter().chain(across).copied()
     }
 
-    /// The undamped stiffness at x = ω² without the poles nearer to it than the part `width`, and those poles.
+    /// Undamped stiffness at x = ω² without the poles nearer to it than the fraction `width`, and those poles.
     pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<NearPole>) {
         let (plane, across) = self.near(x, width);
-        let [axial, coupling, normal] = self.plane.undamped(x, plane.clone());
-        let [out_of_plane] = if self.in_plane_only { [0.0] } else { self.across.undamped(x, across.clone()) };
-        (LocalStiffness { axial, coupling, normal, out_of_plane }, self.near_poles(plane, across))
+        let stiffness = self
+            .with_out_of_plane(self.plane().undamped(x, plane.clone()), |family| family.undamped(x, across.clone()));
+        (stiffness, self.near_poles(plane, across))
     }
 
-    /// The same at the complex x = ω_c², with minus its derivative by x [kg].
+    /// Damped stiffness at the complex x = ω_c² without the poles nearer to its real part than the fraction `width`, minus
+    /// its derivative by x [kg], and those poles.
     pub(crate) fn complex_beside_poles(
         &self,
         x: Complex,
         width: f64,
     ) -> (LocalStiffness<Complex>, LocalStiffness<Complex>, Vec<NearPole>) {
         let (plane, across) = self.near(x.re, width);
-        let Exact { in_plane, out_of_plane, .. } = &self.exact;
-        let ([ka, kb, kc], [ma, mb, mc]) = in_plane.with_derivative([(0, 0), (0, 1), (1, 1)], x, plane.clone());
-        let ([ko], [mo]) = out_of_plane.with_derivative([(0, 0)], x, across.clone());
-        let k = LocalStiffness { axial: ka, coupling: kb, normal: kc, out_of_plane: ko };
-        let mass = LocalStiffness { axial: ma, coupling: mb, normal: mc, out_of_plane: mo };
-        (self.in_plane_if_asked(k), self.in_plane_if_asked(mass), self.near_poles(plane, across))
+        let (k, mass) = self.plane().with_derivative(x, plane.clone());
+        let (k_across, mass_across) = match self.out_of_plane() {
+            Some(family) => family.with_derivative(x, across.clone()),
+            None => Default::default(),
+        };
+        let stiffness = self.with_out_of_plane(k, |_| k_across);
+        let moving_mass = self.with_out_of_plane(mass, |_| mass_across);
+        (stiffness, moving_mass, self.near_poles(plane, across))
     }
 
-    /// Places of the poles nearer to x than the part `width`, in plane and across.
+    /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], the poles of
+    /// [`beside_poles`](Self::beside_poles) being amplitudes of their own.
+    pub(crate) fn moving_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
+        let (plane, across) = self.near(x, width);
+        self.with_out_of_plane(self.plane().moving_mass(x, plane), |family| family.moving_mass(x, across))
+    }
+
+    /// Places of the poles nearer to x than the fraction `width` of it, in plane and out of plane.
     fn near(&self, x: f64, width: f64) -> (Range<usize>, Range<usize>) {
-        (self.plane.near(x, width), if self.in_plane_only { 0..0 } else { self.across.near(x, width) })
+        (self.plane().near(x, width), self.out_of_plane().map_or(0..0, |across| across.near(x, width)))
     }
 
     fn near_poles(&self, plane: Range<usize>, across: Range<usize>) -> Vec<NearPole> {
@@ -205,15 +219,6 @@ impl ExactEnd {
             NearPole { direction: [0.0, 0.0, b], pole: out_of_plane.poles[index], across: true, index }
         });
         in_plane.chain(out_of_plane).collect()
-    }
-
-    /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], the poles of
-    /// [`beside_poles`](Self::beside_poles) being amplitudes of their own.
-    pub(crate) fn moving_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
-        let (plane, across) = self.near(x, width);
-        let [axial, coupling, normal] = self.exact.in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x, plane);
-        let [out_of_plane] = self.exact.out_of_plane.moving_mass([(0, 0)], x, across);
-        self.in_plane_if_asked(LocalStiffness { axial, coupling, normal, out_of_plane })
     }
 }
 
@@ -275,13 +280,19 @@ impl Exact {
             if unknowns > MOST_UNKNOWNS {
                 return Err(ExactError::TooFine { unknowns, limit: MOST_UNKNOWNS });
             }
+
+            // Static stiffness of both ends.
             let [[hh, hv], [_, vv]] = catenary.tangent();
             let o = catenary.out_of_plane_stiffness();
             let still = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
+
+            // Poles and residues of both families.
             let tables = mesh.tables();
-            let plane: Condensed<2, 4> = mesh.condense(&tables, still, limit, &arc_lengths)?;
-            let across: Condensed<1, 2> = mesh.condense(&tables, [[o, -o], [-o, o]], limit, &arc_lengths)?;
+            let plane: Condensed<2, 4, 3> = mesh.condense(&tables, still, limit, &arc_lengths)?;
+            let across: Condensed<1, 2, 1> = mesh.condense(&tables, [[o, -o], [-o, o]], limit, &arc_lengths)?;
             let error = plane.error.max(across.error);
+
+            // Taken if fine enough, or refined.
             if error <= WANTED_ERROR || mesh.refined == MOST_REFINEMENTS {
                 let (in_plane, out_of_plane) = (plane.ends, across.ends);
                 let exact = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() };
@@ -292,28 +303,27 @@ impl Exact {
         }
     }
 
-    /// Undamped stiffness of the start in the axes (horizontal towards the end, up, across) at ω [rad/s].
+    /// Undamped stiffness of the start in the axes (horizontal towards the end, up, out of plane) at ω [rad/s], [N/m].
     pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        let [axial, coupling, normal] = self.in_plane.undamped([(0, 0), (0, 1), (1, 1)], x);
-        let [out_of_plane] = self.out_of_plane.undamped([(0, 0)], x);
-        LocalStiffness { axial, coupling, normal, out_of_plane }
+        local(self.in_plane.undamped(x, 0..0), self.out_of_plane.undamped(x, 0..0))
     }
 
-    /// The same at the complex square ω_c² [rad²/s²].
+    /// Stiffness of the start in the same axes at the complex square ω_c² [rad²/s²], [N/m].
     pub fn damped(&self, square: Complex) -> LocalStiffness<Complex> {
-        let [axial, coupling, normal] = self.in_plane.damped([(0, 0), (0, 1), (1, 1)], square);
-        let [out_of_plane] = self.out_of_plane.damped([(0, 0)], square);
-        LocalStiffness { axial, coupling, normal, out_of_plane }
+        local(self.in_plane.damped(square), self.out_of_plane.damped(square))
     }
 
-    /// Minus the derivative of the undamped stiffness by ω² [kg], same axes.
+    /// Minus the derivative of the undamped stiffness by ω² in the same axes [kg].
     pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        let [axial, coupling, normal] = self.in_plane.moving_mass([(0, 0), (0, 1), (1, 1)], x, 0..0);
-        let [out_of_plane] = self.out_of_plane.moving_mass([(0, 0)], x, 0..0);
-        LocalStiffness { axial, coupling, normal, out_of_plane }
+        local(self.in_plane.moving_mass(x, 0..0), self.out_of_plane.moving_mass(x, 0..0))
     }
+}
+
+/// Entries in plane and out of plane, in the order that [`PoleResidue`] has them.
+fn local<T>([axial, coupling, normal]: [T; 3], [out_of_plane]: [T; 1]) -> LocalStiffness<T> {
+    LocalStiffness { axial, coupling, normal, out_of_plane }
 }
 
 /// Refinements until the estimate is taken as it is; each adds a sixth of the degree and eight.

@@ -29,15 +29,13 @@ impl<'a> WeightedMotions<'a> {
     /// # Errors
     /// [`CableMotionError::Exact`]: a cable that cannot be discretised.
     pub fn new(robot: &Robot, rest: &Equilibrium, dynamics: &'a Dynamics) -> Result<Self, CableMotionError> {
-        let n = dynamics.freedoms;
-        let mass = DMat::from_fn(n, n, |i, j| dynamics.mass[(i, j)]);
+        let n = dynamics.freedoms();
+        let mass = DMat::from_fn(n, n, |i, j| dynamics.platform_mass()[(i, j)]);
         let platform = mass.cholesky().map_or_else(|| DMat::zeros(n, n), |factor| factor.l().transpose());
         let fractions: Vec<f64> = (0..STATIONS).map(|k| (k as f64 + 0.5) / STATIONS as f64).collect();
         let cables = (0..robot.cables.len())
             .map(|i| {
-                // Elsewhere the model has massless cables.
-                let moves = dynamics.terms.iter().any(|term| term.cable == i);
-                let mass = if moves { dynamics.damping[i].1 * rest.cables[i].unstrained_length } else { 0.0 };
+                let mass = dynamics.moving_mass_per_length(i) * rest.cables[i].unstrained_length;
                 let stations = CableStations::new(robot, rest, dynamics, i, &fractions, false)?;
                 Ok((stations, (mass / STATIONS as f64).sqrt()))
             })
@@ -53,7 +51,7 @@ impl<'a> WeightedMotions<'a> {
     /// A mode of these dynamics, for [`crate::modes::track`]. Its motion has the platform's coordinates and three for each
     /// station of a cable; for models that know a cable's end only, one for each cable: the root of its energy.
     pub fn of(&self, mode: &Mode) -> Tracked {
-        let n = self.dynamics.freedoms;
+        let n = self.dynamics.freedoms();
         let mut motion: Vec<f64> =
             (&self.platform * DMat::from_fn(n, 1, |i, _| mode.motion.platform[i])).iter().copied().collect();
         match &self.cables {
@@ -73,7 +71,7 @@ impl<'a> WeightedMotions<'a> {
 
     /// Whether `Mode::shape` has the other sign than the motion it was scaled from.
     fn turned(&self, mode: &Mode) -> bool {
-        let motion_w = self.dynamics.motions.expanded(&mode.motion.platform);
+        let motion_w = self.dynamics.coordinates().expand(&mode.motion.platform);
         motion_w[motion_w.iamax()] < 0.0
     }
 }
@@ -82,7 +80,7 @@ impl<'a> WeightedMotions<'a> {
 mod tests {
     use super::*;
     use crate::dynamics::Linearisation;
-    use crate::modes::{below, track::likeness};
+    use crate::modes::{below, track::mac_of_motions};
     use crate::robot::State;
     use crate::statics::{StaticModel, forward};
 
@@ -101,7 +99,7 @@ mod tests {
             let length: f64 = a.motion.iter().map(|x| x * x).sum();
             assert!((length - 1.0).abs() < 0.02, "mode {i}: {length}");
             for b in &tracked[..i] {
-                let alike = likeness(&a.motion, &b.motion);
+                let alike = mac_of_motions(&a.motion, &b.motion);
                 assert!(alike < 1e-3, "mode {i} at {} Hz and {} Hz: {alike}", a.frequency_hz, b.frequency_hz);
             }
         }

@@ -15,12 +15,15 @@ impl Catenary {
         if w == 0.0 {
             return Self::straight_with(span, rise, chord, rope, tension);
         }
+
+        // The range of lengths, and a start.
         let across = 0.5 * w * chord / tension;
         let k_by_length = 0.5 * w / ea;
         // Here v = 0: a rope stretched so far that its weight does not count. The root is below, and so is the start.
         let limit = across / k_by_length;
         let straight = chord / (1.0 + tension / ea);
         let mut length = if unstrained_length < limit { unstrained_length.max(straight) } else { straight };
+
         // Nearly linear: 2 passes from a neighbour, 4 from afar. The rest is a guard.
         for _ in 0..50 {
             let at = LengthOf::of(span, rise, across, k_by_length * length);
@@ -32,6 +35,7 @@ impl Catenary {
                 break;
             }
         }
+
         let k = k_by_length * length;
         let v = (across - k).max(f64::MIN_POSITIVE);
         let Hyperbolic { sinh, cosh, v_cosh_minus_sinh, .. } = Hyperbolic::of(v);

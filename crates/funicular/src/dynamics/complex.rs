@@ -8,7 +8,7 @@
 //! ```
 
 use super::{Dynamics, POLE_PART, Term, add_local};
-use crate::cable::{DynamicCable, LocalStiffness, damped_square_with_slope};
+use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, Complex};
 
 /// D at a complex frequency, bordered by near poles, and its derivative.
@@ -47,15 +47,19 @@ impl Dynamics {
     fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Bordered {
         let i = Complex::i();
         let platform_damping = self.platform_damping * losses;
+
+        // The platform.
         let mut value = CMat6::from_fn(|r, c| {
             self.constant[(r, c)] + i * omega * platform_damping[(r, c)] - omega * omega * self.mass[(r, c)]
         });
         let mut slope = CMat6::from_fn(|r, c| i * platform_damping[(r, c)] - 2.0 * omega * self.mass[(r, c)]);
+
+        // The cables, without the poles near ω.
         let (mut pole_slope, mut pole_phase) = (Complex::new(0.0, 0.0), 0.0);
         let mut borders = Vec::new();
         for (term, poles) in self.terms.iter().zip(poles) {
             let (damping, mass_per_length) = self.damping[term.cable];
-            let (square, square_slope) = damped_square_with_slope(omega, damping.times(losses), mass_per_length);
+            let (square, square_slope) = damping.times(losses).square_with_slope(omega, mass_per_length);
             let (stiffness, mass, near) = match &term.form {
                 DynamicCable::ClosedForm(form) => {
                     let (stiffness, mass) = form.at(square);
@@ -65,6 +69,8 @@ impl Dynamics {
             };
             add_scaled(&mut value, term, &stiffness, Complex::new(1.0, 0.0));
             add_scaled(&mut slope, term, &mass, -square_slope);
+
+            // Poles that are not near count in the product.
             let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
             for pole in poles.iter().filter(|pole| !is_near(**pole)) {
                 let gap = pole - square;
@@ -73,7 +79,9 @@ impl Dynamics {
             }
             borders.extend(near.iter().map(|near| (term.vector(near.direction), near.pole, square, square_slope)));
         }
-        let (f, n) = (self.freedoms, self.freedoms + borders.len());
+
+        // The border: each near pole an unknown of its own.
+        let (f, n) = (self.freedoms(), self.freedoms() + borders.len());
         let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
         all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));
         all_slope.view_mut((0, 0), (f, f)).copy_from(&slope.view((0, 0), (f, f)));

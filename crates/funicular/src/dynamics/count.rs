@@ -22,6 +22,8 @@ impl Dynamics {
     /// nothing overflows and nothing is lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
     fn negative_eigenvalues(&self, omega: f64) -> usize {
         let mut matrix = self.constant - self.mass * (omega * omega);
+
+        // The matrix without what is large beside a pole.
         let mut borders: Vec<(Vec6, f64)> = Vec::new();
         for term in &self.terms {
             match &term.form {
@@ -41,10 +43,13 @@ impl Dynamics {
                 }
             }
         }
+
         if borders.is_empty() {
-            return inertia::negative_eigenvalues(&matrix, self.freedoms);
+            return inertia::negative_eigenvalues(&matrix, self.freedoms());
         }
-        let (m, n) = (self.freedoms, self.freedoms + borders.len());
+
+        // The bordered matrix, platform and borders in units of their own.
+        let (m, n) = (self.freedoms(), self.freedoms() + borders.len());
         let size = matrix.amax().max(f64::MIN_POSITIVE);
         let mut a = vec![0.0; n * n];
         for j in 0..m {
@@ -59,6 +64,7 @@ impl Dynamics {
         for (k, (_, inverse)) in borders.iter().enumerate() {
             a[(m + k) * n + m + k] = -inverse * size;
         }
+
         let positive = borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();
         inertia::negative_eigenvalues_in(&mut a, n) - positive
     }
@@ -88,6 +94,7 @@ fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, 
     let Entire { gamma, c, sigma, q } = *of;
     let sagging = 0.25 * sag.lambda2 * q;
     let determinant = c + sagging;
+
     // c t and σ t are regular where t is not.
     let string = |w: &Vec6, matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>| {
         let numerator = c * c - gamma * sigma * sigma;
@@ -98,9 +105,13 @@ fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, 
             *matrix += w * w.transpose() * (across / inverse);
         }
     };
+
+    // Out of plane.
     if !form.in_plane_only {
         string(&term.out, matrix, borders);
     }
+
+    // In plane: which of its three stiffnesses is near a pole.
     let turn = 0.5 * sag.epsilon * gamma * q;
     if sigma.abs() * NEAR_POLE < c.abs() {
         // Antisymmetric: only c/σ of k_c is large.

@@ -54,7 +54,7 @@ impl Dynamics {
     /// Null vectors of D itself.
     fn null_vectors_of_closed_form(&self, omega: f64, several: usize) -> Vec<NullVector> {
         let d = self.dynamic_stiffness(omega);
-        let (values, vectors) = inertia::eigen(&d, self.freedoms);
+        let (values, vectors) = inertia::eigen(&d, self.freedoms());
         least(&values, several)
             .map(|k| {
                 let (platform, cables) = self.moving_masses(omega, &vectors[k]);
@@ -74,6 +74,8 @@ impl Dynamics {
         let x = omega * omega;
         let mut stiffness = self.constant - self.mass * x;
         let mut mass = self.mass;
+
+        // Cables, without the poles near ω.
         let (mut borders, mut cable_masses): (Vec<(NearMotion, Vec6, f64)>, Vec<Mat6>) = (Vec::new(), Vec::new());
         for (t, term) in self.terms.iter().enumerate() {
             let mut moving = Mat6::zeros();
@@ -89,7 +91,9 @@ impl Dynamics {
             mass += moving;
             cable_masses.push(moving);
         }
-        let (f, n) = (self.freedoms, self.freedoms + borders.len());
+
+        // The pencil with each near pole as an unknown of its own.
+        let (f, n) = (self.freedoms(), self.freedoms() + borders.len());
         let (mut a, mut m) = (DMat::zeros(n, n), DMat::identity(n, n));
         a.view_mut((0, 0), (f, f)).copy_from(&stiffness.view((0, 0), (f, f)));
         m.view_mut((0, 0), (f, f)).copy_from(&mass.view((0, 0), (f, f)));
@@ -100,26 +104,32 @@ impl Dynamics {
                 (m[(i, f + k)], m[(f + k, i)]) = (g[i], g[i]);
             }
         }
+
         // Positive definite: it is the mass of platform and cables for motions that are independent.
         let Some(factor) = m.cholesky() else { return Vec::new() };
         let l = factor.l();
         let half = l.solve_lower_triangular(&a).unwrap_or(a);
         let standard = l.solve_lower_triangular(&half.transpose()).unwrap_or(half);
         let all = standard.symmetric_eigen();
+
         least(all.eigenvalues.as_slice(), several)
             .map(|k| {
                 let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
+
+                // Motion and energies of each.
                 let platform = Vec6::from_fn(|i, _| if i < f { v[i] } else { 0.0 });
-                let mut cable_energies = vec![0.0; self.cable_count];
+                let mut cable_energies = vec![0.0; self.cable_count()];
                 for (term, moving) in self.terms.iter().zip(&cable_masses) {
                     cable_energies[term.cable] = platform.dot(&(moving * platform));
                 }
+
                 let mut near = Vec::with_capacity(borders.len());
                 for (at, (motion, g, _)) in borders.iter().enumerate() {
                     let amplitude = v[f + at];
                     cable_energies[self.terms[motion.term].cable] += amplitude * (amplitude + 2.0 * g.dot(&platform));
                     near.push(NearMotion { amplitude, ..*motion });
                 }
+
                 let platform_energy = platform.dot(&(self.mass * platform));
                 // 1 but for rounding; so the fractions add up.
                 let total = platform_energy + cable_energies.iter().sum::<f64>();

@@ -27,9 +27,11 @@ pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
     // (1 + √17)/8 bounds the growth of the elements for both pivot sizes.
     const ALPHA: f64 = 0.640_388_203_202_208;
     assert_eq!(a.len(), n * n, "a square matrix");
+
     let mut negative = 0;
     let mut k = 0;
     while k < n {
+        // The largest entries on the diagonal and beside it.
         let (mut diagonal, mut at) = (-1.0, k);
         let (mut off, mut row, mut column) = (-1.0, k, k);
         for j in k..n {
@@ -44,6 +46,8 @@ pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
                 }
             }
         }
+
+        // One pivot, or a block of two.
         if diagonal >= ALPHA * off {
             if diagonal <= 0.0 {
                 break;

@@ -10,9 +10,11 @@ pub fn gauss(n: usize) -> Vec<(f64, f64)> {
     let size = n as f64;
     let mut rule = vec![(0.0, 0.0); n];
     for i in 0..n.div_ceil(2) {
+        // Tricomi's estimate, and Newton's method from there.
         let angle = std::f64::consts::PI * (i as f64 + 0.75) / (size + 0.5);
         let mut x = (1.0 - (size - 1.0) / (8.0 * size.powi(3))) * angle.cos();
         let mut slope = 0.0;
+
         for _ in 0..20 {
             let (mut before, mut value) = (1.0, x);
             for k in 2..=n {
@@ -26,6 +28,8 @@ pub fn gauss(n: usize) -> Vec<(f64, f64)> {
                 break;
             }
         }
+
+        // Both nodes of the pair.
         if n % 2 == 1 && i == n / 2 {
             x = 0.0;
         }

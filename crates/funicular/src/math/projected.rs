@@ -100,12 +100,15 @@ fn congruence(l: &[f64], a: &mut [f64], n: usize) {
         let factor = &l[k * n..(k + 1) * n];
         let pivot = factor[k];
         column[k] /= pivot * pivot;
+
         let half = -0.5 * column[k];
         let (column, factor) = (&mut column[k + 1..], &factor[k + 1..]);
         for x in column.iter_mut() {
             *x /= pivot;
         }
         add_scaled(column, half, factor);
+
+        // Rows and columns beyond, at once.
         for (j, other) in right.chunks_exact_mut(n).enumerate() {
             let (c, f) = (column[j], factor[j]);
             for ((x, a), b) in other[k + 1 + j..].iter_mut().zip(&factor[j..]).zip(&column[j..]) {
@@ -131,6 +134,8 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
         if k + 1 >= n {
             break;
         }
+
+        // The column below the diagonal.
         let rest = n - k - 1;
         let (v, w) = (&mut v[..rest], &mut w[..rest]);
         v.copy_from_slice(&a[k * n + k + 1..(k + 1) * n]);
@@ -139,12 +144,14 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
             below[k] = v[0];
             continue;
         }
+
         // H = I − β v vᵀ sends the column to α e₁.
         let norm = (v[0] * v[0] + tail).sqrt();
         let alpha = if v[0] > 0.0 { -norm } else { norm };
         v[0] -= alpha;
         let beta = 2.0 / (v[0] * v[0] + tail);
         below[k] = alpha;
+
         // w = β A v from the lower triangle: every column serves as column and as row.
         w.fill(0.0);
         for j in 0..rest {
@@ -155,8 +162,11 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
         for x in w.iter_mut() {
             *x *= beta;
         }
+
         let half = -0.5 * beta * dot(v, w);
         add_scaled(w, half, v);
+
+        // A ← A − v wᵀ − w vᵀ.
         for j in 0..rest {
             let (vj, wj) = (v[j], w[j]);
             let column = &mut a[(k + 1 + j) * n + k + 1 + j..(k + 2 + j) * n];
@@ -164,6 +174,8 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
                 *x -= v * wj + w * vj;
             }
         }
+
+        // The vectors.
         let rows = &mut vectors[(k + 1) * count..];
         sums.fill(0.0);
         for (row, v) in rows.chunks_exact(count).zip(v.iter()) {
@@ -182,16 +194,21 @@ fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) 
     for l in 0..n {
         // Two or three passes a value; 60 is a guard that rounding alone could reach.
         for _ in 0..60 {
+            // Up to where the matrix falls apart.
             let split = (l..n - 1)
                 .find(|&m| e[m].abs() <= f64::EPSILON * (d[m].abs() * d[m + 1].abs()).sqrt())
                 .unwrap_or(n - 1);
             if split == l {
                 break;
             }
+
+            // The shift.
             let g = (d[l + 1] - d[l]) / (2.0 * e[l]);
             let mut g = d[split] - d[l] + e[l] / (g + (g * g + 1.0).sqrt().copysign(g));
             let (mut s, mut c, mut p) = (1.0, 1.0, 0.0);
             let mut deflated = false;
+
+            // The rotations.
             for i in (l..split).rev() {
                 let (f, b) = (s * e[i], c * e[i]);
                 let r = (f * f + g * g).sqrt();
@@ -212,6 +229,7 @@ fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) 
                     (*low, *high) = (c * *low - s * *high, s * *low + c * *high);
                 }
             }
+
             if !deflated {
                 d[l] -= p;
                 e[l] = g;

@@ -11,7 +11,9 @@ pub fn brent(low: f64, f_low: f64, high: f64, f_high: f64, mut f: impl FnMut(f64
     let (mut a, mut fa, mut b, mut fb) = (low, f_low, high, f_high);
     let (mut c, mut fc) = (a, fa);
     let (mut step, mut before) = (b - a, b - a);
+
     for _ in 0..200 {
+        // The root lies between b, the best, and c.
         if fb * fc.signum() > 0.0 {
             (c, fc) = (a, fa);
             step = b - a;
@@ -22,11 +24,15 @@ pub fn brent(low: f64, f_low: f64, high: f64, f_high: f64, mut f: impl FnMut(f64
             (b, fb) = (c, fc);
             (c, fc) = (a, fa);
         }
+
+        // The end.
         let tolerance = 2.0 * f64::EPSILON * b.abs();
         let half = 0.5 * (c - b);
         if half.abs() <= tolerance || fb == 0.0 {
             return b;
         }
+
+        // A secant or a parabola through the last points, or the middle.
         if before.abs() >= tolerance && fa.abs() > fb.abs() && fa.is_finite() {
             let s = fb / fa;
             let secant_only = (a - c).abs() <= 0.0;

@@ -7,7 +7,6 @@
 //! around it exactly if the region holds as many damped zeros as undamped ones, whose number Wittrick and Williams know.
 
 use super::{Mode, Modes};
-use crate::cable::damped_zero;
 use crate::dynamics::Dynamics;
 use crate::math::Complex;
 use std::f64::consts::{PI, TAU};
@@ -93,12 +92,16 @@ pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
     let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MOST_STEPS);
     let mut search = Search { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit) };
+
+    // All zeros at once, damping put on in steps.
     let mut zeros = search.starts(&undamped.modes);
     search.converge(&mut zeros);
     while search.losses < 1.0 {
         search.losses = (search.losses + 1.0 / steps).min(1.0);
         search.follow(&mut zeros, &undamped.modes);
     }
+
+    // Those that belong together apart, and those lost again.
     search.separate(&mut zeros, &undamped.modes);
     search.bring_back(&mut zeros, &undamped.modes);
 
@@ -158,12 +161,8 @@ impl Search<'_> {
         if mode.platform_energy_fraction > 0.0 {
             return None;
         }
-        let mut damped =
-            mode.cable_energy_fractions.iter().zip(&self.dynamics.damping).filter(|(part, _)| **part > 0.0).map(
-                |(_, (damping, mass_per_length))| {
-                    damped_zero(mode.frequency_hz * TAU, damping.times(self.losses), *mass_per_length)
-                },
-            );
+        let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, part)| **part > 0.0);
+        let mut damped = moving.map(|(i, _)| self.dynamics.cable_zero(i, mode.frequency_hz * TAU, self.losses));
         let first = damped.next()?;
         damped.all(|omega| omega == first).then_some(first)
     }
@@ -188,6 +187,8 @@ impl Search<'_> {
                 if zeros[i].error <= SETTLED {
                     continue;
                 }
+
+                // Newton's step, the other zeros divided out.
                 let omega = zeros[i].omega;
                 let others: Complex = zeros
                     .iter()
@@ -196,11 +197,13 @@ impl Search<'_> {
                     .sum();
                 let slope = self.dynamics.logarithmic_slope(omega, self.losses, &self.poles) - others;
                 let step = zeros[i].members.len() as f64 / slope;
+
                 if !(step.re.is_finite() && step.im.is_finite()) {
                     // Exactly at a zero, as far as rounding shows.
                     zeros[i].error = 0.0;
                     continue;
                 }
+
                 // No start is thrown out of its region by a flat place of f.
                 let size = step.norm() / omega.norm();
                 let step = if size > LONGEST_STEP { step * (LONGEST_STEP / size) } else { step };
@@ -245,14 +248,18 @@ impl Search<'_> {
         // Undamped ones lie on the real axis but for rounding.
         let least = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
         let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < least(zero);
+
         for round in 0..MOST_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
             if lost.is_empty() {
                 return;
             }
+
+            // Places to begin from: its own, then those of the zeros that have gone farthest.
             let gone = |zero: &Zero| (zero.omega - start(zero)).norm() / zero.omega.norm();
             let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
             places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
+
             for (k, i) in lost.into_iter().enumerate() {
                 let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
                 // Beside it: the zero itself may be another's.
@@ -308,6 +315,7 @@ impl Search<'_> {
     fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64) -> bool {
         let Some(least) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
         let most = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
+
         // Far enough from all zeros for a slow phase.
         let margin = (2.0 * most).max(0.01 * limit);
         let right = self.free_of_modes(limit);
@@ -318,6 +326,8 @@ impl Search<'_> {
             corner(right, most + margin),
             corner(0.5 * least, most + margin),
         ];
+
+        // How far the phase turns around it.
         let phase = |omega: Complex| {
             self.dynamics.phase(omega, 1.0, &self.poles) - self.dynamics.phase(omega, 0.0, &self.poles)
         };
@@ -336,6 +346,7 @@ impl Search<'_> {
                 last = next;
             }
         }
+
         turned.abs() < PI
     }
 }

@@ -4,6 +4,7 @@
 //! motions and part; a list by frequency does not tell. Here every mode goes on in the one of the next step whose motion
 //! is most like its own, all at once.
 
+use super::mac::mac;
 use pathfinding::kuhn_munkres::kuhn_munkres;
 use pathfinding::matrix::Matrix;
 
@@ -25,22 +26,9 @@ pub const LEAST_LIKENESS: f64 = 0.5;
 /// Relative distance of frequencies below which motions are any mixture of each other, as of a symmetric robot.
 const TOGETHER: f64 = 1e-6;
 
-/// The likeness of two motions (modal assurance criterion, weighted by mass): the squared cosine of their angle. 1 for the
-/// same motion, 0 for motions without common energy, or if one is at rest.
-///
-/// # Example
-/// ```
-/// # use funicular::modes::track::likeness;
-/// assert_eq!(likeness(&[3.0, 0.0], &[-2.0, 0.0]), 1.0);
-/// assert!((likeness(&[1.0, 0.0], &[1.0, 1.0]) - 0.5).abs() < 1e-15);
-/// ```
-///
-/// # References
-/// R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
-pub fn likeness(a: &[f64], b: &[f64]) -> f64 {
-    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(x, y)| x * y).sum() };
-    let both = dot(a, a) * dot(b, b);
-    if both > 0.0 { (dot(a, b).powi(2) / both).min(1.0) } else { 0.0 }
+/// Modal assurance criterion of two motions in coordinates weighted by mass.
+pub(crate) fn mac_of_motions(a: &[f64], b: &[f64]) -> f64 {
+    mac(a, b, |a, b| a.iter().zip(b).map(|(x, y)| x * y).sum())
 }
 
 /// The branch of every mode of every step, from 0, in order of first appearance.
@@ -64,6 +52,8 @@ pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
     let mut found = Vec::with_capacity(steps.len());
     for step in steps {
         let mut of_step = vec![None; step.len()];
+
+        // Modes that go on in this step.
         if let Some((before, branch)) = &last {
             let alike = all_likenesses(before, step);
             for (i, j) in best_pairs(&alike, step.len()) {
@@ -72,6 +62,8 @@ pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
                 }
             }
         }
+
+        // New ones.
         let of_step: Vec<usize> = of_step
             .into_iter()
             .map(|branch| {
@@ -81,6 +73,7 @@ pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
                 })
             })
             .collect();
+
         if !step.is_empty() {
             last = Some((step, of_step.clone()));
         }
@@ -93,7 +86,7 @@ pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
 /// are listed is chance: with such it is the part of a motion that lies in the space.
 fn all_likenesses(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
     let plain: Vec<Vec<f64>> =
-        before.iter().map(|a| after.iter().map(|b| likeness(&a.motion, &b.motion)).collect()).collect();
+        before.iter().map(|a| after.iter().map(|b| mac_of_motions(&a.motion, &b.motion)).collect()).collect();
     let (of_before, of_after) = (companies(before), companies(after));
     let in_space = |i: usize, j: usize| {
         let with_after: f64 = of_after[j].clone().map(|k| plain[i][k]).sum();
@@ -197,7 +190,7 @@ mod tests {
         assert_eq!(branches(&steps), [vec![0, 1], vec![], vec![1, 2], vec![2]]);
         assert_eq!(branches(&[]), Vec::<Vec<usize>>::new());
         // At rest: like nothing.
-        assert!(likeness(&[0.0, 0.0], &[1.0, 0.0]) <= 0.0);
+        assert!(mac_of_motions(&[0.0, 0.0], &[1.0, 0.0]) <= 0.0);
     }
 
     #[test]

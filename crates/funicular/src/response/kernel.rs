@@ -2,8 +2,8 @@
 
 use super::receptance;
 use crate::cable::closed_form::{self, ClosedForm, Entire, SERIES_BELOW};
-use crate::cable::exact::{EndSeries, ExactEnd};
-use crate::cable::{DynamicCable, LocalStiffness, damped_square};
+use crate::cable::exact::{ExactEnd, PoleResidue};
+use crate::cable::{DynamicCable, LocalStiffness};
 use crate::dynamics::Dynamics;
 use crate::math::simd::complex::{Complexes, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
 use crate::math::simd::{LANES, Lane};
@@ -47,15 +47,17 @@ impl<'a> Prepared<'a> {
             }
             entries
         };
-        let lacking = |i: usize| i >= dynamics.freedoms;
+
+        let lacking = |i: usize| i >= dynamics.freedoms();
         // Beyond the platform's coordinates there is a unit diagonal and nothing else.
-        let constant = lower(&|i, j| if lacking(i) && i == j { 1.0 } else { dynamics.constant[(i, j)] });
-        let (mass, damping) = (&dynamics.mass, &dynamics.platform_damping);
+        let constant = lower(&|i, j| if lacking(i) && i == j { 1.0 } else { dynamics.constant_stiffness()[(i, j)] });
+        let (mass, damping) = (dynamics.platform_mass(), dynamics.platform_damping());
+
         let products = dynamics
-            .terms
+            .terms()
             .iter()
             .map(|term| {
-                let (a, n, b) = (&term.along, &term.normal, &term.out);
+                let [a, n, b] = term.axes();
                 Products {
                     axial: lower(&|i, j| a[i] * a[j]),
                     coupling: lower(&|i, j| a[i] * n[j] + n[i] * a[j]),
@@ -64,6 +66,7 @@ impl<'a> Prepared<'a> {
                 }
             })
             .collect();
+
         Self {
             dynamics,
             constant,
@@ -80,8 +83,9 @@ impl<'a> Prepared<'a> {
             re: from_fn(|i| self.constant[k] - self.mass[k] * (omega[i] * omega[i])),
             im: from_fn(|i| omega[i] * self.platform_damping[k]),
         });
-        for (term, products) in self.dynamics.terms.iter().zip(&self.products) {
-            let (k, in_plane_only) = match &term.form {
+
+        for (term, products) in self.dynamics.terms().iter().zip(&self.products) {
+            let (k, in_plane_only) = match term.form() {
                 DynamicCable::ClosedForm(form) => {
                     (closed_form::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
                 }
@@ -105,26 +109,30 @@ impl<'a> Prepared<'a> {
 fn exact(form: &ExactEnd, omega: &Lane) -> LocalStiffness<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
-        (re[i], im[i]) = damped_square(omega[i], form.damping, form.mass_per_length);
+        (re[i], im[i]) = form.damping.square(omega[i], form.mass_per_length);
     }
     let x = Complexes { re, im };
-    let [axial, coupling, normal] = pole_sum(&form.plane, &x);
-    let out_of_plane = if form.in_plane_only { Complexes::ZERO } else { pole_sum(&form.across, &x)[0] };
+    let [axial, coupling, normal] = pole_sum(form.plane(), &x);
+    let out_of_plane = match form.out_of_plane() {
+        Some(across) => pole_sum(across, &x)[0],
+        None => Complexes::ZERO,
+    };
     LocalStiffness { axial, coupling, normal, out_of_plane }
 }
 
 /// `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)`.
 #[inline(always)]
-fn pole_sum<const E: usize>(of: &EndSeries<E>, x: &Complexes) -> [Complexes; E] {
+fn pole_sum<const N: usize, const E: usize>(of: &PoleResidue<N, E>, x: &Complexes) -> [Complexes; E] {
     let mut sums = [Complexes::ZERO; E];
     for (k, pole) in of.poles.iter().enumerate() {
         let gap = Complexes { re: from_fn(|i| pole - x.re[i]), im: from_fn(|i| -x.im[i]) };
         let factor = gap.inverse();
-        for (sum, residues) in sums.iter_mut().zip(&of.residues) {
+        for (sum, residues) in sums.iter_mut().zip(of.residues()) {
             sum.add_scaled(&factor, residues[k]);
         }
     }
-    from_fn(|e| Complexes::real(of.stiffness[e]) - *x * (Complexes::real(of.mass[e]) + *x * sums[e]))
+    let (stiffness, mass): ([f64; E], [f64; E]) = (of.start_stiffness(), of.start_mass());
+    from_fn(|e| Complexes::real(stiffness[e]) - *x * (Complexes::real(mass[e]) + *x * sums[e]))
 }
 
 /// The closed form's functions of γ at each lane, divided by cosh Im √γ.
@@ -132,7 +140,7 @@ fn pole_sum<const E: usize>(of: &EndSeries<E>, x: &Complexes) -> [Complexes; E] 
 fn entire(form: &ClosedForm, omega: &Lane) -> Entire<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
-        let (a, b) = damped_square(omega[i], form.damping, form.sag.mass_per_length);
+        let (a, b) = form.damping.square(omega[i], form.sag.mass_per_length);
         re[i] = a * form.gamma_by_square;
         im[i] = b * form.gamma_by_square;
     }
@@ -174,6 +182,7 @@ fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
             largest[i] = largest[i].max(n[i]);
         }
     }
+
     let mut least = [f64::INFINITY; LANES];
     for k in 0..6 {
         let n = d[at(k, k)].norm_sqr();
@@ -212,7 +221,8 @@ fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
 /// `outputᵀ D⁻¹ input` at each frequency [Hz].
 pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
     let scale = dynamics.scale();
-    let vector = |v: &Vec6| dynamics.motions.reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
+    let vector = |v: &Vec6| dynamics.coordinates().freedoms().reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
+
     let mut values = vec![Complex::new(0.0, 0.0); frequencies_hz.len()];
     let entries = OneEntry {
         prepared: Prepared::new(dynamics),
@@ -225,6 +235,7 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
         },
         values: &mut values,
     };
+
     // Of 512 bits the compiler makes gathers here: half as slow again.
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = pulp::x86::V3::try_new() {
@@ -290,9 +301,11 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
         let Self { prepared, frequencies_hz, values } = self;
         let dynamics = prepared.dynamics;
         let scale = dynamics.scale();
+
         for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
             let omega = angular(block);
             let mut d = prepared.dynamic_stiffness(&omega);
+
             let accurate = factorise(&mut d);
             let inverse = invert(&d);
             for (i, value) in values.iter_mut().enumerate() {
@@ -300,9 +313,10 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
                     *value = receptance(dynamics, omega[i]);
                     continue;
                 }
+
                 let mut of_lane = CMat6::zeros();
-                for column in 0..dynamics.freedoms {
-                    for row in column..dynamics.freedoms {
+                for column in 0..dynamics.freedoms() {
+                    for row in column..dynamics.freedoms() {
                         let entry = inverse[at(row, column)].lane(i);
                         of_lane[(row, column)] = entry;
                         of_lane[(column, row)] = entry;
@@ -330,6 +344,7 @@ fn invert(l: &[Complexes; 21]) -> [Complexes; 21] {
             inverse[at(i, j)] = sum * -1.0;
         }
     }
+
     let mut result = [Complexes::ZERO; 21];
     for j in 0..6 {
         for i in j..6 {

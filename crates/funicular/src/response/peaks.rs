@@ -25,6 +25,7 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], least_prominence_db: f6
         while end + 1 < level.len() && level[end + 1] <= level[i] && level[end + 1] >= level[i] {
             end += 1;
         }
+
         if level[i] > level[i - 1] && end + 1 < level.len() && level[i] > level[end + 1] {
             let prominence_db = level[i] - valley(&level, i, end);
             if prominence_db >= least_prominence_db {
@@ -33,6 +34,7 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], least_prominence_db: f6
                 found.push(Peak { frequency_hz, prominence_db, magnitude: values[top].norm() });
             }
         }
+
         i = end + 1;
     }
     found

@@ -109,17 +109,20 @@ pub fn all(
         return Err(StaticsError::OneIdeal);
     }
     let first = forward(robot, lengths, model, asked)?;
+
     let mut hunt = Hunt::new(robot, lengths, model, asked.copied().unwrap_or(first.pose));
     hunt.take(&first);
     let mut last_find = 0;
     let mut starts = 0;
     let most_starts = if robot.platform.freedoms.can_turn() { MOST_STARTS } else { 0 };
+
     while starts < most_starts && hunt.found.len() < MOST_FOUND {
         let wanting = hunt.expected().is_some_and(|expected| expected != hunt.index_sum());
         if starts >= last_find + if wanting { 10 * IDLE } else { IDLE } {
             break;
         }
         starts += 1;
+
         let Some(start) = hunt.start(starts) else { continue };
         let new = [hunt.downhill(start), hunt.stationary(start)].into_iter().flatten();
         for equilibrium in new.collect::<Vec<_>>() {
@@ -153,6 +156,7 @@ pub fn other_stable(robot: &Robot, equilibrium: &Equilibrium) -> Option<(Candida
     {
         return None;
     }
+
     let mut hunt = Hunt::new(robot, &lengths, equilibrium.model, equilibrium.pose);
     hunt.take(equilibrium);
     let one = hunt.found.remove(0);
@@ -164,6 +168,7 @@ pub fn other_stable(robot: &Robot, equilibrium: &Equilibrium) -> Option<(Candida
             hunt.take(&other);
         }
     }
+
     hunt.found.retain(|(candidate, _)| candidate.is_stable());
     let key = |found: &(Candidate, f64)| if hunt.has_energy() { found.1 } else { found.0.distance };
     let (other, energy) = hunt.found.iter().min_by(|a, b| key(a).total_cmp(&key(b)))?.clone();
@@ -225,12 +230,15 @@ impl<'a> Hunt<'a> {
         let search = Search::new(self.robot, self.lengths, self.model, &start);
         let mut here = search.at(start);
         let mut steps = 0;
+
         while here.residual > AT_REST {
+            // Newton's step, cut where the stiffness hardly resists.
             let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.coordinates.count());
             let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {
                 return None;
             }
+
             let step = values
                 .iter()
                 .zip(&vectors)
@@ -240,6 +248,7 @@ impl<'a> Hunt<'a> {
                 })
                 .sum();
             let next = search.at(search.coordinates.moved(&here.pose, &search.limited(&here, &step).0));
+
             let near = here.residual < here.limit;
             if near && next.residual >= here.residual {
                 break;
@@ -257,10 +266,12 @@ impl<'a> Hunt<'a> {
     fn take(&mut self, equilibrium: &Equilibrium) -> bool {
         let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
         let trial = search.at(equilibrium.pose);
+
         let (values, _) = inertia::eigen(&search.stiffness(&trial), search.coordinates.count());
         let zero = INDIFFERENT * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let falling = values.iter().filter(|value| **value < -zero).count();
         let indifferent = values.iter().filter(|value| value.abs() <= zero).count();
+
         let distance_of = |other: &Pose| distance(self.robot, &equilibrium.pose, other);
         let candidate = Candidate {
             falling,
@@ -270,6 +281,7 @@ impl<'a> Hunt<'a> {
             equilibrium: equilibrium.clone(),
         };
         let new = (candidate, trial.energy);
+
         let known = self.found.iter().any(|old| {
             distance_of(&old.0.equilibrium.pose) <= SAME * self.size
                 || (old.0.indifferent > 0 && indifferent > 0 && self.level(old.1, new.1))

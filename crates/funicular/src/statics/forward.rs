@@ -12,6 +12,7 @@ use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6, inertia};
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
+use std::ops::ControlFlow;
 
 /// Limit of iterations. Robots of the library take 4 to 12; random ones whose platform slides down a narrow valley of
 /// stiff ropes, some of them slack, up to 450.
@@ -165,6 +166,10 @@ impl<'a> Search<'a> {
 /// search ends when no step betters the residual.
 pub(super) const AT_REST: f64 = 1e-13;
 
+/// Part of the residual of the round before above which a round counts as no gain, once the residual is below its limit.
+/// Near 1 rounds would go on that are better by rounding alone; far below, rounds that gain slowly would be the last.
+const STALLED_ROUND: f64 = 0.5;
+
 /// Limit of rounds in which the drag of the wind follows the cables; each gains a factor, see theory, section 15.
 const MOST_ROUNDS: usize = 100;
 
@@ -177,6 +182,7 @@ pub(super) fn elastic(
 ) -> Result<Equilibrium, StaticsError> {
     let mut search = Search::new(robot, lengths, model, &start);
     let (mut here, mut iterations) = search.rest(start);
+
     if robot.wind_turns_with_cables() {
         // At rest under the drag of one pose, the platform meets that of another; the two draw near, each round by the
         // part that the drag's turn is of the stiffness.
@@ -184,7 +190,7 @@ pub(super) fn elastic(
         for _ in 0..MOST_ROUNDS {
             search = Search::new(robot, lengths, model, &here.pose);
             here = search.at(here.pose);
-            if here.residual < AT_REST || (here.residual < here.limit && here.residual > 0.5 * last) {
+            if here.residual < AT_REST || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
                 break;
             }
             last = here.residual;
@@ -193,6 +199,7 @@ pub(super) fn elastic(
             iterations += more;
         }
     }
+
     if !search.holds(&here) {
         return Err(search.refused(&here, iterations));
     }
@@ -233,99 +240,219 @@ impl Search<'_> {
 
     /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
     pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
-        let stiffest: f64 = self.loaded.iter().map(LoadedCable::axial_stiffness).sum();
-        let least_diagonal = 1e-9 * stiffest / self.lengths.iter().copied().fold(0.0, f64::max);
-        let mut here = self.at(start);
-        let mut shift = 0.0;
-        let (mut refused, mut exhausted) = (false, false);
-        let mut escapes = 0;
-        let mut iterations = 0;
+        let (here, iterations, _) = self.descend(start);
+        (here, iterations)
+    }
 
-        while iterations < MOST_ITERATIONS {
-            iterations += 1;
-            let stiffness = self.stiffness(&here);
-            let near = here.residual < here.limit;
-            if near {
-                // The last digits are those of Newton's method alone.
-                shift = 0.0;
-            }
-
-            // The end, unless the place is a saddle.
-            if here.residual < AT_REST || (near && exhausted) {
-                // A saddle is left along its weakest direction: the energy falls both ways.
-                if escapes < MAX_ESCAPES
-                    && inertia::negative_eigenvalues(&stiffness, self.coordinates.count()) > 0
-                    && let Some(lower) = descend_from_saddle(self, &here, &stiffness)
-                {
-                    escapes += 1;
-                    (here, shift, exhausted) = (lower, 0.0, false);
-                    continue;
-                }
-                break;
-            }
-
-            // The step. Where all cables are slack there is no stiffness to compare with.
-            let diagonal = stiffness.diagonal().amax().max(least_diagonal);
-            let Some(step) = shifted_step(&stiffness, &here.wrench, &mut shift, diagonal) else { break };
-            let (step, length) = self.limited(&here, &step);
-            let next = self.at(self.coordinates.moved(&here.pose, &step));
-
-            // Whether it is a gain. Near rest the energy drowns in rounding; there the residual decides.
-            let expected = step.dot(&here.wrench);
-            let lower = next.energy - self.work(&step) < here.energy - ARMIJO * expected;
-            let quieter = next.residual < 0.9 * here.residual && here.residual < 1e-4;
-
-            // Taken, or tried again with a larger shift.
-            if next.residual.is_finite() && (lower || quieter) {
-                // Down a narrow valley (stiff ropes, a light platform, slack cables) the shift that has just been found
-                // necessary still is.
-                shift *= if length > 1.0 {
-                    1.0
-                } else if refused {
-                    0.5
-                } else {
-                    0.1
-                };
-                (refused, exhausted) = (false, false);
-                if shift < 1e-12 * diagonal {
-                    shift = 0.0;
-                }
-                here = next;
-            } else if near {
-                // Rounding: nothing better is to be had.
-                exhausted = true;
-            } else {
-                shift = (if refused { 10.0 } else { 3.0 } * shift).max(1e-6 * diagonal);
-                refused = true;
-                if shift > 1e9 * diagonal {
-                    break;
-                }
+    /// Newton's method with a shifted stiffness from a start: the last place, the iterations taken, and why it ended.
+    fn descend(&self, start: Pose) -> (Trial, usize, Exit) {
+        let mut descent = Descent::new(self, start);
+        for iterations in 1..=MOST_ITERATIONS {
+            if let ControlFlow::Break(exit) = descent.iterate() {
+                return (descent.here, iterations, exit);
             }
         }
-
-        (here, iterations)
+        (descent.here, MOST_ITERATIONS, Exit::TooManyIterations)
     }
 }
 
+/// Why a descent ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Exit {
+    /// The residual is below [`AT_REST`].
+    AtRest,
+    /// The residual is below its limit, and rounding lets no step better it.
+    AsFarAsRounding,
+    /// No shift within the tries makes the stiffness positive definite: its entries are not finite.
+    NeverDefinite,
+    /// No step gains, however short.
+    NoGain,
+    /// [`MOST_ITERATIONS`].
+    TooManyIterations,
+}
+
+/// What became of the last step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum LastStep {
+    /// It was taken, or there was none.
+    Taken,
+    /// It was no gain; the next one is from the same place with a larger shift.
+    Refused,
+    /// It was no gain where the residual is below its limit: nothing better is to be had.
+    DrownedInRounding,
+}
+
+/// Smallest diagonal of the stiffness that shifts are measured by, over that of all cables pulling in one direction. It
+/// counts where all cables are slack, whose stiffness is their weight: 1e-5 and more would be stiffer than slack ropes
+/// are, and shorten their steps; zero would leave shifts without a measure.
+const MIN_DIAGONAL: f64 = 1e-9;
+
+/// Part of the residual that a step has to leave behind at most to be taken for it alone. Nearer to 1, rounding passes for
+/// progress; far below, the last steps of a search in a narrow valley are refused.
+const QUIETER: f64 = 0.9;
+
+/// Residual below which a step may be taken for its residual alone. The energy has some 14 digits and falls with the
+/// square of the residual, so that it decides nothing below 1e-7; above 1e-4 it does, and residuals would lead to saddles.
+const ENERGY_DROWNS: f64 = 1e-4;
+
+/// Factors of the shift after a step that was taken at full length, and after one that needed a larger shift before:
+/// Newton's own convergence needs the shift gone within a few steps, and in a narrow valley (stiff ropes, a light
+/// platform, slack cables) the shift that has just been found necessary still is. At 1 the end would be linear, at 0
+/// every second step in a valley would be refused.
+const SHIFT_AFTER_STEP: f64 = 0.1;
+const SHIFT_AFTER_REFUSAL: f64 = 0.5;
+
+/// Factors of the shift after the first refused step, and after each further one. Below 2 a search spends its time on
+/// refusals; beyond 10 it takes far shorter steps than it could.
+const SHIFT_AT_FIRST_REFUSAL: f64 = 3.0;
+const SHIFT_AT_FURTHER_REFUSALS: f64 = 10.0;
+
+/// Shifts over the stiffness: the first one, below which a shift is none, and the last one. The first has to be above
+/// rounding (1e-16 times the condition of the stiffness) and far below the stiffness. The step at the last one is a
+/// billionth of the wrench over the stiffness, which no pose in double precision tells from standing still for long.
+const FIRST_SHIFT: f64 = 1e-6;
+const NO_SHIFT: f64 = 1e-12;
+const MAX_SHIFT: f64 = 1e9;
+
+/// A search on its way downhill.
+struct Descent<'a, 's> {
+    search: &'a Search<'s>,
+    here: Trial,
+    /// What is added to the diagonal of the stiffness [N/m].
+    shift: f64,
+    last: LastStep,
+    /// Saddles left so far.
+    escapes: usize,
+    /// [`MIN_DIAGONAL`] in [N/m].
+    min_diagonal: f64,
+}
+
+impl<'a, 's> Descent<'a, 's> {
+    fn new(search: &'a Search<'s>, start: Pose) -> Self {
+        let stiffest: f64 = search.loaded.iter().map(LoadedCable::axial_stiffness).sum();
+        let min_diagonal = MIN_DIAGONAL * stiffest / search.lengths.iter().copied().fold(0.0, f64::max);
+        let here = search.at(start);
+        Self { search, here, shift: 0.0, last: LastStep::Taken, escapes: 0, min_diagonal }
+    }
+
+    /// One step, taken or refused; or the end.
+    fn iterate(&mut self) -> ControlFlow<Exit> {
+        let stiffness = self.search.stiffness(&self.here);
+        let near = self.here.residual < self.here.limit;
+        if near {
+            // The last digits are those of Newton's method alone.
+            self.shift = 0.0;
+        }
+
+        // The end, unless the place is a saddle.
+        if self.here.residual < AT_REST {
+            return self.leave_saddle(&stiffness, Exit::AtRest);
+        }
+        if near && self.last == LastStep::DrownedInRounding {
+            return self.leave_saddle(&stiffness, Exit::AsFarAsRounding);
+        }
+
+        // The step. Where all cables are slack there is no stiffness to compare with.
+        let diagonal = stiffness.diagonal().amax().max(self.min_diagonal);
+        let Some(step) = shifted_step(&stiffness, &self.here.wrench, &mut self.shift, diagonal) else {
+            return ControlFlow::Break(Exit::NeverDefinite);
+        };
+        let (step, length) = self.search.limited(&self.here, &step);
+        let next = self.search.at(self.search.coordinates.moved(&self.here.pose, &step));
+
+        // Taken, or tried again with a larger shift.
+        if self.is_gain(&step, &next) {
+            self.take(next, length, diagonal);
+        } else if near {
+            self.last = LastStep::DrownedInRounding;
+        } else {
+            return self.refuse(diagonal);
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Goes on from a place of lower energy if the platform rests on a saddle, along its weakest direction, in which the
+    /// energy falls both ways; else ends.
+    fn leave_saddle(&mut self, stiffness: &Mat6, exit: Exit) -> ControlFlow<Exit> {
+        if self.escapes < MAX_ESCAPES
+            && inertia::negative_eigenvalues(stiffness, self.search.coordinates.count()) > 0
+            && let Some(lower) = descend_from_saddle(self.search, &self.here, stiffness)
+        {
+            self.escapes += 1;
+            (self.here, self.shift, self.last) = (lower, 0.0, LastStep::Taken);
+            return ControlFlow::Continue(());
+        }
+        ControlFlow::Break(exit)
+    }
+
+    /// Whether a step lowers the energy enough, or, where the energy drowns in rounding, the residual.
+    fn is_gain(&self, step: &Vec6, next: &Trial) -> bool {
+        let expected = step.dot(&self.here.wrench);
+        let lower = next.energy - self.search.work(step) < self.here.energy - ARMIJO * expected;
+        let quieter = next.residual < QUIETER * self.here.residual && self.here.residual < ENERGY_DROWNS;
+        next.residual.is_finite() && (lower || quieter)
+    }
+
+    /// Takes a step that was cut `length` times if that is more than 1.
+    fn take(&mut self, next: Trial, length: f64, diagonal: f64) {
+        if length <= 1.0 {
+            let refused = self.last == LastStep::Refused;
+            self.shift *= if refused { SHIFT_AFTER_REFUSAL } else { SHIFT_AFTER_STEP };
+        }
+        if self.shift < NO_SHIFT * diagonal {
+            self.shift = 0.0;
+        }
+        (self.here, self.last) = (next, LastStep::Taken);
+    }
+
+    /// Shortens the next step by a larger shift.
+    fn refuse(&mut self, diagonal: f64) -> ControlFlow<Exit> {
+        let again = self.last == LastStep::Refused;
+        let factor = if again { SHIFT_AT_FURTHER_REFUSALS } else { SHIFT_AT_FIRST_REFUSAL };
+        self.shift = (factor * self.shift).max(FIRST_SHIFT * diagonal);
+        self.last = LastStep::Refused;
+        if self.shift > MAX_SHIFT * diagonal { ControlFlow::Break(Exit::NoGain) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Limit of tries for a shift. Those of [`SHIFT_GROWTH`] pass from the first shift to more than 1e30 times the stiffness:
+/// only entries that are not finite need more.
+const MOST_SHIFTS: usize = 60;
+
+/// Factor from one try for a shift to the next. Below 2 tries cost more than the step; a factor of 100 would shorten
+/// steps for nothing.
+const SHIFT_GROWTH: f64 = 4.0;
+
+/// Smallest shift [N/m], for a platform that nothing holds.
+const MIN_SHIFT: f64 = 1e-12;
+
 /// Solves `(K + shift) step = wrench` with the least shift that makes the matrix positive definite.
 fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64) -> Option<Vec6> {
-    for _ in 0..60 {
+    for _ in 0..MOST_SHIFTS {
         if let Some(factor) = (stiffness + Mat6::identity() * *shift).cholesky() {
             return Some(factor.solve(wrench));
         }
-        *shift = (4.0 * *shift).max(1e-6 * diagonal).max(1e-12);
+        *shift = (SHIFT_GROWTH * *shift).max(FIRST_SHIFT * diagonal).max(MIN_SHIFT);
     }
     None
 }
 
+/// Part of the largest eigenvalue of the stiffness that a negative one has to exceed to be more than rounding. Rounding of
+/// the stiffness leaves some 1e-14; a saddle within 1e-10 is left so slowly that it counts as indifferent.
+const NOISE: f64 = 1e-10;
+
+/// Distances that a saddle is left by, in parts of ℓ and radians, both ways. Nearer than 0.01 the energy hardly falls; at
+/// more than 0.3 the platform may come down in another valley.
+const ESCAPES: [f64; 6] = [0.3, -0.3, 0.1, -0.1, 0.01, -0.01];
+
 /// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
 fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
     let (values, vectors) = inertia::eigen(stiffness, search.coordinates.count());
-    let noise = 1e-10 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let noise = NOISE * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
         return None;
     }
-    [0.3, -0.3, 0.1, -0.1, 0.01, -0.01]
+    ESCAPES
         .into_iter()
         .map(|part| vectors[0] * (part * search.coordinates.ell()))
         .map(|step| (search.at(search.coordinates.moved(&here.pose, &step)), search.work(&step)))
@@ -333,4 +460,46 @@ fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> O
         .filter(|(energy, trial)| *energy < here.energy && trial.residual.is_finite())
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, trial)| trial)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Rotation;
+
+    const LENGTHS: [f64; 6] = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+
+    fn robot() -> Robot {
+        Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
+    }
+
+    /// The exit of a descent, and what rounding leaves.
+    fn descent(robot: &Robot, start: Pose) -> (Trial, usize, Exit) {
+        Search::new(robot, &LENGTHS, StaticModel::Catenary, &start).descend(start)
+    }
+
+    #[test]
+    fn a_usual_search_ends_at_rest_or_at_rounding_within_a_few_iterations() {
+        let robot = robot();
+        let (here, iterations, exit) = descent(&robot, start::pose_from_lengths(&robot, &LENGTHS));
+        assert!(matches!(exit, Exit::AtRest | Exit::AsFarAsRounding), "{exit:?}");
+        assert!(here.residual < here.limit && iterations < 20, "{} after {iterations}", here.residual);
+    }
+
+    #[test]
+    fn from_its_own_end_a_search_ends_at_once() {
+        let robot = robot();
+        let (first, ..) = descent(&robot, start::pose_from_lengths(&robot, &LENGTHS));
+        let (second, iterations, exit) = descent(&robot, first.pose);
+        assert!(matches!(exit, Exit::AtRest | Exit::AsFarAsRounding), "{exit:?}");
+        assert!(iterations <= 3 && second.residual <= first.residual, "{iterations}");
+    }
+
+    #[test]
+    fn a_place_that_is_no_number_has_no_step() {
+        let robot = robot();
+        let nowhere = Pose { position_w: crate::math::Vec3::repeat(f64::INFINITY), rot_wp: Rotation::identity() };
+        let (.., exit) = descent(&robot, nowhere);
+        assert_eq!(exit, Exit::NeverDefinite);
+    }
 }

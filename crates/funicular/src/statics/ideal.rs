@@ -8,6 +8,23 @@ use crate::math::{Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench};
 use crate::robot::{Pose, Robot};
 
+/// Gap of the worst cable over the longest one at which the lengths are closed, rounding being 1e-16 a cable; and up to
+/// which they count as closed where rounding leaves more, beside singular poses.
+const CLOSED: f64 = 1e-14;
+const NEARLY_CLOSED: f64 = 1e-10;
+
+/// Limit of steps, a guard: a way that leads nowhere ends by [`MIN_FRACTION`].
+const MAX_ITERATIONS: usize = 100;
+
+/// Least fraction of Newton's step: one that is cut to it without gain has come to a place of least gaps.
+const MIN_FRACTION: f64 = 1e-6;
+
+/// Bound of the condition of the balance below which singular values need not be looked at, and the least singular value
+/// over the largest below which a pose is singular. There ten of the tensions' sixteen
+/// digits are lost; a limit nearer to 1 would refuse poses that are merely badly conditioned.
+const MAX_BOUND: f64 = 1e9;
+const SINGULAR: f64 = 1e-10;
+
 /// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
 pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, StaticsError> {
     let coordinates = Coordinates::of(robot);
@@ -20,10 +37,14 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
             .zip(lengths)
             .fold(0.0_f64, |worst, (cable, length)| worst.max((cable.straight_length(pose) - length).abs()))
     };
+
+    // Poses at which the cables have their lengths.
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let mut gap = gap_of(&pose);
-    while gap > 1e-14 * longest && iterations < 100 {
+    while gap > CLOSED * longest && iterations < MAX_ITERATIONS {
         iterations += 1;
+
+        // Newton's step.
         let columns = unit_wrenches(robot, &pose, &coordinates);
         let rows = columns.transpose();
         let gaps = Vec6::from_fn(|i, _| match (robot.cables.get(i), lengths.get(i)) {
@@ -32,6 +53,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
         });
         let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
         let step = coordinates.expand(&step);
+
         // Halve the step until the gap falls.
         let mut part = 1.0;
         let next = loop {
@@ -42,7 +64,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
                 break Some(next);
             }
             part *= 0.5;
-            if part < 1e-6 {
+            if part < MIN_FRACTION {
                 break None;
             }
         };
@@ -50,11 +72,13 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
         pose = next;
         gap = gap_of(&pose);
     }
-    if gap > 1e-10 * longest {
+    if gap > NEARLY_CLOSED * longest {
         let p = pose.position_w;
         let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
+
+    // Tensions there.
     let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
     if let Some((i, tension)) = pushing(&tensions) {
         let (cable, p) = (robot.cables[i].name.clone(), pose.position_w);
@@ -97,9 +121,9 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
     let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
     // Frobenius' norms bound the condition from above, and cost a tenth of the singular values.
     let bound = columns.norm() * inverse.norm();
-    if bound.is_nan() || bound > 1e9 {
+    if bound.is_nan() || bound > MAX_BOUND {
         let singular = columns.svd(false, false).singular_values;
-        if singular.min() < 1e-10 * singular.max() {
+        if singular.min() < SINGULAR * singular.max() {
             return Err(StaticsError::Singular);
         }
     }

@@ -46,6 +46,8 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
         return distribute(robot, pose, model, &TensionRule::default());
     }
     robot.platform.freedoms.check(pose)?;
+
+    // Straight cables, with half of each cable's load.
     let mut load = load_wrench(robot, pose);
     let loaded = LoadedCable::all(robot, pose, model);
     for cable in &loaded {
@@ -57,6 +59,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
         Err(StaticsError::Singular) if model == StaticModel::Catenary => return slack(robot, pose, &loaded),
         tensions => tensions?,
     };
+
     match model {
         StaticModel::Ideal => match pushing(&tensions) {
             Some((i, tension)) => Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension }),
@@ -80,6 +83,48 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     }
 }
 
+/// Least tension of a first guess: over the weight of a cable as long as its chord, and over its axial stiffness where it
+/// has no weight. A cable that straight statics finds pushing starts with it as a deeply sagging one. At a
+/// quarter of the weight a level cable is 1.8 chords long; with less its forces hardly follow its length, and with much
+/// more the start is a taut cable, which pushing ones are far from.
+pub(super) const LEAST_GUESS: f64 = 0.25;
+pub(super) const LEAST_STRAIN: f64 = 1e-9;
+
+/// Rounding of what weights can make up for, over the sizes that are added: some 1e-16 times the condition of the
+/// straight balance, which may be 1e10 ([`straight_tensions`]). A pose is called out of reach only beyond it.
+const REACH_ROUNDING: f64 = 1e-9;
+
+/// Limit of steps of Newton's method, a guard: a way that leads nowhere ends by [`MIN_FRACTION`].
+const MAX_ITERATIONS: usize = 100;
+
+/// Scaled residual that is as good as zero. Rounding of six forces leaves 1e-15 and more; a limit below it would cost the
+/// steps until one does not gain, one far above it digits that the last step brings for nothing.
+const BALANCED: f64 = 1e-14;
+
+/// Fraction of Newton's step: its factors after a step that gains and one that does not, and the fraction at which the
+/// way has come to nothing. The whole step comes back within two or three that gain; a fraction of a millionth that does
+/// not gain points to a place of least imbalance, which is none of balance.
+const FASTER: f64 = 2.0;
+const SLOWER: f64 = 0.25;
+const MIN_FRACTION: f64 = 1e-6;
+
+/// Parallel tension over the weight of a cable as long as its chord below which a cable is slack enough to follow its length rather than its tension:
+/// at one half of its weight a level cable sags by a quarter of its chord.
+const SLACK: f64 = 0.5;
+
+/// Part of its tension that a cable keeps at least in one step. At zero a step could slacken it for ever; near 1, slack
+/// poses are reached in many steps.
+const MIN_SLACKENED: f64 = 0.2;
+
+/// Parallel tension over the weight below which the length of a cable is sought without the bound that the tension gives.
+/// A level cable is e⁵⁰ chords long there, and the bound soon leaves the range of numbers.
+const NO_BOUND: f64 = 0.01;
+
+/// Limit of steps of the search for a length, most of them halvings of an interval; and the relative size of the last one.
+/// Newton squares the error, and only a step on the way is wanted: what counts is the balance afterwards.
+const MAX_LENGTH_STEPS: usize = 80;
+const LENGTH_STEP: f64 = 1e-9;
+
 /// A solution that needs this many times the tension of straight cables, one of which would push, counts as none. In
 /// 15,000 such poses of the paper's robot the ratio runs from 1 through 2.5 (half of them) and 10 (all but 2 %) to 550
 /// beside singular poses.
@@ -102,11 +147,12 @@ fn sagging(
     let start: Vec<HangingCable> = (loaded.iter().zip(straight))
         .map(|(cable, tension)| {
             let chord = cable.chord_w(pose).norm();
-            // A cable that straight statics finds pushing starts as a deeply sagging one.
-            let least = (0.25 * cable.load.size * chord).max(1e-9 * cable.axial_stiffness());
+            let least = (LEAST_GUESS * cable.load.size * chord).max(LEAST_STRAIN * cable.axial_stiffness());
             cable.hang_with_tension(pose, tension.max(least))
         })
         .collect();
+
+    // Newton's method from there.
     let mut found = balanced(robot, pose, start.clone(), lengthened);
     if found.residual > RESIDUAL_LIMIT {
         // Each way now and then holds a pose by hundreds of metres of rope where the other does not.
@@ -180,7 +226,7 @@ fn is_out_of_reach(
             *size += change.abs();
         }
     }
-    Ok(reach.iter().zip(sizes).any(|(reach, size)| *reach < -1e-9 * size))
+    Ok(reach.iter().zip(sizes).any(|(reach, size)| *reach < -REACH_ROUNDING * size))
 }
 
 /// Cables whose chords do not span the freedoms: sagging ones may, since they do not pull along their chords.
@@ -221,9 +267,11 @@ fn balanced(
     let coordinates = Coordinates::of(robot);
     let (mut wrench, mut residual) = unbalanced(robot, &coordinates, pose, &hanging);
     let mut iterations = 0;
-    let mut damping = 1.0;
-    while iterations < 100 && residual > 1e-14 {
+    let mut fraction = 1.0;
+    while iterations < MAX_ITERATIONS && residual > BALANCED {
         iterations += 1;
+
+        // The step, cut.
         let mut columns = Mat6::identity();
         for (i, cable) in hanging.iter().enumerate() {
             let lever_w = cable.start_w - pose.position_w;
@@ -232,16 +280,18 @@ fn balanced(
         let right = -coordinates.reduce(&wrench);
         let Some(change) = columns.lu().solve(&right) else { break };
         let next: Vec<HangingCable> =
-            (hanging.iter().zip(&change)).map(|(cable, change)| step(cable, damping * change)).collect();
+            (hanging.iter().zip(&change)).map(|(cable, change)| step(cable, fraction * change)).collect();
+
+        // Taken if it is a gain.
         let (next_wrench, next_residual) = unbalanced(robot, &coordinates, pose, &next);
         if next_residual < residual {
             (hanging, wrench, residual) = (next, next_wrench, next_residual);
-            damping = (2.0 * damping).min(1.0);
+            fraction = (FASTER * fraction).min(1.0);
         } else if residual < RESIDUAL_LIMIT {
             break;
         } else {
-            damping *= 0.25;
-            if damping < 1e-6 {
+            fraction *= SLOWER;
+            if fraction < MIN_FRACTION {
                 break;
             }
         }
@@ -261,29 +311,31 @@ fn unbalanced(robot: &Robot, coordinates: &Coordinates, pose: &Pose, hanging: &[
 fn lengthened(cable: &HangingCable, change: f64) -> HangingCable {
     let rope = cable.catenary.rope();
     let tension = cable.catenary.parallel_tension();
-    if change > 0.0 && tension < 0.5 * rope.weight_per_length * cable.chord_w().norm() {
+    if change > 0.0 && tension < SLACK * rope.weight_per_length * cable.chord_w().norm() {
         return cable.at_length(rope.unstrained_length + change);
     }
     tightened(cable, change)
 }
 
-/// The same in the tension alone.
+/// A cable some length longer [m], to first order in its parallel tension.
 fn tightened(cable: &HangingCable, change: f64) -> HangingCable {
     let tension = cable.catenary.parallel_tension();
     let wanted = tension + change * cable.catenary.parallel_tension_by_length();
-    at_tension(cable, wanted.max(0.2 * tension))
+    at_tension(cable, wanted.max(MIN_SLACKENED * tension))
 }
 
 /// The cable between the same points whose parallel tension is `wanted` > 0 [N].
 fn at_tension(cable: &HangingCable, wanted: f64) -> HangingCable {
     let rope = cable.catenary.rope();
     // Slacker cables need a search that knows no bound from the tension.
-    if wanted >= 0.01 * rope.weight_per_length * cable.chord_w().norm() {
+    if wanted >= NO_BOUND * rope.weight_per_length * cable.chord_w().norm() {
         return cable.at_parallel_tension(wanted);
     }
+
     let (mut low, mut high) = (0.0, f64::INFINITY);
     let mut cable = cable.clone();
-    for _ in 0..80 {
+    for _ in 0..MAX_LENGTH_STEPS {
+        // The interval.
         let length = cable.catenary.rope().unstrained_length;
         let tension = cable.catenary.parallel_tension();
         if tension > wanted {
@@ -291,11 +343,11 @@ fn at_tension(cable: &HangingCable, wanted: f64) -> HangingCable {
         } else {
             high = length;
         }
+
         // Taut, τ grows like c − L; sagging, like 1/√(L − c): its logarithm is between both.
         let step = (tension / wanted).ln() * tension / cable.catenary.parallel_tension_by_length();
         let next = length - step;
-        // Newton squares the error, and only a step on the way is wanted: what counts is the balance afterwards.
-        let last = step.abs() <= 1e-9 * length;
+        let last = step.abs() <= LENGTH_STEP * length;
         let next = if last || (next > low && next < high) {
             next
         } else if high.is_finite() {
@@ -303,6 +355,7 @@ fn at_tension(cable: &HangingCable, wanted: f64) -> HangingCable {
         } else {
             2.0 * low
         };
+
         cable = cable.at_length(next);
         if last {
             break;

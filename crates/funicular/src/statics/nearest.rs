@@ -33,6 +33,42 @@ const MOST_STEPS: usize = 300;
 const NEAREST: f64 = 1e-11;
 const NEAR: f64 = 1e-6;
 
+/// Part of its length that a cable keeps at least in one step. At zero a step could take a cable away; near 1 a pose that
+/// needs a much shorter cable would take many steps.
+const MIN_SHORTENED: f64 = 0.2;
+
+/// Distance that the pose could still come nearer over the distance that is left, below which a step may be taken for its
+/// direction alone: the distance falls with the square of this ratio, so that it drowns in rounding below 1e-8, and at
+/// more than 1e-2 it decides well.
+const NEARLY_SQUARE: f64 = 1e-4;
+
+/// Part of the approach that could still be made which such a step has to leave behind at most. Nearer to 1, rounding
+/// passes for progress; far below, the last steps along a surface that bends strongly are refused.
+const STRAIGHTER: f64 = 0.9;
+
+/// Damping of the step: the first one, the factor after each step refused, its inverse after each one taken, the value
+/// below which there is none, and the one at which the search is over. It is measured against the bend of the surface,
+/// which starts as 1. A first one far below 0.1 would hardly change the step that has just been refused; far above, the
+/// search would creep along bent surfaces. At the last one a step is a millionth of
+/// a millionth of the distance that is left.
+const FIRST_DAMPING: f64 = 0.1;
+const DAMPING_FACTOR: f64 = 10.0;
+const NO_DAMPING: f64 = 1e-3;
+const MAX_DAMPING: f64 = 1e12;
+
+/// Singular values, over one, of unit wrenches that a first guess of tensions leaves out: at less, tensions out of all
+/// proportion would hold a load across nearly parallel cables; cables at more than a billionth of a radian to each other do
+/// share a load.
+const PARALLEL: f64 = 1e-9;
+
+/// Least tension of a first guess over the weight of a cable as long as its chord. At a quarter a level
+/// cable is 1.8 chords long; with less the guess is all sag, and well above it light platforms are lifted by their cables.
+const LEAST_GUESS: f64 = 0.25;
+
+/// Least cosine between a step and the change of slope that goes with it, from which the surface's bend is learnt: below,
+/// the quotient is rounding, or the surface is bent the other way.
+const LEAST_CURVATURE: f64 = 1e-3;
+
 /// Singular values over the largest that are zero.
 const ZERO: f64 = 1e-12;
 
@@ -87,6 +123,8 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
         return Err(StaticsError::InverseCableCount { cables, freedoms });
     }
     robot.platform.freedoms.check(asked)?;
+
+    // On the surface, by a first guess of the lengths.
     let coordinates = Coordinates::of(robot);
     let mut lengths = first_lengths(robot, asked, model)?;
     let mut here = forward(robot, &lengths, model, Some(asked))?;
@@ -94,50 +132,61 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
     let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
     let mut surface = Surface::at(robot, &here);
     let mut missing = gap(robot, &here.pose, asked);
+
     let (mut bend, mut damping) = (Mat6::identity(), 0.0);
     for _ in 0..MOST_STEPS {
         let could = surface.along(&missing);
         if could.norm() <= NEAREST * size {
             break;
         }
+
+        // A step along the surface, and back to it.
         let (motion, by_length) = surface.step(&missing, &bend, damping);
-        let trial: Vec<f64> = lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(0.2 * l)).collect();
+        let trial: Vec<f64> = lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(MIN_SHORTENED * l)).collect();
         let start = coordinates.moved(&here.pose, &motion);
         if let Ok(next) = forward(robot, &trial, model, Some(&start)) {
             iterations += next.iterations;
             let next_missing = gap(robot, &next.pose, asked);
             let next_surface = Surface::at(robot, &next);
             let next_could = next_surface.along(&next_missing);
+
+            // Taken if it is a gain.
             let nearer = next_missing.norm() < missing.norm();
             // Near the end the distance drowns in rounding; there the direction decides.
-            let straighter = could.norm() < 1e-4 * missing.norm() && next_could.norm() < 0.9 * could.norm();
+            let straighter =
+                could.norm() < NEARLY_SQUARE * missing.norm() && next_could.norm() < STRAIGHTER * could.norm();
             if nearer || straighter {
                 let moved = gap(robot, &here.pose, &next.pose);
                 update(&mut bend, &next_surface.along(&moved), &(could - next_could));
                 (here, lengths, missing, surface) = (next, trial, next_missing, next_surface);
-                damping = if damping < 1e-3 { 0.0 } else { 0.1 * damping };
+                damping = if damping < NO_DAMPING { 0.0 } else { damping * (1.0 / DAMPING_FACTOR) };
                 continue;
             }
         }
+
+        // Else tried again, shorter; what was learnt of the bend may be wrong.
         if damping == 0.0 {
             bend = Mat6::identity();
         }
-        damping = (10.0 * damping).max(0.1);
-        if damping > 1e12 {
+        damping = (DAMPING_FACTOR * damping).max(FIRST_DAMPING);
+        if damping > MAX_DAMPING {
             break;
         }
     }
+
     let could = surface.along(&missing).norm();
     if could > NEAR * size {
         let p = here.pose.position_w;
         let (residual, limit) = (could / size, NEAR);
         return Err(StaticsError::NotNearest { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
+
     // Only ropes of no length come near a pose on the line between their anchors.
     let torn = |(cable, state): (&Cable, &CableState)| state.tension_platform > cable.material.axial_stiffness;
     if robot.cables.iter().zip(&here.cables).any(torn) {
         return Err(StaticsError::Singular);
     }
+
     here.iterations = iterations;
     Ok(Nearest { equilibrium: here, distance: missing.norm() })
 }
@@ -146,6 +195,8 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
 fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f64>, StaticsError> {
     let coordinates = Coordinates::of(robot);
     let n = robot.cables.len();
+
+    // Load with half of each cable's, and the unit wrenches.
     let mut load = load_wrench(robot, pose);
     let mut columns = DMat::zeros(6, n);
     let mut lines = Vec::with_capacity(n);
@@ -160,13 +211,15 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         columns.set_column(i, &straight.unit_wrench(&coordinates));
         lines.push((line, straight.chord_w));
     }
+
+    // Tensions that balance it best, and the lengths that have them.
     let right = -coordinates.reduce(&load);
-    let balanced = columns.svd(true, true).solve(&right, 1e-9).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
+    let balanced = columns.svd(true, true).solve(&right, PARALLEL).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
     let lengths = (0..n).map(|i| {
         let (line, chord_w) = &lines[i];
         let chord = chord_w.norm();
         // Not so slack that its length would be all sag.
-        let least = TensionRange::of(robot, i, chord_w).minimum.max(0.25 * line.load.size * chord);
+        let least = TensionRange::of(robot, i, chord_w).minimum.max(LEAST_GUESS * line.load.size * chord);
         line.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
     });
     Ok(lengths.collect())
@@ -176,7 +229,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
 fn update(bend: &mut Mat6, moved: &Vec6, slope: &Vec6) {
     let (by, bent) = (moved.dot(slope), *bend * moved);
     let along = moved.dot(&bent);
-    if by > 1e-3 * moved.norm() * slope.norm() && along > 0.0 {
+    if by > LEAST_CURVATURE * moved.norm() * slope.norm() && along > 0.0 {
         *bend += slope * slope.transpose() / by - bent * bent.transpose() / along;
     }
 }
@@ -203,10 +256,14 @@ impl Surface {
             let column = coordinates.reduce_force(&hanging.force_by_length_w(), &cable.lever_w);
             equations.view_mut((0, n + i), (n, 1)).copy_from(&-column.rows(0, n));
         }
+
+        // Motions and lengths that go together: the null space of both.
         let svd = equations.svd(false, true);
         let rows = svd.v_t.expect("asked for");
         let largest = svd.singular_values.max();
         let free: Vec<usize> = (0..n + m).filter(|&k| svd.singular_values[k] <= ZERO * largest).collect();
+
+        // Of these an orthonormal basis of the motions; what moves nothing is a change of tensions alone.
         let motions = DMat::from_fn(6, free.len(), |i, k| if i < n { rows[(free[k], i)] } else { 0.0 });
         let svd = motions.svd(true, true);
         let (u, v_t) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));

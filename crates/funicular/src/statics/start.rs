@@ -4,11 +4,37 @@ use crate::math::{Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, StraightCable};
 use crate::robot::{Freedoms, Pose, Robot};
 
+/// Limit of steps. Only a start is wanted: the gaps need not vanish, because sagging cables are longer than the chord.
+const MAX_STEPS: usize = 20;
+
+/// Damping of the normal equations at first, whose entries are of the size of one per cable, and its limits. Far below the
+/// first value the first step from a place where the rows nearly depend on each other throws the platform away; far above,
+/// twenty steps do not arrive. The lower limit keeps the matrix positive definite in rounding; at the upper one a step is
+/// a thousandth of the gap, and the search is over.
+const FIRST_DAMPING: f64 = 1e-3;
+const MIN_DAMPING: f64 = 1e-9;
+const MAX_DAMPING: f64 = 1e3;
+
+/// Factor of the damping after a step that did not bring the cables nearer, its inverse after one that did (Marquardt).
+const DAMPING_FACTOR: f64 = 10.0;
+
+/// Part of the sum of squared gaps that a step has to gain, else the search is over: at more, starts are worse than steps
+/// are dear; at less, the twenty steps are spent on what forward statics does better.
+const MIN_GAIN: f64 = 1e-3;
+
+/// Sum of squared gaps [m²] that is as good as none: a tenth of a millimetre, far less than any cable sags or stretches.
+const CLOSED: f64 = 1e-8;
+
+/// Least distance between the ends of a cable that has a direction [m]; nearer ones are taken as so far apart.
+const MIN_DISTANCE: f64 = 1e-12;
+
 /// The pose at which straight cables of the given lengths [m] come closest to closing, in least squares.
 ///
 /// Starts with the platform upright, below the middle of the anchors as far as the lengths allow.
 pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
     let n = robot.cables.len() as f64;
+
+    // The platform upright, below the middle of the anchors.
     let up_w = robot.up_w();
     let anchors = robot.cables.iter().map(|c| c.anchor.reference_w()).sum::<Vec3>() / n;
     let attachments = robot.cables.iter().map(|c| c.attachment_p).sum::<Vec3>() / n;
@@ -19,32 +45,39 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
         position_w: anchors - up_w * reach.max(0.0).sqrt() - attachments,
         rot_wp: crate::math::Rotation::identity(),
     };
+
+    // In its plane, if it has one.
     let coordinates = Coordinates::of(robot);
     if let Freedoms::Planar(plane) = coordinates.freedoms() {
         pose.position_w -= plane.normal_w() * plane.distance(&pose.position_w);
     }
-    let mut damping = 1e-3;
+
+    // Damped least squares (Levenberg and Marquardt).
+    let mut damping = FIRST_DAMPING;
     let mut gaps = closure(robot, lengths, &pose, &coordinates);
-    // Only a start is wanted: the gaps need not vanish, sagging cables are longer than the chord.
-    for _ in 0..20 {
+    for _ in 0..MAX_STEPS {
+        // The step.
         let (normal, gradient, cost) = gaps;
         let Some(factor) = (normal + Mat6::identity() * damping).cholesky() else { break };
         let next = coordinates.moved(&pose, &factor.solve(&gradient));
         let next_gaps = closure(robot, lengths, &next, &coordinates);
+
+        // Taken if the gaps are smaller.
         if next_gaps.2 < cost {
             let gained = cost - next_gaps.2;
             (pose, gaps) = (next, next_gaps);
-            damping = (damping * 0.1).max(1e-9);
-            if gained < 1e-3 * gaps.2 || gaps.2 < 1e-8 {
+            damping = (damping * (1.0 / DAMPING_FACTOR)).max(MIN_DAMPING);
+            if gained < MIN_GAIN * gaps.2 || gaps.2 < CLOSED {
                 break;
             }
         } else {
-            damping *= 10.0;
-            if damping > 1e3 {
+            damping *= DAMPING_FACTOR;
+            if damping > MAX_DAMPING {
                 break;
             }
         }
     }
+
     pose
 }
 
@@ -53,7 +86,7 @@ fn closure(robot: &Robot, lengths: &[f64], pose: &Pose, coordinates: &Coordinate
     let (mut normal, mut gradient, mut cost) = (Mat6::zeros(), Vec6::zeros(), 0.0);
     for (cable, length) in robot.cables.iter().zip(lengths) {
         let StraightCable { lever_w, chord_w } = StraightCable::at(cable, pose);
-        let distance = chord_w.norm().max(1e-12);
+        let distance = chord_w.norm().max(MIN_DISTANCE);
         let row = coordinates.reduce_force(&(chord_w / distance), &lever_w);
         let beyond = cable.anchor.length_beyond(&(pose.position_w + lever_w));
         let gap = distance + beyond - length;

@@ -92,16 +92,19 @@ pub fn distribute(
     if cables < freedoms {
         return Err(StaticsError::InverseCableCount { cables, freedoms });
     }
+
     robot.platform.freedoms.check(pose)?;
     for cable in &robot.cables {
         if cable.chord_w(pose).norm() == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
     }
+
     let coordinates = Coordinates::of(robot);
     let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, coordinates)).collect();
     check(robot, model, rule, &lines)?;
     let mut search = Search::new(robot, pose, lines);
+
     match rule {
         TensionRule::Lowest => {
             let minima: Vec<f64> = search.lines().iter().map(|line| line.range.minimum).collect();
@@ -114,12 +117,14 @@ pub fn distribute(
         TensionRule::Middle => search.middle()?,
         TensionRule::Stiffest => stiffest::search(&mut search)?,
     }
+
     let iterations = search.iterations();
     let lines = search.into_lines();
     if model == StaticModel::Ideal {
         let tensions: Vec<f64> = lines.iter().map(Line::tau).collect();
         return Ok(ideal::collect(robot, *pose, &tensions, iterations));
     }
+
     let lengths: Vec<f64> = lines.iter().map(|line| line.hanging.catenary.rope().unstrained_length).collect();
     let hanging = lines.into_iter().map(|line| line.hanging).collect();
     Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
@@ -140,12 +145,14 @@ fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) 
             return Err(StaticsError::Wanted { value });
         }
     }
+
     if *rule == TensionRule::Stiffest && model == StaticModel::Ideal {
         return Err(StaticsError::NothingToStiffen);
     }
     if *rule == TensionRule::Stiffest && robot.cables.len() > MAX_CABLES_TO_STIFFEN {
         return Err(StaticsError::TooManyToStiffen { cables: robot.cables.len(), limit: MAX_CABLES_TO_STIFFEN });
     }
+
     for (cable, line) in robot.cables.iter().zip(lines) {
         let (cable, minimum, maximum) = (cable.name.clone(), line.range.minimum, line.range.maximum);
         if minimum >= maximum {

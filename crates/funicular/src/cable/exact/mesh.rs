@@ -59,10 +59,13 @@ impl<'a> Mesh<'a> {
         if !has_tension(catenary) {
             return Err(ExactError::NoTension);
         }
+
+        // Nodes where forces act.
         let mut nodes: Vec<f64> = cuts.iter().copied().filter(|s| *s > 0.0 && *s < rope.unstrained_length).collect();
         nodes.extend([0.0, rope.unstrained_length]);
         nodes.sort_by(|a, b| b.total_cmp(a));
         nodes.dedup();
+
         // The last one is worked on first: elements are in ascending order.
         let mut cuts: Vec<(f64, f64)> = nodes.windows(2).map(|pair| (pair[1], pair[0])).collect();
         let mut elements = Vec::new();
@@ -73,6 +76,7 @@ impl<'a> Mesh<'a> {
                 cuts.extend([(center, to), (from, center)]);
                 continue;
             }
+
             // Phase of the transverse wave, the slower one, over the element (Simpson).
             let slowness = |s: f64| {
                 let t = catenary.tension_at(s);
@@ -80,6 +84,7 @@ impl<'a> Mesh<'a> {
             };
             let mean = (slowness(from) + 4.0 * slowness(center) + slowness(to)) / 6.0;
             let phase = limit * mean * (to - from);
+
             // 0.5 resolves a wave; the cube root is the width of the transition to exponential convergence.
             let waves = 0.53 * phase + 2.2 * (0.5 * phase).cbrt();
             let degree = (waves + 4.0 + 13.0 / size.ln()).ceil().min(1e6) as usize;
@@ -125,14 +130,14 @@ impl<'a> Mesh<'a> {
 
     /// Condenses D components per point onto the two ends (N = 2D), which have the static stiffness `still`, and finds how
     /// the points at the arc lengths `stations` move.
-    pub(super) fn condense<const D: usize, const N: usize>(
+    pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[Table],
         still: [[f64; N]; N],
         limit: f64,
         stations: &[f64],
-    ) -> Result<Condensed<D, N>, ExactError> {
-        self.assemble(tables, stations).reduce(still, limit)
+    ) -> Result<Condensed<D, N, E>, ExactError> {
+        self.assemble::<D, N>(tables, stations).reduce(still, limit)
     }
 
     /// Stiffness and mass of all functions, element by element, in the blocks of a [`Partition`].
@@ -166,18 +171,16 @@ impl<'a> Mesh<'a> {
         let last = self.elements.len() - 1;
         let degree = self.elements[e].degree;
         let first_bubble = last + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
-        let (mut inner, mut ends) = (Vec::with_capacity(degree + 1), Vec::new());
 
         // The hats: nodes between elements are inner functions, the others belong to the ends of the cable.
-        if e == 0 {
-            ends.push((0, 0))
-        } else {
-            inner.push((0, e - 1))
+        let (mut inner, mut ends) = (Vec::with_capacity(degree + 1), Vec::new());
+        match e {
+            0 => ends.push((0, 0)),
+            _ => inner.push((0, e - 1)),
         }
-        if e == last {
-            ends.push((1, 1))
-        } else {
-            inner.push((1, e))
+        match e {
+            _ if e == last => ends.push((1, 1)),
+            _ => inner.push((1, e)),
         }
 
         // The bubbles up to the degree, and those beyond it.
@@ -198,6 +201,8 @@ impl<'a> Mesh<'a> {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);
         let Table { rule, slopes } = table;
+
+        // C at the points of the rule.
         let parts = 2 * D - 1;
         let mut weights = vec![vec![0.0; rule.len()]; parts];
         for (q, (xi, weight)) in rule.iter().enumerate() {
@@ -206,6 +211,8 @@ impl<'a> Mesh<'a> {
                 weights[q] = weight / half * if D == 1 { across } else { in_plane[part] };
             }
         }
+
+        // Products of slopes, weighted.
         let stiffness = weights
             .iter()
             .map(|weights| {
@@ -216,6 +223,7 @@ impl<'a> Mesh<'a> {
                 weighted * slopes.transpose()
             })
             .collect();
+
         (stiffness, bubble_mass(element.degree + BEYOND) * (half * self.mass_per_length))
     }
 }
@@ -268,6 +276,8 @@ fn bubble_mass(degree: usize) -> DMat {
         m[(a, b)] = value;
         m[(b, a)] = value;
     };
+
+    // The hats, and the first two bubbles, which meet them.
     set(0, 0, 2.0 / 3.0);
     set(1, 1, 2.0 / 3.0);
     set(0, 1, 1.0 / 3.0);
@@ -282,6 +292,8 @@ fn bubble_mass(degree: usize) -> DMat {
         set(0, 3, value);
         set(1, 3, -value);
     }
+
+    // The bubbles among each other.
     for j in 2..=degree {
         let n = j as f64;
         set(j, j, 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)));

@@ -130,7 +130,11 @@ impl<const D: usize, const N: usize> Partition<D, N> {
     }
 
     /// Poles and residues of the ends, whose static stiffness is `still`, up to ω = `limit` and beyond.
-    pub(super) fn reduce(self, still: [[f64; N]; N], limit: f64) -> Result<Condensed<D, N>, ExactError> {
+    pub(super) fn reduce<const E: usize>(
+        self,
+        still: [[f64; N]; N],
+        limit: f64,
+    ) -> Result<Condensed<D, N, E>, ExactError> {
         let Self { stiffness, mass, rows, row_length, outer, end_mass, beyond, values_at_ends, .. } = self;
         let (values, products) = projected::pencil(stiffness, mass, rows, row_length).ok_or(ExactError::NoTension)?;
 
@@ -152,7 +156,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
             }
         }
 
-        Ok(Condensed { ends: PoleResidue { stiffness: still, mass, poles, participation }, error, stations })
+        Ok(Condensed { ends: PoleResidue::new(still, mass, poles, participation), error, stations })
     }
 }
 
@@ -203,8 +207,8 @@ impl<'a> ClampedMode<'a> {
 }
 
 /// A cable condensed onto its ends.
-pub(super) struct Condensed<const D: usize, const N: usize> {
-    pub(super) ends: PoleResidue<N>,
+pub(super) struct Condensed<const D: usize, const N: usize, const E: usize> {
+    pub(super) ends: PoleResidue<N, E>,
     /// Estimated relative error of the clamped frequencies below the limit.
     pub(super) error: f64,
     pub(super) stations: Displacements<D, N>,

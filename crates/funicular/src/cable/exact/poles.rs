@@ -2,11 +2,13 @@
 
 use crate::math::simd::LANES;
 use crate::math::{Complex, DMat};
+use std::array::from_fn;
 use std::ops::Range;
 
-/// A symmetric end stiffness by poles and residues; N end components.
+/// A symmetric end stiffness by poles and residues: N components of both ends, those of the start before those of the end,
+/// and E entries of the start's own symmetric part, which is all that a cable held at its end shows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PoleResidue<const N: usize> {
+pub struct PoleResidue<const N: usize, const E: usize> {
     /// K_s, symmetric [N/m].
     pub stiffness: [[f64; N]; N],
     /// M_s, symmetric [kg].
@@ -15,85 +17,143 @@ pub struct PoleResidue<const N: usize> {
     pub poles: Vec<f64>,
     /// g_k [√kg].
     pub participation: Vec<[f64; N]>,
+    /// Entries of `g_k g_kᵀ` at the start, each in a row, for sums in vector registers [kg].
+    residues: [Vec<f64>; E],
 }
 
-impl<const N: usize> PoleResidue<N> {
-    /// Entries (i, j) of the undamped stiffness at x = ω² [N/m].
-    pub fn undamped<const E: usize>(&self, entries: [(usize, usize); E], x: f64) -> [f64; E] {
+/// Entries of the start's part of a symmetric matrix, of which a family of modes has the first one or all three.
+const ENTRIES: [(usize, usize); 3] = [(0, 0), (0, 1), (1, 1)];
+
+/// Entries of the start of a symmetric matrix over both ends.
+#[inline(always)]
+fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] {
+    from_fn(|e| {
+        let (i, j) = ENTRIES[e];
+        matrix[i][j]
+    })
+}
+
+impl<const N: usize, const E: usize> PoleResidue<N, E> {
+    /// From K_s, M_s, ω_k² ascending, and g_k.
+    pub(super) fn new(
+        stiffness: [[f64; N]; N],
+        mass: [[f64; N]; N],
+        poles: Vec<f64>,
+        participation: Vec<[f64; N]>,
+    ) -> Self {
+        let residues = from_fn(|e| {
+            let (i, j) = ENTRIES[e];
+            participation.iter().map(|g| g[i] * g[j]).collect()
+        });
+        Self { stiffness, mass, poles, participation, residues }
+    }
+
+    /// Entries of K_s at the start [N/m].
+    #[inline(always)]
+    pub(crate) fn start_stiffness(&self) -> [f64; E] {
+        at_start(&self.stiffness)
+    }
+
+    /// Entries of M_s at the start [kg].
+    #[inline(always)]
+    pub(crate) fn start_mass(&self) -> [f64; E] {
+        at_start(&self.mass)
+    }
+
+    /// Entries of `g_k g_kᵀ` at the start [kg], for each entry one number per pole.
+    #[inline(always)]
+    pub(crate) fn residues(&self) -> &[Vec<f64>; E] {
+        &self.residues
+    }
+
+    /// Entries of the undamped stiffness at x = ω² [N/m], without the poles `left_out`.
+    pub fn undamped(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
         let mut sums = [0.0; E];
-        for (pole, g) in self.poles.iter().zip(&self.participation) {
-            let factor = 1.0 / (pole - x);
-            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-                *sum += g[i] * g[j] * factor;
+        for range in [0..left_out.start, left_out.end..self.poles.len()] {
+            let poles = &self.poles[range.clone()];
+            let residues: [&[f64]; E] = from_fn(|e| &self.residues[e][range.clone()]);
+
+            // Whole lanes of poles, side by side.
+            let whole = poles.len() / LANES * LANES;
+            let mut lanes = [[0.0; LANES]; E];
+            for (k, block) in poles.chunks_exact(LANES).enumerate() {
+                let factors: [f64; LANES] = from_fn(|i| 1.0 / (block[i] - x));
+                for (lanes, residues) in lanes.iter_mut().zip(residues) {
+                    let block = &residues[k * LANES..(k + 1) * LANES];
+                    for i in 0..LANES {
+                        lanes[i] += block[i] * factors[i];
+                    }
+                }
+            }
+
+            // Their sum, and the rest one by one.
+            for ((sum, lanes), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
+                *sum += lanes.iter().sum::<f64>();
+                for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
+                    *sum += residue / (pole - x);
+                }
             }
         }
-        std::array::from_fn(|e| {
-            let (i, j) = entries[e];
-            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
-        })
+
+        let (stiffness, mass): ([f64; E], [f64; E]) = (self.start_stiffness(), self.start_mass());
+        from_fn(|e| stiffness[e] - x * (mass[e] + x * sums[e]))
     }
 
-    /// Entries (i, j) of the stiffness at the complex x = ω_c² [N/m].
-    pub fn damped<const E: usize>(&self, entries: [(usize, usize); E], x: Complex) -> [Complex; E] {
+    /// Entries of the stiffness at the complex x = ω_c² [N/m].
+    pub fn damped(&self, x: Complex) -> [Complex; E] {
         let mut sums = [Complex::new(0.0, 0.0); E];
-        for (pole, g) in self.poles.iter().zip(&self.participation) {
+        for (k, pole) in self.poles.iter().enumerate() {
             let factor = 1.0 / (*pole - x);
-            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-                *sum += factor * (g[i] * g[j]);
+            for (sum, residues) in sums.iter_mut().zip(&self.residues) {
+                *sum += factor * residues[k];
             }
         }
-        std::array::from_fn(|e| {
-            let (i, j) = entries[e];
-            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
-        })
+        self.total(x, sums)
     }
 
-    /// Entries (i, j) of minus the derivative of the undamped stiffness by ω² [kg]:
+    /// Entry (i, j) over both ends of the stiffness at the complex x = ω_c² [N/m].
+    pub fn entry(&self, i: usize, j: usize, x: Complex) -> Complex {
+        let poles = self.poles.iter().zip(&self.participation);
+        let sum: Complex = poles.map(|(pole, g)| g[i] * g[j] / (*pole - x)).sum();
+        self.stiffness[i][j] - x * (self.mass[i][j] + x * sum)
+    }
+
+    /// Entries of minus the derivative of the undamped stiffness by ω² [kg]:
     /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω², without the poles `left_out`.
-    pub fn moving_mass<const E: usize>(
-        &self,
-        entries: [(usize, usize); E],
-        x: f64,
-        left_out: Range<usize>,
-    ) -> [f64; E] {
-        let mut sums = entries.map(|(i, j)| self.mass[i][j]);
-        let kept = |k: &usize| !left_out.contains(k);
-        for k in (0..self.poles.len()).filter(kept) {
-            let (pole, g) = (self.poles[k], &self.participation[k]);
+    pub fn moving_mass(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
+        let mut sums = self.start_mass();
+        for k in (0..self.poles.len()).filter(|k| !left_out.contains(k)) {
+            let pole = self.poles[k];
             let gap = pole - x;
             let factor = x * (2.0 * pole - x) / (gap * gap);
-            for (sum, (i, j)) in sums.iter_mut().zip(entries) {
-                *sum += g[i] * g[j] * factor;
+            for (sum, residues) in sums.iter_mut().zip(&self.residues) {
+                *sum += residues[k] * factor;
             }
         }
         sums
     }
 
-    /// Entries (i, j) of the stiffness at the complex x = ω_c² [N/m] and of minus its derivative by x [kg], without the
-    /// poles `left_out`.
-    pub(crate) fn with_derivative<const E: usize>(
-        &self,
-        entries: [(usize, usize); E],
-        x: Complex,
-        left_out: Range<usize>,
-    ) -> ([Complex; E], [Complex; E]) {
+    /// Entries of the stiffness at the complex x = ω_c² [N/m] and of minus its derivative by x [kg], without the poles
+    /// `left_out`.
+    pub(crate) fn with_derivative(&self, x: Complex, left_out: Range<usize>) -> ([Complex; E], [Complex; E]) {
         let mut sums = [Complex::new(0.0, 0.0); E];
-        let mut masses = entries.map(|(i, j)| Complex::from(self.mass[i][j]));
-        let kept = |k: &usize| !left_out.contains(k);
-        for k in (0..self.poles.len()).filter(kept) {
-            let (pole, g) = (self.poles[k], &self.participation[k]);
+        let mut masses = self.start_mass().map(Complex::from);
+        for k in (0..self.poles.len()).filter(|k| !left_out.contains(k)) {
+            let pole = self.poles[k];
             let factor = (pole - x).inv();
             let by_square = factor * factor * x * (2.0 * pole - x);
-            for (e, (i, j)) in entries.into_iter().enumerate() {
-                sums[e] += factor * (g[i] * g[j]);
-                masses[e] += by_square * (g[i] * g[j]);
+            for (e, residues) in self.residues.iter().enumerate() {
+                sums[e] += factor * residues[k];
+                masses[e] += by_square * residues[k];
             }
         }
-        let stiffness = std::array::from_fn(|e| {
-            let (i, j) = entries[e];
-            self.stiffness[i][j] - x * (self.mass[i][j] + x * sums[e])
-        });
-        (stiffness, masses)
+        (self.total(x, sums), masses)
+    }
+
+    /// `K_s − x (M_s + x Σ)` for the sums over the poles.
+    fn total(&self, x: Complex, sums: [Complex; E]) -> [Complex; E] {
+        let (stiffness, mass): ([f64; E], [f64; E]) = (self.start_stiffness(), self.start_mass());
+        from_fn(|e| stiffness[e] - x * (mass[e] + x * sums[e]))
     }
 
     /// The first `count` poles, and a few in place of all the others: what these answer to slow motion of the first
@@ -104,9 +164,10 @@ impl<const N: usize> PoleResidue<N> {
         let beyond = self.poles.len() - count;
         let g = DMat::from_fn(beyond, N, |k, i| self.participation[count + k][i]);
         let pole = |k: usize| self.poles[count + k];
-        let mut kept = self.clone();
-        kept.poles.truncate(count);
-        kept.participation.truncate(count);
+        let mut poles = self.poles[..count].to_vec();
+        let mut kept = self.participation[..count].to_vec();
+
+        // W, each mode's own answer to slow motion.
         let mut columns = DMat::from_fn(beyond, moving, |k, i| g[(k, i)] / pole(k));
         for mut column in columns.column_iter_mut() {
             let size = column.norm();
@@ -114,11 +175,12 @@ impl<const N: usize> PoleResidue<N> {
                 column /= size;
             }
         }
+
         // Motions that hardly differ from the others are none of their own.
         let gram = (columns.transpose() * &columns).symmetric_eigen();
-        let free: Vec<usize> = (0..moving).filter(|&i| gram.eigenvalues[i] > 1e-9).collect();
+        let free: Vec<usize> = (0..moving).filter(|&i| gram.eigenvalues[i] > MIN_OWN).collect();
         if free.is_empty() {
-            return (kept, DMat::zeros(beyond, 0));
+            return (Self::new(self.stiffness, self.mass, poles, kept), DMat::zeros(beyond, 0));
         }
         let basis = DMat::from_columns(
             &free
@@ -126,6 +188,8 @@ impl<const N: usize> PoleResidue<N> {
                 .map(|&i| &columns * gram.eigenvectors.column(i) / gram.eigenvalues[i].sqrt())
                 .collect::<Vec<_>>(),
         );
+
+        // Rayleigh and Ritz in what is left.
         let stiffness = basis.transpose() * DMat::from_fn(beyond, free.len(), |k, i| pole(k) * basis[(k, i)]);
         let ritz = stiffness.symmetric_eigen();
         let mut order: Vec<usize> = (0..free.len()).collect();
@@ -134,68 +198,26 @@ impl<const N: usize> PoleResidue<N> {
         let parts = basis * turn;
         let participation = parts.transpose() * g;
         for (k, &i) in order.iter().enumerate() {
-            kept.poles.push(ritz.eigenvalues[i]);
-            kept.participation.push(std::array::from_fn(|n| participation[(k, n)]));
+            poles.push(ritz.eigenvalues[i]);
+            kept.push(from_fn(|n| participation[(k, n)]));
         }
-        (kept, parts)
+        (Self::new(self.stiffness, self.mass, poles, kept), parts)
     }
 
     /// Number of poles below ω² = x.
     pub fn poles_below(&self, x: f64) -> usize {
         self.poles.partition_point(|pole| *pole < x)
     }
-}
 
-/// Entries of the platform end's stiffness, poles and residues each in a row, for sums in vector registers.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct EndSeries<const E: usize> {
-    pub(crate) poles: Vec<f64>,
-    pub(crate) residues: [Vec<f64>; E],
-    pub(crate) stiffness: [f64; E],
-    pub(crate) mass: [f64; E],
-}
-
-impl<const E: usize> EndSeries<E> {
-    pub(super) fn of<const N: usize>(all: &PoleResidue<N>, entries: [(usize, usize); E]) -> Self {
-        Self {
-            poles: all.poles.clone(),
-            residues: entries.map(|(i, j)| all.participation.iter().map(|g| g[i] * g[j]).collect()),
-            stiffness: entries.map(|(i, j)| all.stiffness[i][j]),
-            mass: entries.map(|(i, j)| all.mass[i][j]),
-        }
-    }
-
-    /// Places of the poles nearer to x than the part `width`.
+    /// Places of the poles nearer to x than the fraction `width` of it.
     pub(super) fn near(&self, x: f64, width: f64) -> Range<usize> {
         let from = self.poles.partition_point(|pole| *pole < x * (1.0 - width));
         let count = self.poles[from..].iter().take_while(|pole| **pole < x * (1.0 + width)).count();
         from..from + count
     }
-
-    /// Undamped entries at x = ω², without the poles `left_out`.
-    pub(super) fn undamped(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
-        let mut sums = [0.0; E];
-        for range in [0..left_out.start, left_out.end..self.poles.len()] {
-            let poles = &self.poles[range.clone()];
-            let residues: [&[f64]; E] = std::array::from_fn(|e| &self.residues[e][range.clone()]);
-            let whole = poles.len() / LANES * LANES;
-            let mut lanes = [[0.0; LANES]; E];
-            for (k, block) in poles.chunks_exact(LANES).enumerate() {
-                let factors: [f64; LANES] = std::array::from_fn(|i| 1.0 / (block[i] - x));
-                for (lanes, residues) in lanes.iter_mut().zip(residues) {
-                    let block = &residues[k * LANES..(k + 1) * LANES];
-                    for i in 0..LANES {
-                        lanes[i] += block[i] * factors[i];
-                    }
-                }
-            }
-            for ((sum, lanes), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
-                *sum += lanes.iter().sum::<f64>();
-                for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
-                    *sum += residue / (pole - x);
-                }
-            }
-        }
-        std::array::from_fn(|e| self.stiffness[e] - x * (self.mass[e] + x * sums[e]))
-    }
 }
+
+/// Eigenvalue of the Gram matrix of unit motions up to which a motion is none of its own: the square of its angle to the
+/// others. Rounding of the motions leaves 1e-16 of noise, whose poles would be anywhere; at more than 1e-6 a cable that
+/// hangs nearly straight would lose one of its two slow motions.
+const MIN_OWN: f64 = 1e-9;

@@ -71,7 +71,7 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
     }
 }
 
-impl<const N: usize> PoleResidue<N> {
+impl<const N: usize, const E: usize> PoleResidue<N, E> {
     /// Amplitudes of the clamped modes, normalised to unit modal mass, for motions of the ends at the square ω_c² [m √kg]:
     /// `q_k = ω_c² g_kᵀ u/(ω_k² − ω_c²)`.
     fn amplitudes(&self, ends: &[Complex; N], square: Complex) -> Vec<Complex> {

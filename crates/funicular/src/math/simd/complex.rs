@@ -141,12 +141,16 @@ pub(crate) fn sin_cos(x: Lane) -> (Lane, Lane) {
         -1.0 / 87_178_291_200.0,
         1.0 / 20_922_789_888_000.0,
     ];
+
     let (mut sine, mut cosine) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
+        // x = nπ/2 + r.
         let shifted = x[i] * std::f64::consts::FRAC_2_PI + ROUND;
         let quadrant = shifted.to_bits();
         let n = shifted - ROUND;
         let r = ((x[i] - n * A) - n * B) - n * C;
+
+        // Both series in r².
         let r2 = r * r;
         let mut s = SIN[6];
         let mut c = COS[7];
@@ -155,6 +159,7 @@ pub(crate) fn sin_cos(x: Lane) -> (Lane, Lane) {
             s = s * r2 + SIN[k];
             c = c * r2 + COS[k];
         }
+
         let s = r + r * r2 * s;
         let c = 1.0 + r2 * c;
         // Quadrants 1 and 3 exchange the two; sine is negative in 2 and 3, cosine in 1 and 2.

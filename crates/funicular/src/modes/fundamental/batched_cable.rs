@@ -85,6 +85,8 @@ impl Abreast {
         let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
         let terms = terms.min(MOST_TERMS);
+
+        // Elements of all cables in one list.
         let mut elements = Vec::with_capacity(2 * LANES);
         let mut chains = Vec::new();
         for i in members {
@@ -94,6 +96,8 @@ impl Abreast {
             }
             elements.extend(mesh.nodes.windows(2).map(|ends| (*i, ends[0], ends[1])));
         }
+
+        // Eight at a time side by side.
         let shapes = elements.chunks(LANES).map(|pack| {
             let mut shapes = Shapes::default();
             for lane in 0..LANES {

@@ -60,11 +60,14 @@ impl Reduced {
 /// Stiffness and mass of a group's kept unknowns such that K − xM and its slope are right at x.
 fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
     let mut stiffness = group.kept(x, degree_of_start(group));
+
+    // Mass of the motions that follow a unit of each kept unknown.
     let unit = |k: usize| {
         let one = |j: usize| if j == k { [1.0; LANES] } else { [0.0; LANES] };
         group.moved(from_fn(one), from_fn(one))
     };
     let units = [unit(0), unit(1), unit(2)];
+
     let mut masses = Kept::default();
     for (row, motion) in units.iter().enumerate() {
         for (column, other) in units[..=row].iter().enumerate() {
@@ -75,6 +78,8 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
             }
         }
     }
+
+    // K at x, moved by x M.
     for (k, m) in stiffness.plane.iter_mut().zip(&masses.plane).chain(stiffness.across.iter_mut().zip(&masses.across)) {
         for i in 0..LANES {
             k[i] += x * m[i];

@@ -42,10 +42,13 @@ impl pulp::WithSimd for Factorise<'_> {
         let mut negative = 0;
         let mut all = Vec::with_capacity(kept.len());
         for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
+            // Signs of the pivots of what each cable has eliminated.
             for lane in 0..cables.len() {
                 let pivots = [k.least_pivot[lane], k.least_pivot[lane], k.plane[5][lane], k.across[2][lane]];
                 negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
             }
+
+            // Its bubbles go out, and what is left stands over the platform's coordinates.
             let mut bubbles = Bubbles::default();
             let [nn, en, ee, qn, qe, qq] = &k.plane;
             let [oo, bo, bb] = &k.across;
@@ -58,6 +61,7 @@ impl pulp::WithSimd for Factorise<'_> {
                 let en = part.mul_add(qn, by_qe, part.of(en));
                 let ee = part.mul_add(qe, by_qe, part.of(ee));
                 let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_across)), part.of(oo));
+
                 let mut entry = entries.iter_mut();
                 for j in 0..6 {
                     let (normal, along) = (part.of(&arms.normal[j]), part.of(&arms.along[j]));
@@ -68,12 +72,14 @@ impl pulp::WithSimd for Factorise<'_> {
                         part.set(entry, arms.wrench(part, i, [by_n, by_e, by_b]));
                     }
                 }
+
                 part.set(&mut bubbles.normal, qn);
                 part.set(&mut bubbles.along, qe);
                 part.set(&mut bubbles.out, bo);
                 part.set(&mut bubbles.inverse, inverse);
                 part.set(&mut bubbles.inverse_across, inverse_across);
             }
+
             let mut entry = entries.iter();
             for j in 0..6 {
                 for (i, entry) in (j..6).zip(&mut entry) {
@@ -82,6 +88,8 @@ impl pulp::WithSimd for Factorise<'_> {
             }
             all.push(bubbles);
         }
+
+        // The platform.
         for k in 0..n {
             negative += usize::from(not_positive(d[(k, k)]));
             let inverse = 1.0 / d[(k, k)];
@@ -114,6 +122,8 @@ impl Factor {
     pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &Pencil, force: &Motion, into: &mut Motion) {
         let n = pencil.freedoms;
         let mut v = *force.platform();
+
+        // Bubbles to platform.
         for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
             let mut wrench = [[0.0; LANES]; 6];
@@ -133,6 +143,8 @@ impl Factor {
                 *v -= sum(wrench);
             }
         }
+
+        // The platform.
         for j in 0..n {
             for i in j + 1..n {
                 v[i] -= self.platform[(i, j)] * v[j];
@@ -144,6 +156,8 @@ impl Factor {
                 v[j] -= self.platform[(i, j)] * v[i];
             }
         }
+
+        // And back to the bubbles.
         *into.platform_mut() = v;
         for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);

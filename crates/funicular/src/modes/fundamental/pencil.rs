@@ -40,6 +40,8 @@ impl Pencil {
     /// None if a cable is none that this way knows.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let Still { mut constant, mass, coordinates } = dynamics::still(robot, equilibrium);
+
+        // Cables with mass, and the stiffness of the others.
         let mut massive = Vec::with_capacity(equilibrium.cables.len());
         let mut curves = Vec::with_capacity(equilibrium.cables.len());
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -55,6 +57,8 @@ impl Pencil {
             massive.push((i, hanging));
             curves.push((&hanging.catenary, mass_per_length));
         }
+
+        // Side by side in groups, with their axes.
         let groups = Abreast::groups(&curves)?;
         let (mut arms, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
         for group in &groups {
@@ -70,6 +74,7 @@ impl Pencil {
             arms.push(axes);
             members.push(group.members().iter().map(|at| massive[*at].0).collect());
         }
+
         let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
         let (freedoms, cable_count) = (coordinates.count(), robot.cables.len());
         let (motions, ell) = (coordinates.freedoms(), coordinates.ell());
@@ -80,6 +85,8 @@ impl Pencil {
     pub(super) fn first(&mut self) -> Option<First> {
         let mut groups = std::mem::take(&mut self.groups);
         let cut = groups.iter().any(Abreast::is_cut);
+
+        // A rough search in matrices condensed at rest.
         let mut start = Reduced::of(&mut groups);
         let metric = start.mass.clone();
         let motion = self.any_motion(&metric, 0);
@@ -87,8 +94,11 @@ impl Pencil {
         if cut {
             near = self.nearer(near, &mut start, &mut groups)?;
         }
+
+        // The exact one, with all unknowns.
         let degrees = groups.iter().map(|group| degree_of_start(group) + 1).collect();
         let mut whole = Whole { groups: &mut groups, degrees };
+
         // Below rather than above, where another motion may be the nearest.
         let x = if cut { 0.95 * near.square } else { near.square };
         near.motions.truncate(1);
@@ -151,6 +161,8 @@ impl Pencil {
             }
             part.set(&mut platform, sum);
         }
+
+        // Cables, and what their ends do to the platform.
         for (group, (arms, mass)) in self.arms.iter().zip(masses).enumerate() {
             let [q, p] = y.bubbles(group);
             let [force_q, force_p] = into.bubbles_mut(group);
@@ -162,7 +174,9 @@ impl Pencil {
                 }
                 let [nn, en, ee, qn, qe, qq] = plane;
                 let [oo, bo, bb] = [part.of(&mass.across[0]), part.of(&mass.across[1]), part.of(&mass.across[2])];
+
                 let ([n, e, b], q, p) = (arms.ends(part, motion), part.of(q), part.of(p));
+
                 let forces = [
                     part.mul_add(nn, n, part.mul_add(en, e, part.mul(qn, q))),
                     part.mul_add(en, n, part.mul_add(ee, e, part.mul(qe, q))),
@@ -174,6 +188,7 @@ impl Pencil {
                     part.set(wrench, arms.wrench(part, i, forces));
                 }
             }
+
             for (platform, wrench) in platform.iter_mut().zip(&wrench) {
                 *platform += sum(wrench);
             }
@@ -194,10 +209,13 @@ impl Pencil {
                 cable_energy_fractions[*cable] = mass / found.mass;
             }
         }
+
+        // Energy and motion of the platform.
         let motion = &found.motions[0];
         let platform_energy_fraction = self.platform_mass(motion, motion) / found.mass;
         let motion_w = self.motions.expanded(&Vec6::from_column_slice(&motion.platform()[..6]));
         let largest = motion_w[motion_w.iamax()];
+
         // What moves a platform at rest is rounding.
         let at_rest = platform_energy_fraction < 1e-15;
         let shape = from_fn(|i| match i {
@@ -205,6 +223,7 @@ impl Pencil {
             0..3 => motion_w[i] / largest,
             _ => motion_w[i] / largest / self.ell,
         });
+
         First {
             frequency_hz: found.square.sqrt() / TAU,
             kind: Kind::of(platform_energy_fraction),

@@ -43,7 +43,61 @@ pub(super) struct Found {
     pub(super) cables: Vec<Lane>,
 }
 
-/// The lowest eigenvalue within the aim's width, from a shift x and motions near it; none if the pencil is not positive
+/// The interval that holds the lowest eigenvalue, as far as it is known.
+struct Bracket {
+    /// Highest shift at which the pencil was positive definite.
+    low: f64,
+    /// Lowest Rayleigh quotient, or shift with an eigenvalue below.
+    high: f64,
+    /// Last Rayleigh quotient that led downwards.
+    leading: f64,
+}
+
+impl Bracket {
+    /// Takes the inertia of the pencil at a shift: so many eigenvalues lie below. False at a shift of zero with any: then
+    /// the pencil is not positive definite at rest.
+    fn narrow(&mut self, x: f64, negative: usize) -> bool {
+        if negative == 0 {
+            self.low = x;
+            return true;
+        }
+        self.high = self.high.min(x);
+        x > 0.0
+    }
+
+    /// Takes a Rayleigh quotient. False if it leads nowhere: a quotient that does not fall belongs to another mode.
+    fn lower_to(&mut self, quotient: f64) -> bool {
+        let leads = quotient > 0.0 && quotient <= self.high && quotient < self.leading;
+        if leads {
+            (self.leading, self.high) = (quotient, quotient);
+        }
+
+        // A lower bound of a coarser discretisation may lie above.
+        if self.low >= self.high {
+            self.low = WITHIN_COARSE * self.high;
+        }
+        leads
+    }
+
+    /// A shift inside, nearer to its upper end, where the eigenvalue usually is.
+    fn inside(&self) -> f64 {
+        if self.low > 0.0 { 0.25 * self.low + 0.75 * self.high } else { 0.75 * self.high }
+    }
+}
+
+/// Fraction of an upper bound that is taken for a lower one where a coarse discretisation has given one above it. The
+/// coarsest has two digits (see [`degree_of_start`](super::condensed_cables::degree_of_start)), so 0.9 is safe; much less
+/// would forget what is known.
+const WITHIN_COARSE: f64 = 0.9;
+
+/// What an evaluation has found.
+struct Claim {
+    found: Found,
+    /// The pencil of a finer discretisation at the next shift proves it by being positive definite there.
+    provable: bool,
+}
+
+/// Lowest eigenvalue within the aim's width, from a shift x and motions near it; none if the pencil is not positive
 /// definite at rest, or the search does not end.
 ///
 /// Inverse iteration at each shift; the next shift is half the width below the quotient, so that the search ends with the
@@ -57,32 +111,30 @@ pub(super) fn lowest(
     mut motions: Vec<Motion>,
     aim: &Aim,
 ) -> Option<Found> {
-    let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+    let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, leading: f64::INFINITY };
     let mut kept = Vec::with_capacity(metric.len());
-    let mut before = f64::INFINITY;
-    let mut refined = false;
-    let mut last: Option<Found> = None;
+    let mut claim: Option<Claim> = None;
+
     for _ in 0..MOST_EVALUATIONS {
+        // Bracket: the eigenvalues below the shift are counted.
         cables.kept(x, &mut kept);
         let factor = Factor::of(pencil, &kept, x);
-        if let Some(found) = last.take() {
-            // A finer discretisation has nothing below either.
-            if aim.checked && refined && factor.negative == 0 {
+        if !bracket.narrow(x, factor.negative) {
+            return None;
+        }
+
+        // Verify: no eigenvalue lies below the shift that the last quotient led to. A finer discretisation has nothing
+        // below either.
+        if let Some(Claim { found, provable }) = claim.take() {
+            if provable && factor.negative == 0 {
                 return Some(found);
             }
             motions = found.motions;
         }
-        if factor.negative == 0 {
-            low = x;
-        } else if x == 0.0 {
-            return None;
-        } else {
-            high = high.min(x);
-        }
+
+        // Iterate: the motions come nearer to the lowest ones. Where several eigenvalues lie below, as many go along.
         if factor.negative > 1 {
-            motions.extend(
-                (motions.len()..factor.negative.clamp(2, BLOCK)).map(|number| pencil.any_motion(metric, number)),
-            );
+            add_any_motions(pencil, metric, &mut motions, factor.negative.min(BLOCK));
         }
         let mut found = improved(pencil, cables, metric, &factor, x, std::mem::take(&mut motions), aim);
         let quotient = found.square;
@@ -92,30 +144,26 @@ pub(super) fn lowest(
         if !aim.checked && factor.negative == 0 && quotient - x <= aim.width * quotient {
             return Some(found);
         }
-        let next = quotient * (1.0 - 0.5 * aim.width);
-        // A quotient that does not fall belongs to another mode.
-        let leads = quotient > 0.0 && quotient <= high && quotient < before;
-        // Only a shift that a coarser discretisation led to checks this one.
-        refined = leads && (quotient - x).abs() < CLOSE * quotient;
-        if refined {
+
+        // The next shift: just below the quotient, or between what is known. Only a shift that a coarser discretisation
+        // led to checks this one.
+        let leads = bracket.lower_to(quotient);
+        let close = leads && (quotient - x).abs() < CLOSE * quotient;
+        if close {
             cables.refine();
         }
-        if leads {
-            (before, high) = (quotient, quotient);
-        } else {
-            let more = found.motions.len()..BLOCK;
-            found.motions.extend(more.map(|number| pencil.any_motion(metric, number)));
+        if !leads {
+            add_any_motions(pencil, metric, &mut found.motions, BLOCK);
         }
-        last = Some(found);
-        // A lower bound of a coarser discretisation may lie above.
-        low = if low < high { low } else { 0.9 * high };
-        x = match () {
-            () if leads => next,
-            () if low > 0.0 => 0.25 * low + 0.75 * high,
-            () => 0.75 * high,
-        };
+        x = if leads { quotient * (1.0 - 0.5 * aim.width) } else { bracket.inside() };
+        claim = Some(Claim { found, provable: aim.checked && close });
     }
     None
+}
+
+/// Adds motions of no particular shape until there are `count`.
+fn add_any_motions(pencil: &Pencil, metric: &[Kept], motions: &mut Vec<Motion>, count: usize) {
+    motions.extend((motions.len()..count).map(|number| pencil.any_motion(metric, number)));
 }
 
 /// Relative distance of a shift from its quotient below which a coarse discretisation would be felt.
@@ -134,7 +182,8 @@ fn improved(
     let Iterated { motions, work, ends } =
         pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, aim });
     let count = motions.len();
-    // Of each pair of motions, the masses of the cables in groups.
+
+    // Masses of the cables in groups, for each pair of motions.
     let mut parts = vec![Vec::with_capacity(ends.len()); place(count, 0)];
     for (group, ends) in ends.iter().enumerate() {
         for (part, masses) in parts.iter_mut().zip(cables.mass(group, ends)) {
@@ -145,6 +194,7 @@ fn improved(
         let by_cables: f64 = parts[place(i.max(j), i.min(j))].iter().map(sum).sum();
         pencil.platform_mass(&motions[i], &motions[j]) + by_cables
     };
+
     if count == 1 {
         let mass = mass(0, 0);
         return Found { square: x + work[0] / mass, mass, motions, cables: parts.swap_remove(0) };
@@ -177,6 +227,8 @@ impl pulp::WithSimd for Iteration<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> Iterated {
         let Self { pencil, metric, factor, x, mut motions, aim } = self;
         let count = motions.len();
+
+        // B y of each motion.
         let (mut forces, mut images) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for motion in &motions {
             let mut force = Motion::any(metric.len());
@@ -184,6 +236,8 @@ impl pulp::WithSimd for Iteration<'_> {
             forces.push(force);
             images.push(Motion::any(metric.len()));
         }
+
+        // Inverse iteration until the least quotient stands still.
         let mut before = f64::INFINITY;
         for _ in 0..aim.steps {
             // A z = B y, so zᵀ A z without another product.
@@ -191,6 +245,7 @@ impl pulp::WithSimd for Iteration<'_> {
             let mut least = f64::INFINITY;
             for k in 0..count {
                 factor.solve(simd, pencil, &images[k], &mut motions[k]);
+
                 // Apart from each other, or all become the first.
                 let (done, rest) = motions.split_at_mut(k);
                 let (images_done, images_rest) = images.split_at_mut(k);
@@ -201,6 +256,8 @@ impl pulp::WithSimd for Iteration<'_> {
                     motion.add(simd, -part, &done[i]);
                     image.add(simd, -part, &images_done[i]);
                 }
+
+                // To unit length, with the force that goes along.
                 pencil.inertia(simd, metric, motion, force);
                 let size = 1.0 / force.dot(simd, motion).sqrt();
                 for vector in [&mut *force, &mut *motion, &mut *image] {
@@ -208,17 +265,21 @@ impl pulp::WithSimd for Iteration<'_> {
                 }
                 least = least.min(motion.dot(simd, image));
             }
+
             if (least - before).abs() <= 0.01 * least.abs() + 0.1 * aim.width * (x + least).abs() {
                 break;
             }
             before = least;
         }
+
+        // Products of all pairs, and the motion of the kept unknowns.
         let mut work = Vec::with_capacity(count * count);
         for motion in &motions {
             for image in &images {
                 work.push(motion.dot(simd, image));
             }
         }
+
         let mut ends = Vec::with_capacity(metric.len());
         for (group, arms) in pencil.arms.iter().enumerate() {
             let mut of_group = Vec::with_capacity(count);
@@ -227,6 +288,7 @@ impl pulp::WithSimd for Iteration<'_> {
             }
             ends.push(of_group);
         }
+
         Iterated { motions, work, ends }
     }
 }
@@ -257,6 +319,8 @@ impl pulp::WithSimd for Sum<'_> {
 fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec<Lane>]) -> Found {
     let count = motions.len();
     let groups = parts[0].len();
+
+    // L⁻¹ A L⁻ᵀ with the mass L Lᵀ has the quotients as its eigenvalues.
     let factor = mass.clone().cholesky();
     let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
         return Found { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
@@ -266,6 +330,8 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec
     let vectors = inverse.transpose() * &eigen.eigenvectors;
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+
+    // Motions, ascending, and the masses of the cables in the first.
     let motion = |&k: &usize| {
         let factors = vectors.column(k).iter().copied().collect();
         pulp::Arch::new().dispatch(Sum { motions: &motions, factors, groups })
@@ -283,6 +349,7 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec
         }
         masses
     };
+
     Found {
         square: x + eigen.eigenvalues[order[0]],
         motions: order.iter().map(motion).collect(),

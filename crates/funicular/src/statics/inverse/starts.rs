@@ -3,7 +3,7 @@
 //! Next to a pose that straight cables cannot hold, or hold only with enormous tensions, slack ones may rest stably. Their
 //! forces bend away from the chord, so that neither the straight tensions nor their derivatives point to the solution.
 
-use super::{Balanced, at_tension, balanced, lengthened, tightened, unbalanced};
+use super::{Balanced, LEAST_STRAIN, at_tension, balanced, lengthened, tightened, unbalanced};
 use crate::catenary::space::HangingCable;
 use crate::math::Mat6;
 use crate::platform::{Coordinates, load_size};
@@ -34,6 +34,20 @@ const HANDED_OVER: f64 = 1e-4;
 /// Limits of the damping, in parts of the mean square of the derivatives.
 const MIN_DAMPING: f64 = 1e-15;
 const MAX_DAMPING: f64 = 1e6;
+
+/// The damping at first, and its factors after a step that does not gain and one that does. From far less the first step
+/// leaves the place where its derivatives hold; from far more the first ten are wasted.
+const FIRST_DAMPING: f64 = 1e-2;
+const MORE_DAMPING: f64 = 5.0;
+const LESS_DAMPING: f64 = 0.2;
+
+/// Residual over [`HANDED_OVER`] at which a way ends for the undamped iteration to go on.
+const WELL_HANDED_OVER: f64 = 0.01;
+
+/// Range of tensions at the start over the cable's weight, where the platform weighs less: a level cable sags by its whole
+/// chord at the lower end, by a sixteenth at the upper one.
+const DEEPEST: f64 = 0.2;
+const TAUTEST: f64 = 2.0;
 
 /// Largest change of the logarithm of a tension or of a length in one step.
 const MAX_CHANGE: f64 = 2.0;
@@ -108,8 +122,8 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
     let cables = loaded.iter().zip(SPREAD);
     let hung = cables.map(|(cable, spread)| {
         let chord = cable.chord_w(pose).norm();
-        let weight = (cable.load.size * chord).max(1e-9 * cable.axial_stiffness());
-        let (low, high) = (0.2 * weight, load_size(robot).max(2.0 * weight));
+        let weight = (cable.load.size * chord).max(LEAST_STRAIN * cable.axial_stiffness());
+        let (low, high) = (DEEPEST * weight, load_size(robot).max(TAUTEST * weight));
         let part = ((k as f64 + 1.0) * spread).fract();
         cable.hang_with_tension(pose, low * (high / low).powf(part))
     });
@@ -122,9 +136,9 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
 fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balanced {
     let coordinates = Coordinates::of(robot);
     let (mut wrench, mut residual) = unbalanced(robot, &coordinates, pose, &hanging);
-    let mut damping = 1e-2;
+    let mut damping = FIRST_DAMPING;
     let mut iterations = 0;
-    while iterations < MAX_STEPS && residual > 0.01 * HANDED_OVER {
+    while iterations < MAX_STEPS && residual > WELL_HANDED_OVER * HANDED_OVER {
         iterations += 1;
 
         // Derivatives of the wrench by the logarithms.
@@ -150,12 +164,12 @@ fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balance
         let (before, after) = (left.norm(), coordinates.reduce(&next_wrench).norm());
         if after < before {
             (hanging, wrench, residual) = (next, next_wrench, next_residual);
-            damping = (0.2 * damping).max(MIN_DAMPING);
+            damping = (LESS_DAMPING * damping).max(MIN_DAMPING);
             if after > SLOW * before {
                 break;
             }
         } else {
-            damping *= 5.0;
+            damping *= MORE_DAMPING;
             if damping > MAX_DAMPING {
                 break;
             }

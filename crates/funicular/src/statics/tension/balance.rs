@@ -29,12 +29,16 @@ impl Solutions {
         directions: bool,
     ) -> Option<Self> {
         let cables = columns.len();
+
+        // The columns of the transposed balance.
         let mut reflectors = vec![0.0; cables * freedoms];
         for j in 0..freedoms {
             for i in 0..cables {
                 reflectors[j * cables + i] = columns[i][j] / scales[i];
             }
         }
+
+        // Householder's QR.
         let mut triangle = [[0.0; 6]; 6];
         for j in 0..freedoms {
             let (done, rest) = reflectors.split_at_mut((j + 1) * cables);
@@ -52,6 +56,8 @@ impl Solutions {
             here[j..].iter_mut().for_each(|x| *x *= scale);
             rest.chunks_exact_mut(cables).for_each(|column| reflect(&here[j..], &mut column[j..]));
         }
+
+        // Q from the reflectors.
         let mut basis = vec![0.0; cables * if directions { cables } else { freedoms }];
         for (k, column) in basis.chunks_exact_mut(cables).enumerate() {
             column[k] = 1.0;
@@ -62,11 +68,13 @@ impl Solutions {
         if condition(&triangle, freedoms) > SINGULAR {
             return None;
         }
+
         // Rᵀ y = b.
         let mut y = [0.0; 6];
         for j in 0..freedoms {
             y[j] = (right[j] - (0..j).map(|k| triangle[j][k] * y[k]).sum::<f64>()) / triangle[j][j];
         }
+
         let mut particular = vec![0.0; cables];
         for (y, column) in y.iter().zip(basis.chunks_exact(cables)).take(freedoms) {
             particular.iter_mut().zip(column).for_each(|(p, q)| *p += y * q);

@@ -128,16 +128,20 @@ fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) 
     let mut active: Vec<Active<M>> = Vec::with_capacity(walls.dimension() + 1);
     // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
     for _ in 0..100 * (walls.dimension() + 1) {
+        // The most violated inequality.
         let Some((row, mut lack)) = walls.most_violated(x, tolerance) else {
             if walls.restore(x) {
                 continue;
             }
             return Some(active);
         };
+
+        // Towards it, dropping what blocks the way.
         let mut multiplier = M::ZERO;
         loop {
             let free = walls.split(row);
             let squared: f64 = walls.rest().iter().map(|z| z * z).sum();
+
             // How far until a multiplier vanishes, and until the inequality holds.
             let mut blocking: Option<(M, usize)> = None;
             for (at, (held, share)) in active.iter().zip(walls.shares()).enumerate() {
@@ -148,9 +152,12 @@ fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) 
                     }
                 }
             }
+
             let full = free.then(|| lack / squared);
             let blocked = blocking.filter(|(until, _)| full.is_none_or(|full| *until < full));
             let step = blocked.map(|(until, _)| until).or(full)?;
+
+            // The step.
             for (held, share) in active.iter_mut().zip(walls.shares()) {
                 held.multiplier = held.multiplier.less(step * *share);
             }
@@ -159,6 +166,8 @@ fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) 
                 x.iter_mut().zip(walls.rest()).for_each(|(x, z)| *x = *x + step * *z);
                 lack = lack - step * squared;
             }
+
+            // It holds, or the one that blocks is dropped.
             let Some((_, at)) = blocked else {
                 walls.hold(row);
                 active.push(Active { row, multiplier });

@@ -2,7 +2,7 @@
 //!
 //! For any direction y, balance needs `y·e + Σ y·w_i(τ_i) = 0`, e being the load and w_i the wrench of a cable. If the sum
 //! of the load's share and the greatest share that every cable can have within its limits is negative, no tensions
-//! within the limits balance the platform, however the cables sag: (39b). The greatest shares are each a search in one
+//! within the limits balance the platform, however the cables sag: (39a). The greatest shares are each a search in one
 //! variable, along the true curve of the cable.
 
 use super::line::Line;
@@ -168,6 +168,7 @@ impl Claim<'_> {
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
         let mut verdict = Verdict { proved: false, farthest: Vec::new() };
+
         for _ in 0..=MAX_CUTS {
             let (proved, farthest) = self.examine(&y);
             if seen.is_empty() {
@@ -177,6 +178,8 @@ impl Claim<'_> {
                 verdict.proved = true;
                 break;
             }
+
+            // The cut of this direction.
             let wrench = farthest.iter().fold(self.load, |sum, point| sum + point.wrench);
             let Some(unit) = wrench.try_normalize(0.0) else { break };
             seen.push(std::array::from_fn(|k| unit[k]));

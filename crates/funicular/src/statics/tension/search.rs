@@ -235,9 +235,13 @@ impl<'a> Search<'a> {
         let mut last: Option<(Vec<f64>, Vec<Vec6>, Vec6)> = None;
         // Deeply sagging cables that overstep go on by shorter steps, until the last setback is well behind.
         let (mut part, mut last_change, mut setback) = (1.0_f64, f64::INFINITY, f64::INFINITY);
+
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
+
             let linear = self.linearise();
+
+            // Bend of each cable's line, from the last step.
             if let Some((tau, columns, prices)) = &last {
                 for (i, line) in self.lines.iter().enumerate() {
                     let moved = line.tau() - tau[i];
@@ -247,6 +251,8 @@ impl<'a> Search<'a> {
                     }
                 }
             }
+
+            // The linear problem.
             let Some(step) = self.step(&linear, target, &scales)? else {
                 self.least_violation()?;
                 last = None;
@@ -256,16 +262,21 @@ impl<'a> Search<'a> {
                 }
                 continue;
             };
+
+            // The end.
             let change = self.change(&step.tau);
             if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
             }
+
+            // How much of the step is taken.
             if change > 0.9 * last_change {
                 (part, setback) = ((0.5 * part).max(0.05), change);
             } else if change < 0.3 * setback {
                 part = (2.0 * part).min(1.0);
             }
             last_change = change;
+
             let before = self.tensions();
             let after: Vec<f64> = before.iter().zip(&step.tau).map(|(from, to)| from + part * (to - from)).collect();
             last = Some((before, linear.columns, step.prices));
@@ -281,6 +292,8 @@ impl<'a> Search<'a> {
             let tau = self.lines[i].tau();
             scales[i] * (tau - (tau - target[i]) / (scales[i] * scales[i]))
         };
+
+        // The limits.
         let mut room = Room::new(&solutions, false);
         let mut rows = Vec::with_capacity(2 * scales.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
@@ -292,6 +305,8 @@ impl<'a> Search<'a> {
                 rows.push((i, -1.0));
             }
         }
+
+        // The nearest point within them, and the multipliers of the balance.
         let found = room.nearest(aim, 0.0, self.tolerance(&solutions));
         let Some(Found { sigma, held: active, .. }) = found else { return Ok(None) };
         let mut pressed = vec![0.0; scales.len()];
@@ -308,10 +323,12 @@ impl<'a> Search<'a> {
         let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
         let mut stride = Stride::default();
         let mut reach = 1.0;
+
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
             let level = self.level(&linear, Some(&widths), &self.tensions(), stride.climb)?;
+
             if level.distance < -VIOLATION {
                 self.least_violation()?;
                 stride = Stride::default();
@@ -322,6 +339,7 @@ impl<'a> Search<'a> {
                 }
                 continue;
             }
+
             let change = self.change(&level.tau);
             if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
@@ -368,12 +386,14 @@ impl<'a> Search<'a> {
             self.set(&tau);
             return Ok(());
         }
+
         let minima: Vec<f64> = self.lines.iter_mut().map(Line::at_minimum).collect();
         let mut level = self.least_violation_above(&minima)?;
         if level.distance >= -VIOLATION * self.size {
             // There are such tensions; the next linear problem knows.
             return Ok(());
         }
+
         let slackest: Vec<f64> = self.lines.iter().map(|line| line.slackest).collect();
         if level.tau.iter().zip(&slackest).all(|(tau, slackest)| tau > slackest)
             && let Ok(hung) = self.least_violation_above(&slackest)
@@ -431,17 +451,22 @@ impl<'a> Search<'a> {
         let mut here = self.tensions();
         let mut stride = Stride::default();
         let mut mildest: Option<Level> = None;
+
         for iteration in 0..MOST_ITERATIONS {
             self.iterations += 1;
             let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
             self.set(&hung);
+
+            // The linear problem, from where cables hang at all.
             let linear = self.linearise();
             let level = self.level(&linear, None, &here, stride.climb)?;
+
             let change =
                 here.iter().zip(&level.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
             if change <= VIOLATION {
                 return Ok(level);
             }
+
             stride.next(change, self.size, level.height);
             here.clone_from(&level.tau);
             if iteration > MOST_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| level.height > mildest.height) {
@@ -468,6 +493,8 @@ impl<'a> Search<'a> {
         let solutions = self.room_for(linear, &vec![1.0; self.lines.len()])?;
         // The height is in N either way.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
+
+        // The limits.
         let mut room = Room::new(&solutions, true);
         let mut rows = Vec::with_capacity(3 * self.lines.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
@@ -488,12 +515,15 @@ impl<'a> Search<'a> {
             room.add(None, 1.0, -1.0, 0.0);
             rows.push(None);
         }
+
+        // The highest point.
         let tolerance = self.tolerance(&solutions);
         let found = match (climb, widths) {
             (Some(climb), _) => room.nearest(|i| here[i], climb.from + climb.by, tolerance),
             (None, None) => room.highest(|i| here[i], tolerance),
             (None, Some(_)) => room.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance),
         };
+
         let Some(Found { sigma: tau, height, held }) = found else {
             // Only the slackest cables can be in the way here: they bind harder than the limits.
             return match widths {
@@ -501,6 +531,8 @@ impl<'a> Search<'a> {
                 None => Err(self.unsettled(f64::INFINITY, STILL)),
             };
         };
+
+        // Which limits hold it.
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();

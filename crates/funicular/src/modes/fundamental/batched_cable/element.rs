@@ -74,8 +74,11 @@ impl Element {
     #[inline(always)]
     pub(super) fn new<S: Simd>(simd: S, s: &Shapes, terms: usize) -> Self {
         let mut coefficients = Lanes::any(PARTS * terms);
+
         // With as many points as terms, what is left out comes back in the last term at most.
         let rule = &RULES[terms - 1];
+
+        // C at the points of the rule, and its coefficients.
         let mut at_points = Lanes::any(PARTS * terms);
         for part in Part::all(simd) {
             for (xi, parts) in rule.points.iter().zip(at_points.chunks_exact_mut(PARTS)) {
@@ -96,6 +99,7 @@ impl Element {
                 }
             }
         }
+
         Self {
             degree: 0,
             coefficients,
@@ -114,16 +118,20 @@ impl Element {
     fn refine<S: Simd, const H: usize>(&mut self, simd: S, degree: usize) {
         let Self { coefficients, plane, across, .. } = self;
         let triples = &*TRIPLES;
+
         let functions = |degree: usize| if degree == 0 { 0 } else { degree + H - 1 };
         for f in functions(self.degree)..functions(degree) {
+            // Room for the row of the function.
             let (row, row_across) = (plane.len(), across.len());
             plane.resize(row + 4 * f + 3, Line::ZERO);
             across.resize(row_across + f + 1, Line::ZERO);
             let (of_n, of_e) = plane[row..].split_at_mut(2 * f + 1);
             let of_b = &mut across[row_across..];
+
             let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
             for part in Part::all(simd) {
                 for j in 0..=f {
+                    // Sum over the coefficients of C that both slopes have in common.
                     let (high, low) = (slope(f), slope(j));
                     let mut sums = [part.splat(0.0); PARTS];
                     let every_second =
@@ -235,6 +243,8 @@ fn factor<S: Simd, const D: usize, const H: usize>(
     for (entry, k) in matrix.iter_mut().zip(stiffness) {
         part.set(entry, part.of(k));
     }
+
+    // K − xM.
     let inertia = part.neg(part.of(inertia));
     for (k, j, mass) in MASSES[H - 1].of(functions) {
         let mass = part.mul(part.splat(*mass), inertia);
@@ -244,6 +254,8 @@ fn factor<S: Simd, const D: usize, const H: usize>(
             part.set(entry, less);
         }
     }
+
+    // From the last unknown down, four at a time.
     let n = D * functions;
     let odd = (n - kept) % ABREAST;
     let first = n - odd;
@@ -270,6 +282,8 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
         rest = further;
         row
     });
+
+    // The rows among each other.
     let mut inverses = [part.splat(0.0); R];
     for r in (0..R).rev() {
         let (lower, row) = rows.split_at_mut(r);
@@ -282,6 +296,8 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
             }
         }
     }
+
+    // What they take off the rows above.
     let rows: [&[Line]; R] = rows.map(|row| &row[..t]);
     // Two rows at a time share what they fetch.
     let mut row = t % 2;

@@ -31,6 +31,7 @@ impl Masses {
                     entries.push((f, f - 2, value));
                 }
             }
+
             let n = (f + 2).saturating_sub(hats) as f64;
             entries.push((f, f, if f < hats { 2.0 / 3.0 } else { 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)) }));
             ends.push(entries.len());

@@ -48,7 +48,9 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
     let (length, w) = (rope.unstrained_length, rope.weight_per_length);
     // C is singular at lowest ± i depth.
     let (lowest, depth) = (-catenary.vertical_force_at_start() / w, catenary.horizontal_force() / w);
+
     let distance = |s: f64| (s - lowest).hypot(depth);
+
     // An element much shorter than this distance would be stiff for nothing: the outermost one may have the lowest point
     // inside.
     let outermost = |end: f64| if (0.0..length).contains(&lowest) { 2.0 * depth } else { GROWTH * distance(end) };
@@ -59,6 +61,8 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
     } else {
         lowest
     };
+
+    // Elements to both sides.
     let side = |whole: f64, sign: f64| {
         let mut ends = Vec::new();
         let mut at = 0.0;
@@ -70,6 +74,7 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
         }
         ends
     };
+
     let [before, after] = [side(middle, -1.0), side(length - middle, 1.0)];
     let kept = before.len();
     let before = before.into_iter().rev().map(|distance| middle - distance);

@@ -35,6 +35,7 @@ impl Chain {
     /// Eliminates the nodes between elements that are condensed onto their ends; writes the lane of `into`.
     fn condense(&mut self, packs: &[Element], least_pivots: &[Lane], lane: usize, into: &mut Kept) {
         let mut least = self.of(least_pivots).fold(f64::INFINITY, f64::min);
+
         let entry = |factor: fn(&Element) -> &Lanes, e: usize, row: usize, column: usize| {
             let at = self.first + e;
             factor(&packs[at / LANES])[place(row.max(column), row.min(column))][at % LANES]
@@ -42,6 +43,8 @@ impl Chain {
         let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.plane_factor, e, row, column);
         let out_of_plane =
             |e: usize, row: usize, column: usize| entry(|element| &element.across_factor, e, row, column);
+
+        // In plane, where e of the kept node goes out last.
         let [own, between, kept] = self.plane.eliminate(in_plane, self.elements, self.kept, &mut least);
         let pivot = kept[(1, 1)];
         least = if pivot < least { pivot } else { least };
@@ -54,10 +57,13 @@ impl Chain {
                 into.plane[at][lane] = all[at] - level[row] * level[column] / pivot;
             }
         }
+
+        // Out of plane.
         let all = self.across.eliminate(out_of_plane, self.elements, self.kept, &mut least);
         for (into, k) in into.across.iter_mut().zip(all) {
             into[lane] = k[(0, 0)];
         }
+
         into.least_pivot[lane] = least;
     }
 
@@ -120,6 +126,8 @@ impl<const D: usize> Nodes<D> {
     ) -> [Block<D>; 3] {
         let part =
             |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
+
+        // The chain: nodes on the diagonal, neighbours beside it.
         let Self { inverse, next, end } = self;
         let mut own: Vec<Block<D>> = (0..elements).map(|e| part(e, 0, 0)).collect();
         for (e, block) in own.iter_mut().enumerate().skip(1) {
@@ -127,14 +135,17 @@ impl<const D: usize> Nodes<D> {
         }
         next.clear();
         next.extend((0..elements - 1).map(|e| part(e, 0, 1)));
+
         inverse.clear();
         inverse.resize(elements, Block::zeros());
+
         // From the anchor towards the kept node.
         for node in (kept + 1..elements).rev() {
             inverse[node] = inverted(&own[node], least_pivot);
             let before = next[node - 1];
             own[node - 1] -= before * inverse[node] * before.transpose();
         }
+
         // From the platform towards it.
         end.clear();
         end.extend([Block::zeros(), next[0]]);

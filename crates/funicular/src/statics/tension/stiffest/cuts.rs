@@ -26,17 +26,22 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
     let mut best = search.tensions();
     let mut stiffness = least_eigenvalue(search);
     let mut reach = f64::INFINITY;
+
     for _ in 0..MOST_LINEARISATIONS {
         let linear = search.linearise();
         let (next, promised) = stiffest_of_linear(search, &linear, reach)?;
         if promised - stiffness <= GAIN * stiffness.abs() {
             break;
         }
+
+        // Taken if stiffer, else nearer next time.
         let step = next.iter().zip(&best).fold(0.0, |m: f64, (to, from)| m.max((to - from).abs()));
+
         let reached = match search.nearest_to(&next) {
             Ok(()) => least_eigenvalue(search),
             Err(_) => f64::NEG_INFINITY,
         };
+
         if reached > stiffness {
             (best, stiffness) = (search.tensions(), reached);
             reach *= 2.0;
@@ -68,6 +73,8 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         .collect();
     // The height in the unit of tensions.
     let unit = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.amax())).max(f64::MIN_POSITIVE);
+
+    // The limits, and how far.
     let mut set = Polyhedron::new(solutions.redundancy() + 1);
     for (i, [lower, upper]) in linear.limits.iter().enumerate() {
         let particular = solutions.particular[i];
@@ -76,18 +83,24 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         set.add(solutions.part(i), 1.0, Some(0.0), least - particular);
         set.add(solutions.part(i), -1.0, Some(0.0), particular - most);
     }
+
+    // Cuts, each round those of the lowest eigenvectors.
     let mut z = solutions.along(|i| here[i]);
     let mut best = (here.clone(), f64::NEG_INFINITY);
+
     for _ in 0..MOST_ROUNDS {
         let tau = solutions.at(&z);
         let mut there = stiffness;
         for ((rate, to), from) in rates.iter().zip(&tau).zip(&here) {
             there += rate * (to - from);
         }
+
         let (values, vectors) = inertia::eigen(&there, freedoms);
         if values[0] > best.1 {
             best = (tau, values[0]);
         }
+
+        // Each eigenvector bounds the stiffness from above.
         for q in vectors.iter().take(CUTS) {
             let slopes: Vec<f64> = rates.iter().map(|rate| q.dot(&(rate * q)) / unit).collect();
             let level = form(&stiffness, q) / unit
@@ -95,6 +108,8 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
             let normal = solutions.along(|i| slopes[i]);
             set.add(normal.iter(), 1.0, Some(-1.0), -level);
         }
+
+        // The highest point under all cuts.
         let height = best.1 / unit;
         let mut point = z.clone();
         point.push(height);
@@ -102,6 +117,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         if set.highest(&mut point, tolerance).is_none() {
             break;
         }
+
         let bound = point.pop().unwrap_or(height);
         z = point;
         if bound - height <= 0.1 * GAIN * height.abs() + tolerance {

@@ -83,9 +83,13 @@ impl Model {
         let tau = search.tensions();
         let solutions = search.solutions(&linear, &vec![1.0; tau.len()]).ok()?;
         let balanced = solutions.at(&solutions.along(|i| tau[i]));
+
+        // Eigenvalues near the lowest.
         let rounding = 1e-13 * stiffness.amax();
         let near = values[0] + NEAR * values[0].abs() + rounding;
         let count = values.iter().take_while(|value| **value <= near).count();
+
+        // How cables turn these motions, per tension.
         let rates: Vec<Rates> = search.lines().iter().map(Line::rates).collect();
         let turned: Vec<Vec<Vec6>> = vectors[..count]
             .iter()
@@ -95,10 +99,13 @@ impl Model {
                 cables.map(|(line, rates)| freedoms.reduced(&line.applied(&rates.first, &motion))).collect()
             })
             .collect();
+
         let form = |sum: &dyn Fn(&[Vec6]) -> Vec6| {
             let columns: Vec<Vec6> = turned.iter().map(|turned| sum(turned)).collect();
             DMat::from_fn(count, count, |a, b| vectors[a].dot(&columns[b]))
         };
+
+        // The block of them at the balanced tensions, and by directions.
         let moved = form(&|turned| (0..tau.len()).map(|i| turned[i] * (balanced[i] - tau[i])).sum());
         let block = DMat::from_fn(count, count, |a, b| if a == b { values[a] } else { 0.0 }) + moved;
         let block_by_z = (0..solutions.redundancy())
@@ -106,6 +113,7 @@ impl Model {
                 form(&|turned| turned.iter().enumerate().map(|(i, turned)| turned * solutions.direction(k)[i]).sum())
             })
             .collect();
+
         let value = lowest(&block).0;
         Some(Self {
             linear,
@@ -159,7 +167,9 @@ impl Model {
                 .map(|i| components.iter().zip(&self.turned).map(|(x, turned)| turned[i] * *x).sum())
                 .collect();
             let motion: Vec6 = components.iter().zip(&self.vectors).map(|(x, q)| q * *x).sum();
+
             let bends = self.bends(search, &motion, &turned);
+
             // What the other eigenvectors give way: −2 bbᵀ over the gap.
             let others: Vec<(f64, Vec<f64>)> = (kept..self.values.len())
                 .map(|j| {
@@ -168,6 +178,7 @@ impl Model {
                     (-2.0 / gap, self.solutions.along(|i| by_cable[i]))
                 })
                 .collect();
+
             for k in 0..d {
                 for l in 0..=k {
                     let (n, m) = (self.solutions.direction(k), self.solutions.direction(l));
@@ -204,6 +215,8 @@ impl Model {
     pub(super) fn step(&self, search: &Search<'_>, weights: &Weights) -> Option<Step> {
         let d = self.solutions.redundancy();
         let slope = DMat::from_fn(d, 1, |k, _| self.block_by_z[k][(0, 0)]);
+
+        // Eigenvectors of H, scaled.
         let eigen = self.curvature(search, weights).symmetric_eigen();
         let flat = slope.norm() / search.size();
         let unit = eigen.eigenvalues.amax().max(1e-6 * flat).max(f64::MIN_POSITIVE);
@@ -211,6 +224,8 @@ impl Model {
         for (mut column, value) in turn.column_iter_mut().zip(&eigen.eigenvalues) {
             column /= (value.abs() / unit).max(1e-6).sqrt();
         }
+
+        // The limits.
         let tolerance = search.tolerance(&self.solutions);
         let one = self.turned.len() == 1;
         let mut set = Polyhedron::new(if one { d } else { d + 1 });
@@ -221,6 +236,8 @@ impl Model {
             set.add(normal.iter(), 1.0, last, least - self.balanced[i]);
             set.add(normal.iter(), -1.0, last, self.balanced[i] - upper.at);
         }
+
+        // The step.
         let free = turn.tr_mul(&slope) / unit;
         let (u, weights) = if one {
             let mut u: Vec<f64> = free.iter().copied().collect();
@@ -229,6 +246,8 @@ impl Model {
         } else {
             self.meeting(&mut set, &turn, unit, free.norm_squared(), tolerance)?
         };
+
+        // What it gains, and the tensions that it leads to.
         let u = DMat::from_vec(d, 1, u);
         let z = &turn * &u;
         let gain = lowest(&self.block_at(z.as_slice())).0 - self.value - 0.5 * unit * u.norm_squared();
@@ -257,6 +276,8 @@ impl Model {
         let (d, kept) = (self.block_by_z.len(), self.turned.len());
         let spread = (self.block[(kept - 1, kept - 1)] - self.value).abs() / unit;
         let scale = (HOLD / (size_squared + spread).max(f64::MIN_POSITIVE)).sqrt();
+
+        // A cut for each motion.
         let limits = set.len();
         let mut cuts: Vec<Vec6> = Vec::new();
         let mut add = |set: &mut Polyhedron, x: &DMat| {
@@ -269,16 +290,22 @@ impl Model {
             set.add((by_u / length).iter(), 1.0, Some(-height / length), -level / length);
             cuts.push(x.iter().zip(&self.vectors).map(|(x, q)| q * *x).sum());
         };
+
         for a in 0..kept {
             add(set, &DMat::from_fn(kept, 1, |b, _| if a == b { 1.0 } else { 0.0 }));
         }
+
         let mut best: Option<Cut> = None;
         for _ in 0..MOST_CUTS {
             let mut point = vec![0.0; d];
             point.push(1.0 / scale);
+
+            // The point under all cuts.
             let held = set.nearest(&mut point, tolerance)?;
             let promised = point.pop()? * unit / scale;
             let u = DMat::from_vec(d, 1, point);
+
+            // What the model has there.
             let (value, x) = lowest(&self.block_at((turn * &u).as_slice()));
             let distance = 0.5 * unit * u.norm_squared();
             let reached = value - self.value - distance;
@@ -287,6 +314,7 @@ impl Model {
                 let holding = holding.map(|held| (held.multiplier, held.row - limits)).collect();
                 best = Some(Cut { reached, u: u.as_slice().to_vec(), holding });
             }
+
             let most = best.as_ref().map_or(reached, |best| best.reached);
             if promised - distance - most <= 1e-3 * most + self.rounding {
                 break;

@@ -1,0 +1,67 @@
+//! `modes`: the list, its part in responses, shapes of cables.
+
+use super::{close, csv, json, number, numbers, succeed};
+
+#[test]
+fn modes_below_20_hz_are_147_and_certified() {
+    let value = json(&["modes", "ROBOT", "--below-hz", "20"]);
+    assert_eq!(value["count_below"], 147);
+    assert_eq!(value["certified"], true);
+    assert_eq!(value["cable_model"], "exact");
+    let modes = value["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 147);
+    for mode in modes {
+        assert!(["platform", "cable", "mixed"].contains(&mode["kind"].as_str().unwrap()));
+        assert_eq!(numbers(&mode["shape"]).len(), 6);
+        let energy =
+            number(&mode["platform_energy_fraction"]) + numbers(&mode["cable_energy_fractions"]).iter().sum::<f64>();
+        assert!(close(energy, 1.0, 1e-9));
+        assert!(number(&mode["damping_ratio"]) <= 0.003 + 1e-12);
+    }
+    let text = succeed(&["modes", "ROBOT", "--below-hz", "20"]);
+    assert!(
+        text.contains("Certified: the Wittrick–Williams count below 20 Hz is 147, the list has 147 modes"),
+        "{text}"
+    );
+    assert_eq!(csv(&["modes", "ROBOT", "--below-hz", "20"]).1.len(), 147);
+}
+
+#[test]
+fn modes_take_part_in_a_response_and_move_their_cables() {
+    let value =
+        json(&["modes", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "cable:3@0.5:az", "--stations", "5"]);
+    assert_eq!(value["damped_certified"], true);
+    assert_eq!(value["peak_unit"], "(m/s²)/N");
+    let stations = value["stations"].as_array().unwrap();
+    assert_eq!(stations.len(), 6);
+    let frf = json(&[
+        "frf",
+        "ROBOT",
+        "--from-hz",
+        "1.7",
+        "--to-hz",
+        "2",
+        "--points",
+        "3001",
+        "--input",
+        "fz",
+        "--output",
+        "cable:3@0.5:az",
+    ]);
+    let peak = frf["peaks"].as_array().unwrap().iter().map(|peak| number(&peak["magnitude"])).fold(0.0, f64::max);
+    let mut largest = 0.0_f64;
+    for mode in value["modes"].as_array().unwrap() {
+        let (zeta, [re, im]) = (number(&mode["damping_ratio"]), [0, 1].map(|i| number(&mode["eigenvalue_per_s"][i])));
+        assert!(re < 0.0 && close(zeta, -re / re.hypot(im), 1e-14));
+        assert!(number(&mode["modal_mass_kg"]) > 0.0);
+        let shapes = mode["cable_shapes"].as_array().unwrap();
+        assert!(shapes.len() == 6 && shapes.iter().all(|cable| cable.as_array().unwrap().len() == 5));
+        // Anchors are held.
+        assert!(shapes.iter().all(|cable| numbers(&cable[4]).iter().all(|u| u.abs() < 1e-9)));
+        if (1.7..2.0).contains(&number(&mode["frequency_hz"])) {
+            largest = largest.max(number(&mode["peak"]));
+        }
+    }
+    // One mode stands out, and is most of the peak.
+    assert!(close(largest, peak, 0.1 * peak), "{largest} {peak}");
+}

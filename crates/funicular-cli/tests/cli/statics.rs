@@ -1,0 +1,142 @@
+//! `statics`: keys, poses and lengths, tensions by rules, other equilibria, what is none.
+
+use super::{close, json, json_of, number, numbers, robot, run, stderr, stdout, succeed, yuan};
+use serde_json::Value;
+
+#[test]
+fn statics_has_the_published_pose_and_the_keys() {
+    let value = json(&["statics", "ROBOT"]);
+    let position = numbers(&value["pose"]["position_m"]);
+    for (found, expected) in position.iter().zip([0.020_304_9, 0.010_231_8, 0.455_485_0]) {
+        assert!(close(*found, expected, 1e-6), "{position:?}");
+    }
+    assert!(close(numbers(&value["pose"]["quaternion_wxyz"]).iter().map(|q| q * q).sum(), 1.0, 1e-12));
+    assert!(number(&value["residual"]) <= 1e-10);
+    assert_eq!(value["stable"], true);
+    assert_eq!(value["static_model"], "catenary");
+    assert!(number(&value["least_stiffness_n_per_m"]) > 0.0 && value["iterations"].is_u64());
+    let cables = value["cables"].as_array().unwrap();
+    assert_eq!(cables.len(), 6);
+    for key in ["unstrained_length_m", "tension_platform_n", "tension_anchor_n", "chord_m", "sag_ratio", "lambda2"] {
+        assert!(cables.iter().all(|cable| number(&cable[key]) > 0.0), "{key}");
+    }
+    assert_eq!(cables[0]["name"], "1");
+    let forces: Vec<f64> = cables.iter().map(|cable| numbers(&cable["force_on_platform_n"])[2]).collect();
+    assert!(close(forces.iter().sum(), 10.55 * 9.81, 1e-8), "the cables carry the weight");
+}
+
+#[test]
+fn pose_and_lengths_are_inverse_to_each_other() {
+    let there = json(&["statics", "ROBOT", "--pose", "-0.05,0.02,0.5,1,-2,3", "--mass-kg", "20"]);
+    let lengths: Vec<String> =
+        there["cables"].as_array().unwrap().iter().map(|c| c["unstrained_length_m"].to_string()).collect();
+    let back = json(&["statics", "ROBOT", "--lengths-m", &lengths.join(","), "--set", "platform.mass_kg=20"]);
+    for key in ["position_m", "roll_pitch_yaw_deg"] {
+        let (a, b) = (numbers(&there["pose"][key]), numbers(&back["pose"][key]));
+        assert!(a.iter().zip(&b).all(|(a, b)| close(*a, *b, 1e-7)), "{a:?} {b:?}");
+    }
+    assert!(close(numbers(&there["pose"]["position_m"])[0], -0.05, 1e-12));
+}
+
+#[test]
+fn tensions_of_a_redundant_robot_follow_the_rule_and_show_their_limits() {
+    let cogiro = robot("cogiro.toml");
+    let pose = ["statics", &cogiro, "--pose", "1,1,1.5"];
+    let of = |options: &[&str]| json(&[&pose, options].concat());
+    let tensions = |value: &Value| -> Vec<f64> {
+        value["cables"].as_array().unwrap().iter().map(|c| number(&c["tension_platform_n"])).collect()
+    };
+    let lowest = of(&[]);
+    assert_eq!(lowest["tension_rule"], "lowest");
+    assert!(number(&lowest["residual"]) <= 1e-10);
+    for cable in lowest["cables"].as_array().unwrap() {
+        assert_eq!((number(&cable["minimum_tension_n"]), number(&cable["maximum_tension_n"])), (100.0, 5000.0));
+        assert!(number(&cable["tension_margin_n"]) > -1e-4 && number(&cable["tension_margin"]) < 0.5);
+    }
+    let reached = |value: &Value| value["cables"].as_array().unwrap().iter().any(|c| c["limit_reached"] == "minimum");
+    let sum = |value: &Value| tensions(value).iter().sum::<f64>();
+    let wide = of(&["--max-tension-n", "800", "--min-tension-n", "265"]);
+    assert!(reached(&wide), "{wide}");
+    assert!(tensions(&wide).iter().all(|t| *t > 264.0 && *t < 800.0));
+    let middle = of(&["--tension-rule", "middle", "--max-tension-n", "800"]);
+    let least = |value: &Value| {
+        let margins = value["cables"].as_array().unwrap().iter().map(|c| number(&c["tension_margin_n"]));
+        margins.fold(f64::INFINITY, f64::min)
+    };
+    assert!(least(&middle) >= least(&of(&["--max-tension-n", "800"])));
+    let stiffest = of(&["--tension-rule", "stiffest", "--max-tension-n", "800"]);
+    let stiffness = |value: &Value| number(&value["least_stiffness_n_per_m"]);
+    assert!(stiffness(&stiffest) >= stiffness(&middle) && stiffness(&stiffest) >= stiffness(&lowest));
+    let closest = of(&["--wanted-tension-n", "450"]);
+    assert_eq!(closest["tension_rule"], "closest");
+    assert!(sum(&closest) > sum(&lowest));
+    let text = succeed(&pose);
+    assert!(text.contains("tensions by the rule `lowest`") && text.contains("100 to 5000"), "{text}");
+    // The other analyses start from the same state.
+    assert!(succeed(&["modes", &cogiro, "--pose", "1,1,1.5", "--below-hz", "3"]).contains("Certified"));
+}
+
+#[test]
+fn a_state_beyond_its_limits_is_warned_of_with_numbers() {
+    let output = run(&["statics", "ROBOT", "--max-tension-n", "50"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("more than its `maximum_tension_n`, 50 N"), "{}", stderr(&output));
+    let rope = "materials.rope-4mm.breaking_load_n=52";
+    let output = run(&["statics", "ROBOT", "--set", rope]);
+    assert!(stderr(&output).contains("its rope breaks at 52 N"), "{}", stderr(&output));
+}
+
+#[test]
+fn statics_names_another_stable_equilibrium_and_all_lists_them() {
+    let text = succeed(&["statics", "ROBOT"]);
+    assert!(text.contains("These lengths have another stable equilibrium"), "{text}");
+    let all = json(&["statics", "ROBOT", "--all"]);
+    let rows = all["equilibria"].as_array().unwrap();
+    assert!(rows.len() >= 4 && all.get("other_stable").is_none());
+    assert_eq!((&all["search"]["index_sum"], &all["search"]["expected_index_sum"]), (&0.into(), &0.into()));
+    assert_eq!((rows[0]["energy_j"].as_f64(), &rows[0]["stable"]), (Some(0.0), &true.into()));
+    assert!(rows[0]["distance_m"].as_f64().unwrap() < 1e-8);
+    assert!(rows.windows(2).all(|pair| pair[0]["energy_j"].as_f64() <= pair[1]["energy_j"].as_f64()));
+    let text = succeed(&["statics", "ROBOT", "--all"]);
+    assert!(text.contains("as many with an even as with an odd number of falling directions"), "{text}");
+    let csv = succeed(&["statics", "ROBOT", "--all", "--format", "csv"]);
+    assert!(csv.starts_with("stable,falling_directions,"), "{csv}");
+    assert_eq!(csv.lines().count(), rows.len() + 1);
+    let output = run(&["statics", "ROBOT", "--all", "--static-model", "ideal"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+}
+
+#[test]
+fn what_is_no_equilibrium_is_not_given_as_one() {
+    let refused = |args: &[&str], said: &str| {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+        assert!(stderr(&output).contains(said) && stdout(&output).is_empty(), "{}", stderr(&output));
+    };
+    refused(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,-1e-12]"], "the loads are too small for cables as stiff");
+    let push = ["statics", "ROBOT", "--static-model", "ideal", "--pose", "0,3,0.6"];
+    refused(&push, "cable \"2\" would need -138.0");
+    let text = succeed(&["statics", "ROBOT", "--set", "gravity_m_s2=[0,0,0]"]);
+    assert!(text.contains("No load and no tension: nothing to balance, after"), "{text}");
+}
+
+#[test]
+fn a_load_is_the_files_or_the_options() {
+    let file = format!("{}\n[loads]\nforce_n = [0, 0, -98.1]\n", yuan());
+    let of_file = json_of(&["statics", "-"], &file);
+    let of_options = json(&["statics", "ROBOT", "--force", "0,0,-98.1"]);
+    assert_eq!(of_file["pose"], of_options["pose"]);
+    assert_eq!(numbers(&of_options["load"]["force_n"]), [0.0, 0.0, -98.1]);
+    let none = json_of(&["statics", "-", "--force-n", "0,0,0"], &file);
+    let bare = json(&["statics", "ROBOT"]);
+    assert!(none["pose"] == bare["pose"] && bare.get("load").is_none());
+    assert!(succeed(&["statics", "ROBOT", "--moment", "0,1,0"]).contains("moment (0.0000, 1.0000, 0.0000) N m"));
+    for arguments in [
+        &["modes", "ROBOT", "--below-hz", "3", "--force-n", "5,0,0", "--load-point-m", "0,0,-0.1"][..],
+        &["stiffness", "ROBOT", "--moment-n-m", "0,1,0"],
+    ] {
+        succeed(arguments);
+    }
+    let refused = run(&["statics", "ROBOT", "--load-point-m", "0,0,1"]);
+    assert!(refused.status.code() == Some(2) && stderr(&refused).contains("give --force-n"));
+}

@@ -1,0 +1,230 @@
+// Answers of the module under Node beside those of the native program for the same requests: run by scripts/web.
+//
+// FUNICULAR_WEB: folder with funicular.wasm and funicular.js. FUNICULAR_PROGRAM: the native program.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { after, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const web = resolve(process.env.FUNICULAR_WEB);
+const program = resolve(process.env.FUNICULAR_PROGRAM);
+const { BrokenError, RequestError, load } = await import(pathToFileURL(join(web, "funicular.js")));
+const bytes = readFileSync(join(web, "funicular.wasm"));
+const funicular = await load(bytes);
+const folder = mkdtempSync(join(tmpdir(), "funicular-web-"));
+after(() => rmSync(folder, { recursive: true }));
+
+const robots = Object.fromEntries(
+  ["cogiro", "yuan2014-4mm"].map((name) => [name, readFileSync(new URL(`../../../robots/${name}.toml`, import.meta.url), "utf8")]),
+);
+
+// Two ways of rounding are between the answers: sin, cos, exp and log of the platform's mathematics library beside those
+// of Rust, and the vector kernels, whose native version multiplies and adds with one rounding where WebAssembly has two.
+// Numbers are compared by the largest one beside them. Equilibria and frequencies differ by some 1e-12, and a response by
+// 1e-10 beside a resonance, where it has the rounding of the frequency over the damping.
+const ROUNDING = 1e-9;
+// A shape has the rounding of its matrix over the relative distance to the next frequency, by first-order perturbation.
+// Seen: 6e-12.
+const ROUNDING_OF_SHAPES = 1e-10;
+// What is left of a balance, and the steps until it was small, are rounding themselves.
+const LEFT_OVER = new Set(["residual", "iterations"]);
+// Differences and correlations are fractions of one: near zero they have the rounding of what they compare.
+const FRACTIONS = new Set(["relative_difference", "correlation"]);
+
+let most = 0;
+
+/** Compares two JSON values: texts and counts exactly, numbers to `limit` of `scale`, the largest number beside them. */
+function compare(found, expected, path = "", scale = 0, limit = ROUNDING) {
+  if (typeof expected === "number") {
+    assert.equal(typeof found, "number", path);
+    const key = path.split(".").pop();
+    if (LEFT_OVER.has(key)) {
+      return;
+    }
+    const difference = Math.abs(found - expected) / Math.max(FRACTIONS.has(key) ? 1 : scale, Math.abs(expected), Number.MIN_VALUE);
+    most = Math.max(most, difference);
+    assert.ok(difference <= limit, `${path}: ${found} here, ${expected} natively, differ by ${difference} > ${limit}`);
+  } else if (Array.isArray(expected)) {
+    assert.ok(Array.isArray(found), path);
+    assert.equal(found.length, expected.length, `${path}: numbers of entries`);
+    const numbers = expected.flat(Infinity).filter((value) => typeof value === "number").map(Math.abs);
+    const limits = limitsOfShapes(expected);
+    expected.forEach((value, i) => compare(found[i], value, `${path}[${i}]`, Math.max(scale, ...numbers), limits?.[i] ?? limit));
+  } else if (expected !== null && typeof expected === "object") {
+    assert.deepEqual(Object.keys(found), Object.keys(expected), path);
+    for (const key of Object.keys(expected)) {
+      const frequency = key === "frequency_hz" || key === "damping_ratio" || key === "eigenvalue_per_s";
+      compare(found[key], expected[key], `${path}.${key}`, 0, frequency ? ROUNDING : limit);
+    }
+  } else {
+    assert.equal(found, expected, path);
+  }
+}
+
+/** For a list of modes the limit of each one's shape and of what is computed from it; for other lists nothing. */
+function limitsOfShapes(list) {
+  if (!list.every((mode) => mode?.frequency_hz !== undefined && mode.shape !== undefined)) {
+    return undefined;
+  }
+  const hz = list.map((mode) => mode.frequency_hz);
+  const gap = (i) => Math.min(...[i - 1, i + 1].filter((j) => j in hz).map((j) => Math.abs(hz[j] / hz[i] - 1)), 1);
+  return hz.map((_, i) => Math.max(ROUNDING, ROUNDING_OF_SHAPES / gap(i)));
+}
+
+function native(request) {
+  const file = join(folder, "request.json");
+  writeFileSync(file, JSON.stringify(request));
+  return spawnSync(program, ["request", file, "--format", "json"], { encoding: "utf8", maxBuffer: 1 << 28 });
+}
+
+/** Time of the fastest of some runs [ms], as text. */
+function fastest(work) {
+  const times = Array.from({ length: 5 }, () => {
+    const begin = performance.now();
+    work();
+    return performance.now() - begin;
+  });
+  return `${Math.min(...times).toFixed(1)} ms`;
+}
+
+const at = { pose: [1, 2, 1.5] };
+const range = { from_hz: 1, to_hz: 30, points: 400 };
+const requests = {
+  "check": { command: "check" },
+  "statics": { command: "statics", ...at },
+  "statics, limits and wind": {
+    command: "statics", ...at, tension_rule: "middle", max_tension_n: 2500, wind_m_s: [5, 0, 0],
+  },
+  "stiffness": { command: "stiffness", ...at },
+  "stiffness at 10 Hz": { command: "stiffness", ...at, at_hz: 10 },
+  "modes": { command: "modes", ...at, below_hz: 15 },
+  "modes, undamped": { command: "modes", ...at, below_hz: 15, damped: false },
+  "frf": { command: "frf", ...at, ...range, input: "fz", output: "z" },
+  "compare": { command: "compare", ...at, below_hz: 8 },
+};
+for (const robot of Object.keys(robots)) {
+  for (const [name, command] of Object.entries(requests)) {
+    // A robot in a plane or with few cables has its own state in the file.
+    const { pose, ...own } = command;
+    const request = robot === "cogiro" ? command : own;
+    if (robot !== "cogiro" && command.tension_rule) {
+      continue;
+    }
+    test(`${robot}: ${name}`, (t) => {
+      const whole = { ...request, robot: { name: robot, text: robots[robot] } };
+      const expected = native(whole);
+      assert.equal(expected.status, 0, expected.stderr);
+      const text = funicular.answerText(JSON.stringify(whole));
+      if (text === expected.stdout) {
+        t.diagnostic("bit for bit");
+      } else {
+        most = 0;
+        compare(JSON.parse(text), JSON.parse(expected.stdout));
+        t.diagnostic(`largest difference ${most.toExponential(1)}`);
+      }
+      assert.deepEqual(funicular.answer(request, robots[robot], robot), JSON.parse(text));
+
+      const here = fastest(() => funicular.answerText(JSON.stringify(whole)));
+      t.diagnostic(`${here}; the native program with its start ${fastest(() => native(whole))}`);
+    });
+  }
+}
+
+test("a map is statics at every point, those without solution among them", () => {
+  let solved = 0;
+  for (const x of [-4, 0, 4]) {
+    for (const y of [-3, 0, 30]) {
+      const request = { command: "statics", pose: [x, y, 1], robot: { name: "cogiro", text: robots.cogiro } };
+      const expected = native(request);
+      try {
+        compare(funicular.answer(request), JSON.parse(expected.stdout || "null"));
+        solved += 1;
+      } catch (error) {
+        assert.ok(error instanceof RequestError, error);
+        assert.deepEqual([error.status, `error: ${error.message}\n`], [expected.status, expected.stderr]);
+      }
+    }
+  }
+  assert.equal(solved, 6);
+});
+
+test("errors are those of the program, with the same status", () => {
+  const damaged = robots.cogiro.replace("[platform]", "[platfrom]").replace("mass_kg", "mass_kgg");
+  for (const request of [
+    { command: "check", robot: { name: "damaged.toml", text: damaged } },
+    { command: "check", robot: { name: "cut.toml", text: robots.cogiro.slice(0, 700) } },
+    { command: "statics", robot: { text: "" } },
+    { command: "statics", robot: { text: "[".repeat(100000) } },
+    { command: "statics", robot: { name: "", text: robots.cogiro }, poze: [0, 0, 1] },
+    { command: "statics", robot: { name: "", text: robots.cogiro }, pose: [1e300, 0, 1] },
+    { command: "modes" },
+  ]) {
+    const expected = native(request);
+    assert.notEqual(expected.status, 0);
+    assert.throws(() => funicular.answer(request), (error) => {
+      assert.ok(error instanceof RequestError, String(error));
+      assert.equal(error.status, expected.status);
+      // The program says from which file the request is, and shows keys as its options.
+      const words = expected.stderr.trimEnd().replace(/^error: /, "").replace(join(folder, "request.json") + ": ", "");
+      const keys = words.replace(/--([a-z-]+)/g, (_, name) => "`" + name.replaceAll("-", "_") + "`");
+      assert.equal(error.message.replace(/^error: /, ""), keys);
+      return true;
+    });
+  }
+  assert.throws(() => funicular.answerText("{"), { name: "RequestError", status: 2, message: /^the request is no JSON/ });
+  assert.throws(() => funicular.answerText("[".repeat(100000)), { name: "RequestError", status: 2 });
+  assert.throws(() => funicular.answer({ command: "map", grid: [] }, robots.cogiro), { status: 2, message: /makes a file/ });
+});
+
+test("the module needs nothing from outside", () => {
+  assert.deepEqual(WebAssembly.Module.imports(new WebAssembly.Module(bytes)), []);
+});
+
+test("a panic leaves a message, and a new instance works", async () => {
+  // Room that no memory has is a mistake of the caller, and panics as any mistake inside would.
+  const { exports } = await WebAssembly.instantiate(new WebAssembly.Module(bytes));
+  assert.throws(() => exports.funicular_input(-1), WebAssembly.RuntimeError);
+  const text = new TextDecoder().decode(
+    new Uint8Array(exports.memory.buffer, exports.funicular_output(), exports.funicular_output_length()),
+  );
+  assert.match(text, /^mistake in funicular \S+: capacity overflow \(.+\); please report it with the request/);
+
+  // The loader: the same call, made for it by a text that claims that length.
+  const broken = await load(bytes);
+  const encode = TextEncoder.prototype.encode;
+  TextEncoder.prototype.encode = () => ({ length: 2 ** 32 - 1 });
+  try {
+    assert.throws(() => broken.answerText("{}"), (error) => error instanceof BrokenError && error.message === text);
+  } finally {
+    TextEncoder.prototype.encode = encode;
+  }
+  assert.ok(broken.broken);
+  assert.throws(() => broken.answer({ command: "check" }, robots.cogiro), { name: "BrokenError", message: text });
+  await broken.renew();
+  assert.ok(!broken.broken);
+  assert.equal(broken.answer({ command: "check" }, robots.cogiro).command, "check");
+});
+
+test("memory does not grow with the number of requests", async () => {
+  const { exports } = await WebAssembly.instantiate(new WebAssembly.Module(bytes));
+  const request = new TextEncoder().encode(
+    JSON.stringify({ command: "modes", ...at, below_hz: 5, robot: { text: robots.cogiro } }),
+  );
+  const ask = () => {
+    const address = exports.funicular_input(request.length);
+    new Uint8Array(exports.memory.buffer, address, request.length).set(request);
+    assert.equal(exports.funicular_answer(), 0);
+    return exports.memory.buffer.byteLength;
+  };
+  for (let i = 0; i < 3; i++) {
+    ask();
+  }
+  const settled = ask();
+  for (let i = 0; i < 20; i++) {
+    assert.equal(ask(), settled);
+  }
+});

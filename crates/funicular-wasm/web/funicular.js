@@ -1,0 +1,115 @@
+// funicular in a page, a worker or Node: requests in JSON, results in JSON. No dependencies.
+//
+//   const funicular = await load(await fetch("funicular.wasm"));
+//   const found = funicular.answer({ command: "statics", pose: [1, 2, 1.5] }, robotFile);
+//   console.log(found.cables[0].tension_platform_n);
+
+/** A request without results. `status`: 1, the robot has no such solution; 2, the request has to change. */
+export class RequestError extends Error {
+  constructor(message, status) {
+    super(message);
+    this.name = "RequestError";
+    this.status = status;
+  }
+}
+
+/** A mistake of funicular, or memory that ran out. The instance is broken: await `renew()`. */
+export class BrokenError extends Error {
+  constructor(message, cause) {
+    super(message, { cause });
+    this.name = "BrokenError";
+  }
+}
+
+/** One instance of funicular. It works on the thread that calls it; a worker keeps a page responsive. */
+export class Funicular {
+  #module;
+  #exports = null;
+  #broken = "this instance has not begun: await `renew()`";
+
+  /** @param {WebAssembly.Module} module */
+  constructor(module) {
+    this.#module = module;
+  }
+
+  /** Makes the instance anew; nothing of the one before is kept. */
+  async renew() {
+    this.#exports = (await WebAssembly.instantiate(this.#module)).exports;
+    this.#broken = "";
+  }
+
+  /** Whether the instance has to be made anew before the next request. */
+  get broken() {
+    return this.#broken !== "";
+  }
+
+  /**
+   * Results of a request, as an object.
+   * @param {object} request keys as in docs/web.md
+   * @param {string} [robotFile] text of the robot file, if the request does not have it
+   * @param {string} [robotName] name of the robot file in messages
+   */
+  answer(request, robotFile, robotName) {
+    return JSON.parse(this.answerText(JSON.stringify(withRobot(request, robotFile, robotName))));
+  }
+
+  /** Results of a request, both as text: every digit as the program prints it. */
+  answerText(request) {
+    if (this.broken) {
+      throw new BrokenError(this.#broken);
+    }
+    const bytes = new TextEncoder().encode(request);
+    const { funicular_input, funicular_answer, memory } = this.#exports;
+    let status;
+    try {
+      const at = funicular_input(bytes.length) >>> 0;
+      // A view made now: memory that grows leaves older views empty.
+      new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+      status = funicular_answer();
+    } catch (trap) {
+      this.#broken = this.#messageAboutTrap(trap);
+      throw new BrokenError(this.#broken, trap);
+    }
+    const text = this.#output();
+    if (status !== 0) {
+      throw new RequestError(text, status);
+    }
+    return text;
+  }
+
+  #output() {
+    const { funicular_output, funicular_output_length, memory } = this.#exports;
+    const length = funicular_output_length() >>> 0;
+    return new TextDecoder().decode(new Uint8Array(memory.buffer, funicular_output() >>> 0, length));
+  }
+
+  /** What a panic left behind; without one, memory or the stack ran out. */
+  #messageAboutTrap(trap) {
+    try {
+      const text = this.#output();
+      if (text.startsWith("mistake in funicular")) {
+        return text;
+      }
+    } catch {
+      // The store of the text is part of what is broken.
+    }
+    return `funicular stopped without a message (${trap.message}): memory or stack ran out; ask for less at once, or ` +
+      "report it with the request and its robot file. This instance is broken: make a new one";
+  }
+}
+
+function withRobot(request, text, name = "") {
+  return text === undefined ? request : { ...request, robot: { ...request.robot, name, text } };
+}
+
+/**
+ * Loads funicular.
+ * @param {Response | BufferSource | WebAssembly.Module} source answer of `fetch`, bytes, or a compiled module
+ */
+export async function load(source) {
+  const bytes = typeof Response !== "undefined" && source instanceof Response ? await source.arrayBuffer() : source;
+  const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
+  const funicular = new Funicular(module);
+  await funicular.renew();
+  return funicular;
+}

@@ -1,0 +1,66 @@
+//! Damping of a rope as its cable's complex frequency has it, motion e^{+iωt}: `ω_c² = ω²(1 − 2iξ)` by a constant ratio,
+//! `ω_c² = ω² − iωc/m` by a viscous coefficient (docs/theory.md, section 4). A cable without mass has no frequency of its
+//! own, so that nothing damps it.
+
+use crate::math::Complex;
+use crate::robot::Damping;
+
+impl Damping {
+    /// Square of the cable's complex frequency `ω_c²` [rad²/s²] at ω [rad/s], real and imaginary part, for a mass per
+    /// length [kg/m].
+    #[inline]
+    pub fn square(self, omega: f64, mass_per_length: f64) -> (f64, f64) {
+        let square = omega * omega;
+        match self {
+            Self::Ratio(xi) => (square, -2.0 * xi * square),
+            Self::Viscous(c) => (square, over_mass(-omega * c, mass_per_length)),
+        }
+    }
+
+    /// Square of the cable's complex frequency `ω_c²` at a complex ω of positive real part, and its derivative by ω.
+    pub(crate) fn square_with_slope(self, omega: Complex, mass_per_length: f64) -> (Complex, Complex) {
+        match self {
+            Self::Ratio(xi) => {
+                let loss = Complex::new(1.0, -2.0 * xi);
+                (omega * omega * loss, 2.0 * omega * loss)
+            }
+            Self::Viscous(c) => {
+                let rate = Complex::new(0.0, over_mass(c, mass_per_length));
+                (omega * (omega - rate), 2.0 * omega - rate)
+            }
+        }
+    }
+
+    /// Complex ω of positive real or imaginary part at which `ω_c²` is the square of an undamped frequency [rad/s].
+    pub(crate) fn zero(self, undamped: f64, mass_per_length: f64) -> Complex {
+        match self {
+            Self::Ratio(xi) => undamped / Complex::new(1.0, -2.0 * xi).sqrt(),
+            Self::Viscous(c) => {
+                let half = over_mass(c, 2.0 * mass_per_length);
+                Complex::new(0.0, half) + Complex::from(undamped * undamped - half * half).sqrt()
+            }
+        }
+    }
+
+    /// Damping ratio of a vibration that is the cable's alone, at ω > 0 [rad/s].
+    pub fn ratio_at(self, omega: f64, mass_per_length: f64) -> f64 {
+        match self {
+            Self::Ratio(xi) => xi,
+            Self::Viscous(c) => over_mass(c, 2.0 * mass_per_length * omega),
+        }
+    }
+
+    /// Fraction `part` of the damping.
+    pub(crate) fn times(self, part: f64) -> Self {
+        match self {
+            Self::Ratio(xi) => Self::Ratio(xi * part),
+            Self::Viscous(c) => Self::Viscous(c * part),
+        }
+    }
+}
+
+/// Quotient by a mass; zero for a cable without mass.
+#[inline]
+fn over_mass(value: f64, mass: f64) -> f64 {
+    if mass > 0.0 { value / mass } else { 0.0 }
+}

@@ -1,0 +1,118 @@
+//! Blocks of a second-order model: the platform, and for each exact cable its end and its clamped modes.
+//!
+//! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, an exact cable is no
+//! function of frequency any more (docs/theory.md, section 13):
+//!
+//! ```text
+//! K_c = [ K_s   0   ]      M_c = [ M_s   g_k ]
+//!       [ 0     ω_k² ]           [ g_kᵀ   1  ]
+//! ```
+
+use super::{Dynamics, Term};
+use crate::cable::DynamicCable;
+use crate::cable::exact::Exact;
+use crate::math::{DMat, Mat6, Vec6};
+use crate::robot::Damping;
+
+/// Matrices of the platform over its coordinates [m, rad], with all stiffness that does not depend on frequency.
+pub(crate) struct PlatformBlocks {
+    pub(crate) mass: DMat,
+    pub(crate) damping: DMat,
+    pub(crate) stiffness: DMat,
+}
+
+/// What an exact cable adds.
+pub(crate) struct CableBlocks {
+    /// Which cable it is, file order.
+    pub(crate) cable: usize,
+    /// K_s over the platform's coordinates.
+    pub(crate) end_stiffness: DMat,
+    /// M_s over the platform's coordinates.
+    pub(crate) end_mass: DMat,
+    /// Clamped modes, in plane and then out of plane.
+    pub(crate) modes: Vec<ClampedMode>,
+    /// Damping of the rope.
+    pub(crate) damping: Damping,
+    /// Mass per unstrained length [kg/m].
+    pub(crate) mass_per_length: f64,
+}
+
+/// A clamped mode of unit modal mass.
+pub(crate) struct ClampedMode {
+    /// g_k over the platform's coordinates.
+    pub(crate) participation: Vec<f64>,
+    /// ω_k² [rad²/s²].
+    pub(crate) pole: f64,
+    pub(crate) out_of_plane: bool,
+}
+
+impl Dynamics {
+    /// Matrices of the platform, not scaled.
+    pub(crate) fn platform_blocks(&self) -> PlatformBlocks {
+        let [mass, damping, stiffness] =
+            [&self.mass, &self.platform_damping, &self.constant].map(|matrix| self.unscaled_block(matrix));
+        PlatformBlocks { mass, damping, stiffness }
+    }
+
+    /// Matrices of every exact cable, not scaled, in the order of [`terms`](Self::terms).
+    pub(crate) fn cable_blocks(&self) -> impl Iterator<Item = CableBlocks> {
+        self.terms.iter().filter_map(|term| match &term.form {
+            DynamicCable::Exact(end) => Some(self.blocks_of(term, &end.exact)),
+            DynamicCable::ClosedForm(_) => None,
+        })
+    }
+
+    fn blocks_of(&self, term: &Term, exact: &Exact) -> CableBlocks {
+        let across = !self.linearisation.in_plane_only;
+        let (plane, out) = (&exact.in_plane, &exact.out_of_plane);
+        let (damping, mass_per_length) = self.damping[term.cable];
+
+        let at_end = |in_plane: &[[f64; 4]; 4], out_of_plane: f64| {
+            self.unscaled_block(&term.congruent(in_plane, if across { out_of_plane } else { 0.0 }))
+        };
+        let end_stiffness = at_end(&plane.stiffness, out.stiffness[0][0]);
+        let end_mass = at_end(&plane.mass, out.mass[0][0]);
+
+        let mode = |direction: Vec6, pole: &f64, out_of_plane: bool| ClampedMode {
+            participation: self.unscaled_row(&direction),
+            pole: *pole,
+            out_of_plane,
+        };
+        let in_plane = plane.participation.iter().map(|g| term.along * g[0] + term.normal * g[1]).zip(&plane.poles);
+        let out_of_plane = out.participation.iter().filter(|_| across).map(|g| term.out * g[0]).zip(&out.poles);
+        let modes = in_plane
+            .map(|(direction, pole)| mode(direction, pole, false))
+            .chain(out_of_plane.map(|(direction, pole)| mode(direction, pole, true)))
+            .collect();
+
+        CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length }
+    }
+
+    /// A scaled matrix over the platform's coordinates, not scaled any more.
+    fn unscaled_block(&self, matrix: &Mat6) -> DMat {
+        let (f, scale) = (self.freedoms(), self.coordinate_scale());
+        DMat::from_fn(f, f, |i, j| matrix[(i, j)] * scale[i] * scale[j])
+    }
+
+    fn unscaled_row(&self, vector: &Vec6) -> Vec<f64> {
+        let scale = self.coordinate_scale();
+        (0..self.freedoms()).map(|i| vector[i] * scale[i]).collect()
+    }
+}
+
+impl Term {
+    /// A 3×3 form of the end's displacement over the platform's scaled coordinates: in plane the start's part of a matrix
+    /// over both ends, and one number out of plane.
+    fn congruent(&self, in_plane: &[[f64; 4]; 4], out_of_plane: f64) -> Mat6 {
+        let plane = [&self.along, &self.normal];
+        Mat6::from_fn(|i, j| {
+            let mut sum = 0.0;
+            for (p, u) in plane.iter().enumerate() {
+                for (q, v) in plane.iter().enumerate() {
+                    sum += in_plane[p][q] * u[i] * v[j];
+                }
+            }
+            sum + out_of_plane * self.out[i] * self.out[j]
+        })
+    }
+}
