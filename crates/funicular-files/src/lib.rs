@@ -2,8 +2,12 @@
 //!
 //! A [`Job`] takes the [chunks](funicular::sweep::Chunk) of a [plan](funicular::sweep::Plan) in order. They go to a
 //! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
-//! as a whole. Parquet, CSV and VTK hold the same rows; [`arrow::batch`] gives them in memory.
+//! as a whole. Parquet, CSV and VTK hold the same rows; `arrow::batch` gives them in memory.
+//!
+//! The feature `parquet`, on by default, brings Parquet files and rows in memory. Without it the crate writes CSV and VTK, and
+//! refuses Parquet files with a message.
 
+#[cfg(feature = "parquet")]
 pub mod arrow;
 mod csv;
 pub mod endings;
@@ -11,9 +15,15 @@ mod guard;
 mod job;
 mod journal;
 mod merge;
+#[cfg(feature = "parquet")]
+mod parquet;
+#[cfg(not(feature = "parquet"))]
+#[path = "without_parquet.rs"]
 mod parquet;
 mod read;
+#[cfg(feature = "parquet")]
 mod sealed;
+#[cfg(feature = "parquet")]
 pub mod table;
 mod vti;
 pub mod whole;
@@ -22,6 +32,7 @@ pub use guard::Guard;
 pub use job::{Begin, Job, Opened};
 pub use merge::merge;
 pub use read::SweepFile;
+#[cfg(feature = "parquet")]
 pub use table::Table;
 
 use endings::Kind;
@@ -144,6 +155,16 @@ pub enum FilesError {
         /// The file.
         path: PathBuf,
     },
+    /// A Parquet file, and a build without the feature `parquet`.
+    #[error(
+        "cannot read or write {}: this program was built without Parquet files; write .csv or .vti, or build it with \
+         the feature parquet, which is on by default",
+        .path.display()
+    )]
+    WithoutParquet {
+        /// The file.
+        path: PathBuf,
+    },
     /// A grid that ParaView's images do not have.
     #[error("{}: {reason}; write .parquet or .csv", .path.display())]
     NoImage {
@@ -189,9 +210,12 @@ impl Format {
     /// By the ending of a file.
     ///
     /// # Errors
-    /// [`FilesError::Ending`] for any other.
+    /// [`FilesError::Ending`] for any other, [`FilesError::WithoutParquet`] for `.parquet` without the feature.
     pub fn of(path: &Path) -> Result<Self, FilesError> {
         match Kind::of(path) {
+            Some(Kind::Parquet) if cfg!(not(feature = "parquet")) => {
+                Err(FilesError::WithoutParquet { path: path.to_owned() })
+            }
             Some(Kind::Parquet) => Ok(Self::Parquet),
             Some(Kind::Csv) => Ok(Self::Csv),
             Some(Kind::Vti) => Ok(Self::Vti),

@@ -12,7 +12,7 @@ use serde_json::{Map, json};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-const ROBOT: &str = include_str!("../../../robots/cogiro.toml");
+const ROBOT: &str = funicular_robots::COGIRO;
 
 /// A sweep of 70×3 poses, some of them infeasible, and its rows.
 fn sweep() -> (Record, Vec<Chunk>) {

@@ -143,16 +143,17 @@ fn one<'f, 'a>(files: &'f [Xml<'a>], kind: &str) -> Result<&'f Xml<'a>> {
 mod tests {
     use super::*;
     use crate::request::{ImportPlatform, ImportRopes};
+    use std::path::Path;
+    use std::sync::LazyLock;
 
-    /// The example robot in every format.
-    const EXAMPLES: [&[(&str, &str)]; 3] = [
-        &[
-            ("bodies.xml", include_str!("../../../docs/import/tripod_bodies.xml")),
-            ("cables.xml", include_str!("../../../docs/import/tripod_cables.xml")),
-        ],
-        &[("tripod.wcrfx", include_str!("../../../docs/import/tripod.wcrfx"))],
-        &[("tripod.txt", include_str!("../../../docs/import/tripod.txt"))],
-    ];
+    /// The example robot in every format: names and texts of its files.
+    static EXAMPLES: LazyLock<[Vec<(&str, &str)>; 3]> = LazyLock::new(|| {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/import");
+        [&["tripod_bodies.xml", "tripod_cables.xml"][..], &["tripod.wcrfx"], &["tripod.txt"]].map(|names| {
+            let text = |name| &*std::fs::read_to_string(folder.join(name)).expect("the repository has the file").leak();
+            names.iter().map(|name| (*name, text(name))).collect()
+        })
+    });
 
     fn whole(files: &[(&str, &str)]) -> Result<String> {
         let files = files
@@ -182,7 +183,7 @@ mod tests {
 
     #[test]
     fn a_file_that_ends_anywhere_is_read_or_refused() {
-        for files in EXAMPLES {
+        for files in EXAMPLES.iter() {
             whole(files).unwrap();
             for (which, (name, text)) in files.iter().enumerate() {
                 let read =
@@ -212,7 +213,7 @@ mod tests {
             "é",
             "99999999999999999999",
         ];
-        for files in EXAMPLES {
+        for files in EXAMPLES.iter() {
             for (which, (name, text)) in files.iter().enumerate() {
                 let mut at = 0;
                 while let Some(begin) = text[at..].find(|c: char| c.is_ascii_digit()).map(|i| at + i) {
@@ -230,7 +231,7 @@ mod tests {
 
     #[test]
     fn no_line_that_is_lost_or_doubled_makes_a_reader_panic() {
-        for files in EXAMPLES {
+        for files in EXAMPLES.iter() {
             for (which, (_, text)) in files.iter().enumerate() {
                 let lines: Vec<&str> = text.lines().collect();
                 for i in 0..lines.len() {
@@ -245,7 +246,7 @@ mod tests {
 
     #[test]
     fn line_ends_and_marks_change_nothing() {
-        for files in EXAMPLES {
+        for files in EXAMPLES.iter() {
             let windows: Vec<(&str, String)> =
                 files.iter().map(|(name, text)| (*name, format!("\u{feff}{}", text.replace('\n', "\r\n")))).collect();
             let windows: Vec<(&str, &str)> = windows.iter().map(|(name, text)| (*name, text.as_str())).collect();

@@ -12,7 +12,7 @@
 //! ```
 //! use funicular_study::{Request, Results, Silent, run};
 //!
-//! let text = include_str!("../../../robots/cogiro.toml");
+//! let text = funicular_robots::COGIRO;
 //! let request = serde_json::json!({
 //!     "command": "statics",
 //!     "robot": {"name": "cogiro", "text": text},

@@ -76,9 +76,9 @@ mod tests {
     use funicular::robot::{Robot, State};
     use funicular::statics::{Equilibrium, StaticModel, forward};
 
-    const YUAN: &str = include_str!("../../../robots/yuan2014-4mm.toml");
-    const COGIRO: &str = include_str!("../../../robots/cogiro.toml");
-    const POINT_MASS: &str = include_str!("../../../robots/sap2000-8-cable-point-mass.toml");
+    const YUAN: &str = funicular_robots::YUAN2014_4MM;
+    const COGIRO: &str = funicular_robots::COGIRO;
+    const POINT_MASS: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
     fn rest(robot: &Robot, model: StaticModel) -> Equilibrium {
         let State::Lengths(lengths) = &robot.state else { panic!("the file gives lengths") };

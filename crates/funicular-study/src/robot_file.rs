@@ -8,7 +8,7 @@ use funicular::robot::spec::SpecError;
 use thiserror::Error;
 
 /// Name and text of the robot that every front end carries.
-pub const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", include_str!("../../../robots/yuan2014-4mm.toml"));
+pub const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM);
 
 /// Maximum size of a robot file [bytes]. A cable takes some 200, so a larger file is another one given by mistake.
 pub const MAX_BYTES: usize = 16 << 20;

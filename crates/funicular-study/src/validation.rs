@@ -1,6 +1,6 @@
 //! The core against numbers that others published or computed: the rows of docs/validation.md.
 //!
-//! The numbers are in crates/funicular/reference, each table with its source. They are compared here and nowhere else:
+//! The numbers are in crates/funicular-study/reference, each table with its source. They are compared here and nowhere else:
 //! the core's own tests have limits, identities and other algorithms. One file per section, a test for each.
 
 mod catenary;

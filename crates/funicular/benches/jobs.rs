@@ -15,7 +15,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 fn robot() -> (Robot, Vec<f64>) {
-    let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml")).expect("the library's robot");
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).expect("the library's robot");
     let State::Lengths(lengths) = robot.state.clone() else { panic!("its state is given by lengths") };
     (robot, lengths)
 }
@@ -55,7 +55,7 @@ fn statics_both_ways(c: &mut Criterion) {
 
 /// One pose an iteration, of a thousand all over the workspace of CoGiRo that its limits allow.
 fn tension_distribution(c: &mut Criterion) {
-    let robot = Robot::from_toml(include_str!("../../../robots/cogiro.toml")).expect("the library's robot");
+    let robot = Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot");
     let robot = robot.with_tension_limits(TensionLimits { minimum: Some(50.0), maximum: Some(1500.0) });
     let possible = |pose: &Pose| statics::distribute(&robot, pose, StaticModel::Catenary, &TensionRule::Lowest).is_ok();
     let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;

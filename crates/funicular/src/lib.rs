@@ -21,7 +21,7 @@
 //! use funicular::statics::{self, Stability, StaticModel};
 //!
 //! // Six cables, unstrained lengths given.
-//! let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
+//! let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 //! let State::Lengths(lengths) = &robot.state else { panic!("its file gives lengths") };
 //!
 //! // Where the platform rests; no start is needed.

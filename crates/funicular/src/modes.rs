@@ -115,7 +115,7 @@ pub const RESIDUAL_LIMIT: f64 = 1e-8;
 /// # Example
 /// ```
 /// # use funicular::{cable::CableModel, dynamics::{Dynamics, Linearisation}, modes, robot::Robot, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0)?;

@@ -164,7 +164,7 @@ impl<'a> Plan<'a> {
     /// use funicular::robot::Robot;
     /// use funicular::sweep::{Options, Plan, Poses, Quantity, Steps, Values};
     ///
-    /// let robot = Robot::from_toml(include_str!("../../../robots/yuan2014-4mm.toml"))?;
+    /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let axes = [("x", Steps::range(-5.0, 5.0, 11)?), ("y", Steps::List(vec![0.0])), ("z", Steps::List(vec![0.5]))];
     /// let poses = Poses::grid(robot.clone(), &axes.map(|(axis, steps)| (axis.to_owned(), steps)), None)?;
     /// let (quantities, options) = ([Quantity::TensionMax], Options::default());

@@ -122,7 +122,7 @@ mod tests {
     use funicular::statics::{self, StaticModel};
 
     fn rest() -> (Robot, Equilibrium) {
-        let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+        let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
         let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
         (robot, rest)

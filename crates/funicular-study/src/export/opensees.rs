@@ -259,7 +259,7 @@ mod tests {
     /// 10,000 times, beyond the error of the bars.
     #[test]
     fn digits_that_opensees_loses_are_foreseen() {
-        let mut at_rest = at_rest(include_str!("../../../../robots/yuan2014-4mm.toml"));
+        let mut at_rest = at_rest(funicular_robots::YUAN2014_4MM);
         let inertia_p = at_rest.robot.platform.inertia_p;
         let mut lost = |times: f64, first_hz: f64| {
             at_rest.robot.platform.inertia_p = inertia_p * times;
@@ -274,9 +274,7 @@ mod tests {
 
     #[test]
     fn the_points_of_the_platform_have_its_mass_its_centre_and_its_whole_inertia_tensor() {
-        for text in
-            [include_str!("../../../../robots/cogiro.toml"), include_str!("../../../../robots/yuan2014-4mm.toml")]
-        {
+        for text in [funicular_robots::COGIRO, funicular_robots::YUAN2014_4MM] {
             let at_rest = at_rest(text);
             let points = body(&at_rest).points;
             let of = &at_rest.robot.platform;
@@ -350,7 +348,7 @@ mod tests {
             point_p: Vec3::new(0.1, 0.2, -0.1),
         };
         let cross = |v: &Vec3| v.cross_matrix();
-        for text in [include_str!("../../../../robots/yuan2014-4mm.toml"), &planar("1.0, 2.0, -2.0")] {
+        for text in [funicular_robots::YUAN2014_4MM, &planar("1.0, 2.0, -2.0")] {
             let mut at_rest = at_rest(text);
             at_rest.robot.load = load;
             let freedoms = at_rest.robot.platform.freedoms;
@@ -377,7 +375,7 @@ mod tests {
 
     #[test]
     fn a_name_cannot_leave_its_place_in_the_script() {
-        let text = include_str!("../../../../robots/sap2000-8-cable-point-mass.toml")
+        let text = funicular_robots::SAP2000_8_CABLE_POINT_MASS
             .replace("name = \"8-cable", "name = \"\\\"\\\"\\\"; import os #8-cable");
         let script = script(&at_rest(&text), 2, Some(1.0), &mut Vec::new()).unwrap();
         assert!(script.contains(r#"NAME = "\"\"\"; import os #8-cable"#), "{script}");

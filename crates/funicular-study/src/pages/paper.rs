@@ -15,8 +15,8 @@ use funicular::robot::Robot;
 
 /// The paper's robot with either cable set.
 const FILES: [(&str, &str); 2] = [
-    ("robots/yuan2014-4mm.toml", include_str!("../../../../robots/yuan2014-4mm.toml")),
-    ("robots/yuan2014-8mm.toml", include_str!("../../../../robots/yuan2014-8mm.toml")),
+    ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM),
+    ("robots/yuan2014-8mm.toml", funicular_robots::YUAN2014_8MM),
 ];
 
 pub(crate) const CONTENTS: &[(&str, &str)] = &[

@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn a_value_that_another_option_sets_and_one_given_twice_are_refused() {
-        let text = include_str!("../../../../robots/yuan2014-4mm.toml");
+        let text = funicular_robots::YUAN2014_4MM;
         let varied = |paths: &[&str], mass: Option<f64>| {
             let steps = Steps::range(10.0, 20.0, 3).unwrap();
             let axes = paths.iter().map(|path| ValueAxis::new(path, steps.clone()).unwrap());

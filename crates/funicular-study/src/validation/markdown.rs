@@ -36,7 +36,7 @@ const INTRODUCTION: &str = "\
 
 Every number here was published by others or computed by other means; the program computes the same case and says how
 far it is off. This file is generated: `funicular validate -o docs/validation.md`. `funicular validate --format json`
-gives every digit. The reference numbers, each with its source, are in `crates/funicular/reference/`.
+gives every digit. The reference numbers, each with its source, are in `crates/funicular-study/reference/`.
 
 | column | meaning |
 |:---|:---|

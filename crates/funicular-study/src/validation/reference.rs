@@ -1,4 +1,4 @@
-//! The files of crates/funicular/reference.
+//! The files of crates/funicular-study/reference.
 
 use anyhow::{Context, Result, anyhow};
 use funicular::robot::{Robot, State};
@@ -424,19 +424,19 @@ pub(super) struct ModeShape {
 }
 
 pub(super) fn damped() -> Result<Damped> {
-    serde_json::from_str(include_str!("../../../funicular/reference/damped.json")).context("damped.json")
+    serde_json::from_str(include_str!("../../reference/damped.json")).context("damped.json")
 }
 
 pub(super) fn published() -> Result<Published> {
-    serde_json::from_str(include_str!("../../../funicular/reference/published.json")).context("published.json")
+    serde_json::from_str(include_str!("../../reference/published.json")).context("published.json")
 }
 
 pub(super) fn independent() -> Result<Independent> {
-    serde_json::from_str(include_str!("../../../funicular/reference/independent.json")).context("independent.json")
+    serde_json::from_str(include_str!("../../reference/independent.json")).context("independent.json")
 }
 
 pub(super) fn exact() -> Result<Reference> {
-    serde_json::from_str(include_str!("../../../funicular/reference/exact.json")).context("exact.json")
+    serde_json::from_str(include_str!("../../reference/exact.json")).context("exact.json")
 }
 
 /// A robot and its unstrained lengths.
@@ -451,9 +451,9 @@ pub(super) fn robot(text: &str) -> Result<(Robot, Vec<f64>)> {
 /// A robot of the library by its file's name.
 pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
     robot(match name {
-        "yuan2014-4mm" => include_str!("../../../../robots/yuan2014-4mm.toml"),
-        "yuan2014-8mm" => include_str!("../../../../robots/yuan2014-8mm.toml"),
-        "sap2000-8-cable-point-mass" => include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"),
+        "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,
+        "yuan2014-8mm" => funicular_robots::YUAN2014_8MM,
+        "sap2000-8-cable-point-mass" => funicular_robots::SAP2000_8_CABLE_POINT_MASS,
         other => return Err(anyhow!("the comparisons use no robot {other}")),
     })
 }

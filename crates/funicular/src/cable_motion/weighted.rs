@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn motions_of_different_modes_have_no_energy_in_common_and_their_length_is_that_of_the_whole() {
-        let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+        let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
         let State::Lengths(lengths) = &robot.state else { panic!("the file gives lengths") };
         let rest = forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 6.0).unwrap();

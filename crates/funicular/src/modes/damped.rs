@@ -72,7 +72,7 @@ const POLES_BEYOND: f64 = 1.3;
 /// # Example
 /// ```
 /// # use funicular::{dynamics::{Dynamics, Linearisation}, modes, robot::Robot, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0)?;

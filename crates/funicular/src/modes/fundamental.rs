@@ -101,7 +101,7 @@ pub enum FirstError {
 /// # Example
 /// ```
 /// # use funicular::{modes, robot::{Pose, Robot}, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let pose = Pose::new([0.5, 0.1, 0.6], [0.0, 1.0, 0.0]);
 /// let rest = statics::inverse(&robot, &pose, StaticModel::Catenary)?;
 /// let first = modes::first(&robot, &rest)?;
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn usual_poses_taut_or_slack_never_need_the_slow_way() {
-        let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+        let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
         let mut poses = [0; 2];
         for i in 0..5 {
             for j in 0..5 {

@@ -79,7 +79,7 @@ impl Robot {
     /// # Example
     /// ```
     /// # use funicular::{math::Vec3, robot::{Robot, Wind}};
-    /// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+    /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let load = robot.line_load(0, &Vec3::new(5.0, 0.0, 4.0));
     /// assert!((load.size - 0.067 * 9.81).abs() < 1e-15); // N/m
     /// assert_eq!(load.up_w, Vec3::z());

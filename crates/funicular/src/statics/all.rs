@@ -89,7 +89,7 @@ const INDIFFERENT: f64 = 1e-9;
 /// # Example
 /// ```
 /// # use funicular::{robot::Robot, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let all = statics::all(&robot, &lengths, StaticModel::Catenary, None)?;
 /// assert!(all.found[0].is_stable() && all.found[0].distance < 1e-6);
@@ -140,7 +140,7 @@ pub fn all(
 /// # Example
 /// ```
 /// # use funicular::{robot::Robot, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let other = statics::other_stable(&robot, &rest);

@@ -18,7 +18,7 @@ use crate::robot::Robot;
 /// ```
 /// use funicular::robot::{Robot, Wind};
 /// use funicular::{math::Vec3, statics::{self, StaticModel}};
-/// let text = include_str!("../../../../robots/yuan2014-4mm.toml")
+/// let text = funicular_robots::YUAN2014_4MM
 ///     .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2");
 /// let wind = Wind { velocity_w: Vec3::new(15.0, 0.0, 0.0), ..Wind::default() };
 /// let robot = Robot::from_toml(&text)?.with_wind(wind);

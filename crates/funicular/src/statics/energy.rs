@@ -12,7 +12,7 @@ use crate::robot::{Pose, Robot};
 /// # Example
 /// ```
 /// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let pose = Pose::new([0.2, 0.0, 0.6], [0.0; 3]);
 /// let ideal = statics::inverse(&robot, &pose, StaticModel::Ideal)?;
 /// assert!((statics::energy(&robot, &ideal) - 10.55 * 9.81 * 0.6).abs() < 1e-9); // m g z

@@ -33,7 +33,7 @@ const MOST_ITERATIONS: usize = 5000;
 /// # Example
 /// ```
 /// # use funicular::{robot::Robot, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// assert!((rest.pose.position_w.z - 0.455_48).abs() < 1e-5);
@@ -470,7 +470,7 @@ mod tests {
     const LENGTHS: [f64; 6] = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 
     fn robot() -> Robot {
-        Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap()
+        Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
     }
 
     /// The exit of a descent, and what rounding leaves.

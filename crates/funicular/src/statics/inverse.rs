@@ -32,7 +32,7 @@ use crate::robot::{Pose, Robot};
 /// # Example
 /// ```
 /// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let pose = Pose::new([0.5, 0.1, 0.6], [0.0, 2.0, 0.0]);
 /// let held = statics::inverse(&robot, &pose, StaticModel::Catenary)?;
 /// let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();

@@ -31,7 +31,7 @@ impl TensionRange {
     /// # Example
     /// ```
     /// # use funicular::{math::Vec3, robot::Robot, statics::TensionRange};
-    /// # let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+    /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let range = TensionRange::of(&robot, 0, &Vec3::new(4.11, 0.0, 5.48)); // 6.85 m long
     /// assert!((range.minimum - 2.5 * 0.067 * 9.81 * 6.85).abs() < 1e-12); // N
     /// assert_eq!(range.maximum, f64::INFINITY);

@@ -59,7 +59,7 @@ pub(super) fn elastic_rounding(robot: &Robot) -> f64 {
 /// # Example
 /// ```
 /// # use funicular::{math::Vec3, robot::Robot, statics::{self, StaticModel}};
-/// # let mut robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// # let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// robot.gravity_w = Vec3::zeros();
 /// let afloat = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;

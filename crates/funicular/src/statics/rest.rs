@@ -33,7 +33,7 @@ pub struct Rest {
 /// use funicular::robot::{Pose, Robot, State};
 /// use funicular::statics::{self, StaticModel, TensionRule};
 ///
-/// let mut robot = Robot::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+/// let mut robot = Robot::from_toml(funicular_robots::COGIRO)?;
 /// robot.state = State::Pose(Pose::new([1.0, 2.0, 1.5], [0.0; 3]));
 /// let rest = statics::rest(&robot, StaticModel::Catenary, None)?;
 /// assert_eq!(rest.rule, Some(TensionRule::Lowest)); // eight cables for six freedoms leave a choice

@@ -70,7 +70,7 @@ impl TensionRule {
 /// # Example
 /// ```
 /// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel, TensionRange, TensionRule}};
-/// # let robot = Robot::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+/// # let robot = Robot::from_toml(funicular_robots::COGIRO)?;
 /// let pose = Pose::new([1.0, -2.0, 1.5], [0.0, 0.0, 5.0]);
 /// let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(vec![400.0]))?;
 /// assert!(held.residual <= statics::RESIDUAL_LIMIT);

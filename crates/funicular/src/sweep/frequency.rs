@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn modes_of_a_growing_payload_veer_in_fine_steps_and_cross_in_coarse_ones() {
         const MODES: usize = 12;
-        let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+        let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
         let options = Options::default();
         let followed = |count: u32| -> Vec<Vec<usize>> {
             let step = |i: u32| {

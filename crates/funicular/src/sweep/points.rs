@@ -56,7 +56,7 @@ impl Poses {
     /// use funicular::robot::{Pose, Robot};
     /// use funicular::sweep::{Points, Poses, Steps};
     ///
-    /// let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+    /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let base = Pose::new([0.0, 0.0, 0.5], [0.0; 3]);
     /// let axes = [("x", Steps::range(-1.0, 1.0, 5)?), ("y", Steps::List(vec![0.0, 0.3]))];
     /// let grid = Poses::grid(robot, &axes.map(|(axis, steps)| (axis.to_owned(), steps)), Some(&base))?;

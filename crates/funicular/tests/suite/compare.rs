@@ -8,7 +8,7 @@ use funicular::statics::{self, StaticModel};
 
 #[test]
 fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reach() {
-    let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     let State::Lengths(mut lengths) = robot.state.clone() else { panic!("given by lengths") };
     let reference = |lengths: &[f64], below_hz: f64| {
         let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 #[test]
 fn counts_grow_by_one_at_every_listed_frequency_and_nowhere_else() {
-    let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     let rest = at_rest(&robot);
     for assembly in [Assembly::Consistent, Assembly::Paper] {
         let dynamics = Dynamics::about(&robot, &rest, Linearisation { assembly, ..Default::default() }, 20.0).unwrap();

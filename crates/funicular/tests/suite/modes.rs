@@ -22,7 +22,7 @@ fn load(text: &str) -> (Robot, Vec<f64>) {
 }
 
 fn yuan() -> (Robot, Equilibrium) {
-    let (robot, lengths) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let (robot, lengths) = load(funicular_robots::YUAN2014_4MM);
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
     (robot, rest)
 }
@@ -104,7 +104,7 @@ fn damping_to_first_order_is_the_width_of_the_resonance() {
 
 #[test]
 fn turning_the_whole_world_changes_no_frequency() {
-    let (robot, lengths) = load(include_str!("../../../../robots/cogiro.toml"));
+    let (robot, lengths) = load(funicular_robots::COGIRO);
     let turn = rotation::from_roll_pitch_yaw_deg(25.0, -40.0, 70.0);
     let mut turned = robot.clone();
     turned.gravity_w = turn * robot.gravity_w;
@@ -129,7 +129,7 @@ fn turning_the_whole_world_changes_no_frequency() {
 #[test]
 fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
     // The centre of mass high above the attachments, by external hand held at the pose of springs without moment arm.
-    let (mut robot, _) = load(include_str!("../../../../robots/yuan2014-4mm.toml"));
+    let (mut robot, _) = load(funicular_robots::YUAN2014_4MM);
     let (_, rest) = yuan();
     robot.platform.center_of_mass_p = Vec3::new(0.0, 0.0, 200.0);
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();

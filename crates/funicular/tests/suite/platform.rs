@@ -10,9 +10,9 @@ use funicular::statics::{self, Equilibrium, Stability, StaticModel, TensionRule}
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-const YUAN: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
-const CAMERA: &str = include_str!("../../../../robots/sap2000-8-cable-point-mass.toml");
+const CAMERA: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
 fn yuan() -> (Robot, Vec<f64>) {
     let robot = Robot::from_toml(YUAN).unwrap();

@@ -4,7 +4,7 @@ use funicular::pose_error::{PoseDifference, PoseErrorPoint, Threshold, threshold
 use funicular::robot::{Pose, Robot, State};
 
 fn yuan() -> (Robot, Vec<f64>) {
-    let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     let State::Lengths(lengths) = robot.state.clone() else { panic!("given by lengths") };
     (robot, lengths)
 }

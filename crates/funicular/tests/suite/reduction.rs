@@ -10,7 +10,7 @@ use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
 fn at_rest(damping: Damping) -> (Robot, Equilibrium, Dynamics) {
-    let mut robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap();
+    let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     for cable in &mut robot.cables {
         cable.material.damping = damping;
     }

@@ -16,10 +16,10 @@ fn load(text: &str) -> (Robot, Equilibrium) {
 }
 
 const ROBOTS: [&str; 4] = [
-    include_str!("../../../../robots/yuan2014-4mm.toml"),
-    include_str!("../../../../robots/yuan2014-8mm.toml"),
-    include_str!("../../../../robots/cogiro.toml"),
-    include_str!("../../../../robots/sap2000-8-cable-point-mass.toml"),
+    funicular_robots::YUAN2014_4MM,
+    funicular_robots::YUAN2014_8MM,
+    funicular_robots::COGIRO,
+    funicular_robots::SAP2000_8_CABLE_POINT_MASS,
 ];
 
 #[test]

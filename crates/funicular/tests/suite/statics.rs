@@ -13,9 +13,9 @@ mod tension_gain;
 
 use funicular::robot::{Robot, State};
 
-const YUAN_4MM: &str = include_str!("../../../../robots/yuan2014-4mm.toml");
-const YUAN_8MM: &str = include_str!("../../../../robots/yuan2014-8mm.toml");
-const COGIRO: &str = include_str!("../../../../robots/cogiro.toml");
+const YUAN_4MM: &str = funicular_robots::YUAN2014_4MM;
+const YUAN_8MM: &str = funicular_robots::YUAN2014_8MM;
+const COGIRO: &str = funicular_robots::COGIRO;
 
 fn load(text: &str) -> (Robot, Vec<f64>) {
     let robot = Robot::from_toml(text).unwrap();

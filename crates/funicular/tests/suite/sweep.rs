@@ -11,7 +11,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 fn yuan() -> Robot {
-    Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml")).unwrap()
+    Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
 }
 
 fn axes(given: &[(&str, Steps)]) -> Vec<(String, Steps)> {
@@ -139,11 +139,9 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
 fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
     let all = "first-frequency,first-kind,tension-max,tension-min,tensions,lengths,tension-margin,stiffness-min,stiffness,\
                pose-error,sag-max,model-error,stiffness-error,condition,energy,pose";
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots");
     let mut seen = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let robot = Robot::from_toml(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    for (name, text) in funicular_robots::ALL {
+        let robot = Robot::from_toml(text).unwrap();
         let rest = match &robot.state {
             funicular::robot::State::Pose(pose) => *pose,
             funicular::robot::State::Lengths(lengths) => {
@@ -169,20 +167,20 @@ fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
             for row in 0..chunk.rows() {
                 let code = status[row].as_deref().unwrap();
                 assert!(CODES.iter().any(|known| known.0 == code), "{code}");
-                assert_eq!(reason[row].is_none(), code == "ok", "{path:?}: {code}");
+                assert_eq!(reason[row].is_none(), code == "ok", "{name}: {code}");
                 for (column, values) in plan.columns().iter().zip(&chunk.columns).skip(feasible_at + 3) {
                     if let Values::Real(values) = values {
-                        assert!(values[row].is_none_or(f64::is_finite), "{path:?}: {}", column.name);
-                        assert!(feasible[row] || values[row].is_none(), "{path:?}: {}", column.name);
-                        assert!(code != "ok" || values[row].is_some(), "{path:?}: {}", column.name);
+                        assert!(values[row].is_none_or(f64::is_finite), "{name}: {}", column.name);
+                        assert!(feasible[row] || values[row].is_none(), "{name}: {}", column.name);
+                        assert!(code != "ok" || values[row].is_some(), "{name}: {}", column.name);
                     }
                 }
             }
         }
         let Values::Flag(home) = &chunks[0].columns[feasible_at] else { panic!("a flag") };
-        assert!(home[0], "{path:?}: at home");
+        assert!(home[0], "{name}: at home");
         let Values::Flag(away) = &chunks[2].columns[feasible_at] else { panic!("a flag") };
-        assert!(!away[0], "{path:?}: far away");
+        assert!(!away[0], "{name}: far away");
         seen += 1;
     }
     assert!(seen >= 9, "{seen}");
@@ -220,7 +218,7 @@ fn plans_that_cannot_be_are_refused_with_what_is_wrong() {
     assert_eq!(refused(&[("x", one()), ("y", one())], &robot), SweepError::NoPosition { axis: "z" });
     assert!(matches!(refused(&[("w", one())], &robot), SweepError::UnknownAxis { .. }));
     assert!(matches!(refused(&[("x", one()), ("x", one())], &robot), SweepError::RepeatedAxis { .. }));
-    let camera = Robot::from_toml(include_str!("../../../../robots/stadium-camera.toml")).unwrap();
+    let camera = Robot::from_toml(funicular_robots::STADIUM_CAMERA).unwrap();
     let message = refused(&[("yaw", one())], &camera).to_string();
     assert!(message.contains("along the axis `yaw`") && message.contains("which has x, y, z"), "{message}");
 

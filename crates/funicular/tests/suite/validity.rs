@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 #[test]
 fn cables_are_warned_about_outside_the_models_range() {
-    let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-8mm.toml")).unwrap();
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_8MM).unwrap();
     let rest = at_rest(&robot);
     let warnings = validity::of_dynamics(&robot, &rest, CableModel::ClosedForm, 20.0);
     let [Warning::DeepSag { cables, .. }] = &warnings[..] else { panic!("{warnings:?}") };

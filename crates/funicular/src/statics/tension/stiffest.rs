@@ -137,9 +137,9 @@ mod tests {
     use crate::statics::StaticModel;
     use crate::statics::tension::Line;
 
-    const COGIRO: &str = include_str!("../../../../../robots/cogiro.toml");
-    const CAROCA: &str = include_str!("../../../../../robots/caroca.toml");
-    const POINT: &str = include_str!("../../../../../robots/sap2000-8-cable-point-mass.toml");
+    const COGIRO: &str = funicular_robots::COGIRO;
+    const CAROCA: &str = funicular_robots::CAROCA;
+    const POINT: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
     /// The robots with other ropes, masses per length [kg/m] and stiffnesses [N], and poses without pattern.
     fn cases(ropes: [(f64, f64); 3]) -> impl Iterator<Item = (Robot, Pose)> {

@@ -8,7 +8,7 @@ use funicular::robot::{Cable, Pose, Robot};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel};
 use proptest::prelude::*;
 
-const YUAN: &str = include_str!("../../../../../robots/yuan2014-4mm.toml");
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 /// What is wrong with the first mode of a robot, measured by the list up to a tenth above it; energies as good as usual.
 fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {

@@ -11,7 +11,7 @@ use funicular::statics::{self, Stability, StaticModel, TensionRange, TensionRule
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-const YUAN: &str = include_str!("../../../../../robots/yuan2014-4mm.toml");
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 /// The platform of a robot in the plane through a pose.
 fn in_plane(robot: &Robot, normal: Vec3, pose: &Pose) -> Robot {

@@ -43,7 +43,7 @@ fn robot_with_pose() -> String {
     text
 }
 
-const YUAN: &str = include_str!("../../../../../robots/yuan2014-4mm.toml");
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 /// A point mass with a pose; `freedoms` is line 4, `[state]` line 13.
 const POINT: &str = r#"name = "point"
@@ -540,7 +540,7 @@ fn wind_and_drag_are_read_and_refused_at_their_line() {
 
 #[test]
 fn broken_loads_are_refused_at_their_line() {
-    let camera = include_str!("../../../../../robots/sap2000-8-cable-point-mass.toml");
+    let camera = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
     let loads = |text: &str| Robot::from_toml(&format!("{camera}\n[loads]\n{text}\n"));
     assert!(loads("force_n = [1, 2, 3]").is_ok());
     for (text, said) in [

@@ -7,8 +7,8 @@ use funicular::modes;
 use funicular::robot::{Pose, Robot, State, Wind};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 
-const YUAN: &str = include_str!("../../../../../robots/yuan2014-4mm.toml");
-const COGIRO: &str = include_str!("../../../../../robots/cogiro.toml");
+const YUAN: &str = funicular_robots::YUAN2014_4MM;
+const COGIRO: &str = funicular_robots::COGIRO;
 
 /// The paper's robot with a rope that the wind pulls at and a platform of a third of a square metre.
 fn in_wind(velocity_w: Vec3) -> Robot {
@@ -265,8 +265,8 @@ fn the_tangent_with_drag_is_the_derivative_of_the_wrench() {
 }
 
 fn windy_robots() -> Vec<(&'static str, Robot, f64)> {
-    let plane = include_str!("../../../../../robots/kntu-planar.toml");
-    let camera = include_str!("../../../../../robots/stadium-camera.toml");
+    let plane = funicular_robots::KNTU_PLANAR;
+    let camera = funicular_robots::STADIUM_CAMERA;
     vec![
         ("yuan", with_drag(YUAN), 1.0),
         ("yuan, paid out", with_drag(YUAN), 1.15),

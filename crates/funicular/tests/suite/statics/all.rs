@@ -6,11 +6,11 @@ use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 
 const ROBOTS: [(&str, &str); 5] = [
-    ("yuan2014-4mm", include_str!("../../../../../robots/yuan2014-4mm.toml")),
-    ("yuan2014-8mm", include_str!("../../../../../robots/yuan2014-8mm.toml")),
-    ("ipanema2", include_str!("../../../../../robots/ipanema2.toml")),
-    ("fast", include_str!("../../../../../robots/fast.toml")),
-    ("stadium-camera", include_str!("../../../../../robots/stadium-camera.toml")),
+    ("yuan2014-4mm", funicular_robots::YUAN2014_4MM),
+    ("yuan2014-8mm", funicular_robots::YUAN2014_8MM),
+    ("ipanema2", funicular_robots::IPANEMA2),
+    ("fast", funicular_robots::FAST),
+    ("stadium-camera", funicular_robots::STADIUM_CAMERA),
 ];
 
 fn lengths_of(robot: &Robot) -> (Vec<f64>, Option<Pose>) {

@@ -14,8 +14,13 @@ fn energy(robot: &Robot, pose: &Pose, lengths: &[f64]) -> f64 {
                 axial_stiffness: robot.cables[i].material.axial_stiffness,
             };
             let start = pose.point_w(&robot.cables[i].attachment_p);
-            let cable = funicular::catenary::space::HangingCable::new(start, robot.cables[i].anchor.exit_w(&start), Vec3::z(), rope)
-                .unwrap();
+            let cable = funicular::catenary::space::HangingCable::new(
+                start,
+                robot.cables[i].anchor.exit_w(&start),
+                Vec3::z(),
+                rope,
+            )
+            .unwrap();
             cable.energy()
         })
         .sum();

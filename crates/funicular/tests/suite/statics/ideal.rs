@@ -24,8 +24,7 @@ fn ideal_cables_of_lengths_that_would_have_to_push_are_refused() {
     let Err(StaticsError::WouldPush { cable, tension }) = statics::inverse(&robot, &pose, StaticModel::Ideal) else {
         panic!("too near to the edge")
     };
-    let lengths: Vec<f64> =
-        robot.cables.iter().map(|cable| cable.chord_w(&pose).norm()).collect();
+    let lengths: Vec<f64> = robot.cables.iter().map(|cable| cable.chord_w(&pose).norm()).collect();
     let error = statics::forward(&robot, &lengths, StaticModel::Ideal, Some(&pose)).unwrap_err();
     let StaticsError::LengthsPush { cable: by_lengths, tension: its, x, .. } = &error else { panic!("{error}") };
     assert!(*by_lengths == cable && (its - tension).abs() < 1e-6 * tension.abs() && x.abs() < 1e-9, "{error}");

@@ -10,8 +10,8 @@ use funicular::math::Vec3;
 use funicular::robot::{Freedoms, Pose, Robot, TensionLimits};
 use funicular::statics::{self, Equilibrium, Stability};
 
-const COGIRO: &str = include_str!("../../../../../robots/cogiro.toml");
-const POINT: &str = include_str!("../../../../../robots/sap2000-8-cable-point-mass.toml");
+const COGIRO: &str = funicular_robots::COGIRO;
+const POINT: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
 /// CoGiRo with ropes of this mass per length [kg/m] and these limits [N].
 fn cogiro(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {

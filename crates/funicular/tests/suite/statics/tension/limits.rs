@@ -26,7 +26,7 @@ fn without_limits_no_cable_is_slacker_than_shallow_models_allow() {
 /// In the plane nothing weighs: limits far above what the cables need, and a minimum that only says "not slack".
 #[test]
 fn a_minimum_of_next_to_nothing_is_met() {
-    let robot = Robot::from_toml(include_str!("../../../../../../robots/kntu-planar.toml")).unwrap();
+    let robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     for minimum in [1e-9, 1e-6, 1e-3, 1e-2, 0.1] {
         let robot = robot.with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(60.0) });

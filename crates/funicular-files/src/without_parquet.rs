@@ -1,0 +1,44 @@
+//! Parquet files of a build without the feature `parquet`: each use of one is refused.
+//!
+//! It has the names of `parquet.rs`, so that the rest of the crate need not know which of both it is built with.
+
+use crate::{FilesError, Rows};
+use funicular::sweep::Chunk;
+use funicular_study::sweep::{Part, Record};
+use serde_json::Value;
+use std::convert::Infallible;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Refuses to write rows. [`Format::of`](crate::Format::of) has refused the file before.
+pub(crate) fn write(_out: impl Write + Send, _record: &Record, _rows: &dyn Rows, _complete: bool) -> io::Result<()> {
+    Err(io::Error::new(io::ErrorKind::Unsupported, "this program was built without Parquet files"))
+}
+
+/// A file that a sweep has written; none can exist.
+pub(crate) struct ParquetFile {
+    pub(crate) path: PathBuf,
+    pub(crate) json: Value,
+    pub(crate) robot_file: String,
+    pub(crate) part: Option<Part>,
+    pub(crate) complete: bool,
+    pub(crate) rows: usize,
+    none: Infallible,
+}
+
+impl ParquetFile {
+    /// Refuses every file.
+    pub(crate) fn open(path: &Path) -> Result<Self, FilesError> {
+        Err(FilesError::WithoutParquet { path: path.to_owned() })
+    }
+
+    /// Cannot be called: there is no such file.
+    pub(crate) fn each(
+        &self,
+        _first: usize,
+        _chunk_rows: usize,
+        _take: &mut dyn FnMut(Chunk) -> io::Result<()>,
+    ) -> io::Result<()> {
+        match self.none {}
+    }
+}

@@ -1,0 +1,74 @@
+//! Library of cable-driven parallel robots: the texts of robot files, each with its source and its assumptions.
+//!
+//! ```
+//! for (name, text) in funicular_robots::ALL {
+//!     assert!(text.contains("source = "), "{name}");
+//! }
+//! ```
+
+/// CAROCA, large platform: suspended, eight cables.
+pub const CAROCA: &str = include_str!("caroca.toml");
+
+/// CoGiRo: suspended, eight cables, 15 m x 11 m x 6 m.
+pub const COGIRO: &str = include_str!("cogiro.toml");
+
+/// Lucia of Expo 2015: suspended, eight cables.
+pub const EXPO2015_LUCIA: &str = include_str!("expo2015-lucia.toml");
+
+/// Feed cabin of the radio telescope FAST: six cables, 600 m.
+pub const FAST: &str = include_str!("fast.toml");
+
+/// `IPAnema` 2: fully constrained, eight cables.
+pub const IPANEMA2: &str = include_str!("ipanema2.toml");
+
+/// Planar robot of K. N. Toosi University: horizontal, four cables.
+pub const KNTU_PLANAR: &str = include_str!("kntu-planar.toml");
+
+/// NIST `RoboCrane`: inverted Stewart platform, six cables.
+pub const NIST_ROBOCRANE: &str = include_str!("nist-robocrane.toml");
+
+/// Point mass in a cube on eight cables, a published SAP2000 model.
+pub const SAP2000_8_CABLE_POINT_MASS: &str = include_str!("sap2000-8-cable-point-mass.toml");
+
+/// Camera over a stadium: point mass on four cables; assumed, not published.
+pub const STADIUM_CAMERA: &str = include_str!("stadium-camera.toml");
+
+/// Six cables of 4 mm, the robot of Yuan, Courteille and Deblaise (ICRA 2014).
+pub const YUAN2014_4MM: &str = include_str!("yuan2014-4mm.toml");
+
+/// Six cables of 8 mm, the robot of Yuan, Courteille and Deblaise (ICRA 2014).
+pub const YUAN2014_8MM: &str = include_str!("yuan2014-8mm.toml");
+
+/// Every robot: name of its file without `.toml`, and the text of that file.
+pub const ALL: [(&str, &str); 11] = [
+    ("caroca", CAROCA),
+    ("cogiro", COGIRO),
+    ("expo2015-lucia", EXPO2015_LUCIA),
+    ("fast", FAST),
+    ("ipanema2", IPANEMA2),
+    ("kntu-planar", KNTU_PLANAR),
+    ("nist-robocrane", NIST_ROBOCRANE),
+    ("sap2000-8-cable-point-mass", SAP2000_8_CABLE_POINT_MASS),
+    ("stadium-camera", STADIUM_CAMERA),
+    ("yuan2014-4mm", YUAN2014_4MM),
+    ("yuan2014-8mm", YUAN2014_8MM),
+];
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    #[test]
+    fn every_robot_file_of_the_folder_is_in_the_list() {
+        let mut files: Vec<String> = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")))
+            .unwrap()
+            .filter_map(|entry| {
+                entry.unwrap().file_name().into_string().unwrap().strip_suffix(".toml").map(str::to_owned)
+            })
+            .filter(|name| name != "Cargo")
+            .collect();
+        files.sort();
+        let listed: Vec<&str> = super::ALL.iter().map(|(name, _)| *name).collect();
+        assert_eq!(files, listed);
+    }
+}
