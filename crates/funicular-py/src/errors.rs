@@ -2,7 +2,6 @@
 
 use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::DynamicsError;
-use funicular::ports::PlaceError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
 use funicular_files::FilesError;
@@ -50,9 +49,6 @@ pub(crate) fn study(error: &anyhow::Error) -> PyErr {
         return change(text());
     }
     if cause.is::<DynamicsError>() || cause.is::<CableMotionError>() {
-        return python::DynamicsError::new_err(text());
-    }
-    if let Some(PlaceError::Motion(_)) = cause.downcast_ref() {
         return python::DynamicsError::new_err(text());
     }
     if cause.is::<ResponseError>() {

@@ -6,7 +6,7 @@ use funicular::cable::CableModel;
 use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::robot::{Robot, State, TensionLimits};
 use funicular::statics::{self, StaticModel, TensionRule};
 use funicular::sweep::{Options, Plan, Poses, Quantity as Asked};
@@ -127,7 +127,7 @@ fn responses(c: &mut Criterion) {
     let (robot, lengths) = robot();
     let (dynamics, pose) = linearised(&robot, &lengths);
     let frequencies: Vec<f64> = (0..10_000).map(|i| 0.002 * f64::from(i + 1)).collect();
-    let along = |direction_w| Direction::Along { direction_w, point_p: Vec3::zeros() }.vector(&pose);
+    let along = |direction_w| response::along(&direction_w, &Vec3::zeros(), &pose);
     let (input, output) = (along(Vec3::z()), along(Vec3::y()));
     c.bench_function("frf: 10,000 frequencies, one input, one output", |b| {
         b.iter(|| response::frf(&dynamics, black_box(&frequencies), &input, &output, Quantity::Acceleration));

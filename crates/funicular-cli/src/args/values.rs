@@ -1,7 +1,6 @@
 //! Values on the command line: text in, checked numbers out, each error with the value and what it must be.
 
 use funicular::math::Vec3;
-use funicular::ports;
 use funicular::sweep::{self, Steps};
 use funicular_study::analyses::pose_error::MAX_MASSES;
 use funicular_study::request::MAX_STATIONS;
@@ -11,7 +10,7 @@ use std::num::NonZeroUsize;
 
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
-    ports::number(text).map_err(|error| error.to_string())
+    values::number(text).map_err(|error| error.to_string())
 }
 
 /// A positive number.

@@ -5,7 +5,7 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, Kind};
-use funicular::response::{self, Direction, Port, Quantity};
+use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Damping, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use serde_json::Value;
@@ -88,11 +88,15 @@ fn every_undamped_mode_has_its_damped_partner() {
     }
 }
 
-fn port<'a>(end: &Value, stations: Option<&'a CableStations>, station: usize, rest: &Equilibrium) -> Port<'a> {
+/// A signal of the reference, at the platform's origin or on a cable.
+fn signal(end: &Value, robot: &Robot) -> Signal {
     let direction_w = vector(&end["direction_world"]);
-    match stations {
-        Some(stations) => Port::Cable { stations, station, direction_w: direction_w.normalize() },
-        None => Port::Platform(Direction::Along { direction_w, point_p: Vec3::zeros() }.vector(&rest.pose)),
+    match end.get("cable") {
+        Some(name) => {
+            let cable = robot.cables.iter().position(|cable| cable.name == name.as_str().unwrap()).unwrap();
+            Signal::OnCable { cable, fraction: number(&end["fraction"]), direction_w }
+        }
+        None => Signal::Along { direction_w, point_p: Vec3::zeros() },
     }
 }
 
@@ -103,22 +107,11 @@ fn a_force_and_a_motion_may_be_anywhere_on_platform_and_cables() {
         let frequencies: Vec<f64> = case["frequency_hz"].as_array().unwrap().iter().map(number).collect();
         let dynamics = Dynamics::about(&robot, &rest, EXACT, 20.0).unwrap();
         for pair in case["pairs"].as_array().unwrap() {
-            let cable = |end: &Value| {
-                end.get("cable").map(|name| robot.cables.iter().position(|c| c.name == name.as_str().unwrap()).unwrap())
-            };
             let (from, to) = (&pair["force"], &pair["displacement"]);
-            let stations = |cables: &[(usize, &Value)]| {
-                let fractions: Vec<f64> = cables.iter().map(|(_, end)| number(&end["fraction"])).collect();
-                CableStations::new(&robot, &rest, &dynamics, cables[0].0, &fractions, true).unwrap()
-            };
-            let together = cable(from).is_some() && cable(from) == cable(to);
-            let of_from =
-                cable(from).map(|i| stations(&if together { vec![(i, from), (i, to)] } else { vec![(i, from)] }));
-            let of_to = cable(to).filter(|_| !together).map(|i| stations(&[(i, to)]));
-            let seen = if together { of_from.as_ref() } else { of_to.as_ref() };
-            let input = port(from, of_from.as_ref(), 0, &rest);
-            let output = port(to, seen, usize::from(together), &rest);
-            let ours = response::between(&dynamics, &frequencies, &input, &output, Quantity::Displacement).unwrap();
+            let signals = [from, to].map(|end| signal(end, &robot));
+            let ports = Port::all(&robot, &rest, &dynamics, &signals, true).unwrap();
+            let (input, output) = (&ports[0], &ports[1]);
+            let ours = response::between(&dynamics, &frequencies, input, output, Quantity::Displacement).unwrap();
             for (k, value) in ours.iter().enumerate() {
                 let (re, im) = (number(&pair["real"][k]), number(&pair["imag"][k]));
                 let gap = (value.re - re).hypot(value.im - im) / re.hypot(im);
@@ -184,12 +177,12 @@ fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {
     let refused = CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], false).unwrap_err();
     assert!(refused.to_string().contains("needs the model `exact`"), "{refused}");
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 5.0).unwrap();
-    let make = || CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], true).unwrap();
-    let (one, other) = (make(), make());
-    let port = |stations| Port::Cable { stations, station: 0, direction_w: Vec3::z() };
-    let between = |a, b| response::between(&dynamics, &[1.0], &port(a), &port(b), Quantity::Displacement);
+    let middle = Signal::OnCable { cable: 0, fraction: 0.5, direction_w: Vec3::z() };
+    let make = || Port::all(&robot, &rest, &dynamics, &[middle], true).unwrap().remove(0);
+    let (one, apart) = (make(), make());
+    let between = |a, b| response::between(&dynamics, &[1.0], a, b, Quantity::Displacement);
     assert!(between(&one, &one).is_ok());
-    assert_eq!(between(&one, &other).unwrap_err(), response::ResponseError::SameCable);
+    assert_eq!(between(&one, &apart).unwrap_err(), response::ResponseError::SameCable);
 }
 
 #[test]
@@ -251,16 +244,18 @@ fn what_a_mode_adds_to_a_response_is_its_residue() {
     });
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 12.0).unwrap();
     let found = modes::below(&dynamics, 10.0);
-    let on = |cable, fractions: &[f64]| CableStations::new(&robot, &rest, &dynamics, cable, fractions, true).unwrap();
-    let (one, other) = (on(2, &[0.37, 0.8]), on(4, &[0.25]));
-    let z = Port::Platform(Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose));
-    let port = |stations, station, direction_w| Port::Cable { stations, station, direction_w };
+    let z = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+    let on = |cable, fraction, direction_w| Signal::OnCable { cable, fraction, direction_w };
     let pairs = [
-        (z.clone(), z.clone()),
-        (z, port(&one, 0, Vec3::x())),
-        (port(&one, 1, Vec3::y()), port(&other, 0, Vec3::z())),
-        (port(&one, 1, Vec3::y()), port(&one, 0, Vec3::x())),
+        [z, z],
+        [z, on(2, 0.37, Vec3::x())],
+        [on(2, 0.8, Vec3::y()), on(4, 0.25, Vec3::z())],
+        [on(2, 0.8, Vec3::y()), on(2, 0.37, Vec3::x())],
     ];
+    let pairs = pairs.map(|signals| {
+        let mut ports = Port::all(&robot, &rest, &dynamics, &signals, true).unwrap();
+        (ports.remove(0), ports.remove(0))
+    });
     let residue = |(input, output): &(Port, Port), mode: &modes::Mode| {
         input.in_mode(&dynamics, mode) * output.in_mode(&dynamics, mode) / mode.modal_mass
     };

@@ -7,7 +7,7 @@ use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
 use funicular::modes;
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
 use serde_json::Value;
@@ -168,7 +168,7 @@ fn exact_responses_agree_with_the_files_damping() {
         let (robot, lengths) = robot(case["id"].as_str().unwrap());
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
         let dynamics = Dynamics::about(&robot, &rest, EXACT, 20.0).unwrap();
-        let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose);
+        let z = response::along(&Vec3::z(), &Vec3::zeros(), &rest.pose);
         let frf = &case["frf"];
         let frequencies = numbers(&frf["frequency_hz"]);
         let ours = response::frf(&dynamics, &frequencies, &z, &z, Quantity::Acceleration).unwrap();

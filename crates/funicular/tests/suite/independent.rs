@@ -4,7 +4,7 @@ use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Mat6, Vec3, rotation};
 use funicular::modes;
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel};
 use serde_json::Value;
@@ -168,7 +168,7 @@ fn responses_agree_at_the_origin_and_between_offset_points() {
     for case in CASES.iter() {
         let (robot, rest) = rest(case, StaticModel::Catenary);
         let dynamics = closed(&robot, &rest, Assembly::Consistent, false);
-        let along = |direction_w: Vec3, point_p: Vec3| Direction::Along { direction_w, point_p }.vector(&rest.pose);
+        let along = |direction_w: Vec3, point_p: Vec3| response::along(&direction_w, &point_p, &rest.pose);
         let origin = Vec3::zeros();
         let compare = |theirs: &Value, frequencies: &[f64], input, output, quantity, scale: &Value| {
             let ours = response::frf(&dynamics, frequencies, &input, &output, quantity).unwrap();
