@@ -1,6 +1,6 @@
 //! Files of funicular: the results of maps and sweeps.
 //!
-//! A [`Job`] takes the [chunks](funicular::sweep::Chunk) of a [plan](funicular::sweep::Plan) in order. They go to a
+//! A [`Job`] takes the [chunks](funicular_study::sweep::Chunk) of a [plan](funicular_study::sweep::Plan) in order. They go to a
 //! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
 //! as a whole. Parquet, CSV and VTK hold the same rows; [`arrow::batch`] gives them in memory.
 
@@ -15,6 +15,7 @@ mod parquet;
 mod read;
 mod sealed;
 pub mod table;
+pub mod threads;
 mod vti;
 pub mod whole;
 
@@ -23,10 +24,10 @@ pub use job::{Begin, Job, Opened};
 pub use merge::merge;
 pub use read::SweepFile;
 pub use table::Table;
+pub use threads::Outcome;
 
 use endings::Kind;
-use funicular::sweep::Chunk;
-use funicular_study::sweep::{Difference, Record};
+use funicular_study::sweep::{Chunk, Difference, Record};
 use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};

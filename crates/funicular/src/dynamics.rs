@@ -3,6 +3,7 @@
 
 mod complex;
 mod count;
+mod least_stiffness;
 mod pencil;
 
 pub(crate) use pencil::NullVector;

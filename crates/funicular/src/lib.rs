@@ -60,7 +60,6 @@ pub mod response;
 pub mod robot;
 pub mod statics;
 pub mod suggest;
-pub mod sweep;
 pub mod validity;
 
 /// As a text says it: "1 cable", "2 cables".

@@ -7,9 +7,11 @@
 mod checks;
 pub mod damped;
 mod first;
+mod lowest;
 pub mod track;
 
 pub use first::{First, FirstError, first, first_of_all};
+pub use lowest::{LowestError, lowest};
 
 pub use checks::{MOST, TooMany, check_count, damped_partners};
 

@@ -22,7 +22,6 @@ mod response;
 mod robot_files;
 mod several;
 mod statics;
-mod sweep;
 mod tension;
 mod underconstrained;
 mod wind;
