@@ -1,7 +1,7 @@
 //! What the user sees when there is no result: one message on stderr, and the exit code.
 
 use funicular_study::robot_file::Refused;
-use funicular_study::wording::{Words, worded};
+use funicular_study::wording::{Words, message, worded};
 use funicular_study::{Error, ErrorKind};
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -26,11 +26,11 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
         // `| head` has seen enough.
         return ExitCode::SUCCESS;
     }
-    let message = match refused(error) {
+    let text = match refused(error) {
         Some(refused) => refused.error.render(&refused.name, &refused.text, stderr_has_colour()),
-        None => format!("{} {}", styled("error:", "31"), worded(&format!("{error:#}"), Words::Program)),
+        None => format!("{} {}", styled("error:", "31"), message(error, Words::Program)),
     };
-    to_stderr(&message);
+    to_stderr(&text);
     ExitCode::from(code(error))
 }
 

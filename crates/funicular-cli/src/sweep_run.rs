@@ -8,10 +8,9 @@ use crate::output::{self, Sink};
 use crate::progress::Progress;
 use crate::table::counted;
 use anyhow::{Context, Result, bail};
-use funicular::sweep::{Outcome, Plan};
-use funicular_files::{Begin, CsvRows, Guard, Opened, SweepFile};
+use funicular_files::{Begin, CsvRows, Guard, Opened, Outcome, SweepFile, threads};
 use funicular_study::Request;
-use funicular_study::sweep::{PreparedSweep, Record};
+use funicular_study::sweep::{Plan, PreparedSweep, Record};
 use std::io::{self, BufWriter};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -43,10 +42,7 @@ pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result
     let job = &Job { sweep: &sweep, run };
     let plan = sweep.plan()?;
     let record = sweep.record(&plan, run.part);
-    let threads = match run.threads {
-        Some(threads) => threads,
-        None => std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
-    };
+    let threads = threads::or_all(run.threads);
     match &run.output_file {
         Some(path) => {
             refuse_output(job, guard, path)?;
@@ -62,7 +58,7 @@ fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     listen()?;
     let mut summary = Summary::new(job, plan.columns());
     let mut progress = Progress::with_rate(plan.rows(), "rows");
-    let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| {
+    let outcome = threads::run(plan, 0..plan.chunks(), threads, &STOPPED, |chunk| {
         progress.advance(chunk.rows());
         summary.add(&chunk);
         anyhow::Ok(())
@@ -91,7 +87,7 @@ fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     listen()?;
     let write = || {
         let mut out = CsvRows::new(BufWriter::new(io::stdout().lock()), plan.columns())?;
-        let outcome = plan.run(0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
+        let outcome = threads::run(plan, 0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
         out.finish()?;
         Ok(outcome)
     };
@@ -126,7 +122,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
         work.each(&mut |chunk| summary.add(&chunk))?;
     }
     let mut progress = Progress::with_rate(rows - work.done(), "rows");
-    let outcome = plan.run(work.next()..range.end, threads, &STOPPED, |chunk| {
+    let outcome = threads::run(plan, work.next()..range.end, threads, &STOPPED, |chunk| {
         work.add(&chunk)?;
         progress.advance(chunk.rows());
         summary.add(&chunk);

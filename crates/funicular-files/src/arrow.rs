@@ -3,8 +3,7 @@
 use arrow_array::builder::{BooleanBuilder, Float64Builder, StringBuilder};
 use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
-use funicular::sweep::{Chunk, Column, Kind, Values};
-use funicular_study::sweep::Record;
+use funicular_study::sweep::{Chunk, Column, Kind, Record, Values};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;

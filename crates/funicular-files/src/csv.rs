@@ -1,8 +1,7 @@
 //! Rows as CSV: a header, every digit, nothing where there is no value.
 
 use crate::Rows;
-use funicular::sweep::{Chunk, Column, Values};
-use funicular_study::sweep::Record;
+use funicular_study::sweep::{Chunk, Column, Record, Values};
 use std::io::{self, Write};
 
 /// Writes chunks as CSV.

@@ -4,8 +4,7 @@ use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::whole::{Temporary, is_regular_or_new};
 use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_whole};
-use funicular::sweep::Chunk;
-use funicular_study::sweep::{Difference, Record};
+use funicular_study::sweep::{Chunk, Difference, Record};
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -4,8 +4,7 @@
 //! the record (JSON) and the robot file, every other one chunk, in order.
 
 use crate::{FilesError, Rows};
-use funicular::sweep::{Chunk, Kind, Values};
-use funicular_study::sweep::{Difference, Part, Record};
+use funicular_study::sweep::{Chunk, Difference, Kind, Part, Record, Values};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions, TryLockError};

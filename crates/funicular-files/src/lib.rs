@@ -1,6 +1,6 @@
 //! Files of funicular: the results of maps and sweeps.
 //!
-//! A [`Job`] takes the [chunks](funicular::sweep::Chunk) of a [plan](funicular::sweep::Plan) in order. They go to a
+//! A [`Job`] takes the [chunks](funicular_study::sweep::Chunk) of a [plan](funicular_study::sweep::Plan) in order. They go to a
 //! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
 //! as a whole. Parquet, CSV and VTK hold the same rows; `arrow::batch` gives them in memory.
 //!
@@ -25,6 +25,7 @@ mod read;
 mod sealed;
 #[cfg(feature = "parquet")]
 pub mod table;
+pub mod threads;
 mod vti;
 pub mod whole;
 
@@ -34,10 +35,10 @@ pub use merge::merge;
 pub use read::SweepFile;
 #[cfg(feature = "parquet")]
 pub use table::Table;
+pub use threads::Outcome;
 
 use endings::Kind;
-use funicular::sweep::Chunk;
-use funicular_study::sweep::{Difference, Record};
+use funicular_study::sweep::{Chunk, Difference, Record};
 use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};

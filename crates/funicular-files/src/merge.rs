@@ -2,9 +2,7 @@
 
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Guard, Rows, behind_link, job, write_whole};
-use funicular::sweep::{Chunk, Column, Kind};
-use funicular_study::sweep::SCHEMA;
-use funicular_study::sweep::{Part, Record};
+use funicular_study::sweep::{Chunk, Column, Kind, Part, Record, SCHEMA};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::io;

@@ -3,8 +3,7 @@
 use crate::FilesError;
 use crate::merge::record_of;
 use crate::parquet::ParquetFile;
-use funicular::sweep::Chunk;
-use funicular_study::sweep::{Record, SweepRows};
+use funicular_study::sweep::{Chunk, Record, SweepRows};
 use std::path::Path;
 
 /// A Parquet file of a sweep.

@@ -3,9 +3,8 @@
 use crate::Rows;
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
-use funicular::sweep::{AXES, Column, Kind, Values};
 use funicular_study::request::Axis;
-use funicular_study::sweep::{Record, axes_of};
+use funicular_study::sweep::{AXES, Column, Kind, Record, Values, axes_of};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use std::io::{self, Write};
@@ -62,7 +61,7 @@ fn axis(axis: &Axis) -> Result<(&str, [f64; 2], usize), String> {
 }
 
 /// Writes the image. Numbers that do not exist are NaN, which VTK has no other word for; `feasible` and `status` (the number of
-/// the code in [`funicular::sweep::CODES`]) say why.
+/// the code in [`funicular_study::sweep::CODES`]) say why.
 pub(crate) fn write(out: impl Write, record: &Record, rows: &dyn Rows) -> io::Result<()> {
     let image = Image::of(record).map_err(io::Error::other)?;
     let [x, y, z] = image.counts.map(|count| count - 1);
@@ -111,7 +110,7 @@ fn array(out: &mut Writer<impl Write>, record: &Record, rows: &dyn Rows, i: usiz
     drop(packed);
     out.write_event(Event::End(BytesEnd::new("DataArray")))?;
     if column.name == "status" {
-        let codes = funicular::sweep::CODES.iter().enumerate().map(|(i, (code, _))| format!("{i} {code}"));
+        let codes = funicular_study::sweep::CODES.iter().enumerate().map(|(i, (code, _))| format!("{i} {code}"));
         let comment = format!(" status: {} ", codes.collect::<Vec<_>>().join(", "));
         out.write_event(Event::Comment(BytesText::from_escaped(comment)))?;
     }
@@ -120,7 +119,7 @@ fn array(out: &mut Writer<impl Write>, record: &Record, rows: &dyn Rows, i: usiz
 
 /// The number of a word: of a status among the codes, of a kind among the kinds; 255 for none.
 fn number(word: Option<&str>) -> u8 {
-    let codes = funicular::sweep::CODES.iter().map(|code| code.0);
+    let codes = funicular_study::sweep::CODES.iter().map(|code| code.0);
     let kinds = ["platform", "cable", "mixed"];
     let place = word.and_then(|word| {
         codes.into_iter().position(|code| code == word).or(kinds.iter().position(|kind| *kind == word))

@@ -3,14 +3,16 @@
 
 use arrow_array::{Array, Float64Array};
 use funicular::robot::Robot;
-use funicular::sweep::{Chunk, Options, Plan, Poses, Quantity, Steps, Values};
-use funicular_files::{Begin, FilesError, Job, Opened, SweepFile, Table, merge};
+use funicular_files::{Begin, FilesError, Job, Opened, Outcome, SweepFile, Table, merge, threads};
 use funicular_study::request::Axis;
-use funicular_study::sweep::{Part, Record};
+use funicular_study::sweep::{Chunk, Options, Part, Plan, Poses, Quantity, Record, Steps, Values};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use serde_json::{Map, json};
+use std::convert::Infallible;
 use std::fs::{self, File};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 const ROBOT: &str = funicular_robots::COGIRO;
 
@@ -24,7 +26,7 @@ fn sweep() -> (Record, Vec<Chunk>) {
     ];
     let points = Poses::grid(robot.clone(), &axes, None).unwrap();
     // Kinds are texts, and absent where a pose is infeasible.
-    let quantities = [Quantity::TensionMax, Quantity::FirstKind, Quantity::Tensions];
+    let quantities = ["tension-max", "first-kind", "tensions"].map(|name| name.parse::<Quantity>().unwrap());
     let options = Options { highest_hz: 1e-3, ..Options::default() };
     let plan = Plan::new(&points, &robot, &quantities, &options).unwrap();
     let chunks = (0..plan.chunks()).map(|index| plan.evaluate(index, || false).unwrap()).collect();
@@ -386,4 +388,57 @@ fn images_need_grids_of_equal_steps() {
     assert!(said.contains("a part has to be a .parquet file"), "{said}");
     assert!(message(open(&folder.path().join("a.txt"), &record, Begin::Anew)).contains("names no format"));
     assert!(message(open(&folder.path().join("no/a.csv"), &record, Begin::Anew)).contains("there is no directory"));
+}
+
+/// A map of 8,000 points whose rows cost little.
+fn energies(robot: &Robot, evaluate: impl FnOnce(&Plan<'_>)) {
+    let axis = |name: &str, from, to| (name.to_owned(), Steps::range(from, to, 20).unwrap());
+    let axes = [axis("x", -4.0, 4.0), axis("y", -3.0, 3.0), axis("z", 0.5, 3.0)];
+    let points = Poses::grid(robot.clone(), &axes, None).unwrap();
+    let quantities = ["tensions", "energy"].map(|name| name.parse::<Quantity>().unwrap());
+    let options = Options::default();
+    evaluate(&Plan::new(&points, robot, &quantities, &options).unwrap());
+}
+
+#[test]
+fn rows_are_the_same_bits_on_any_number_of_threads() {
+    energies(&Robot::from_toml(ROBOT).unwrap(), |plan| {
+        assert!(plan.chunks() > 20, "{}", plan.chunks());
+        let run = |threads| {
+            let mut all = Vec::new();
+            let threads = NonZeroUsize::new(threads).unwrap();
+            let outcome = threads::run(plan, 0..plan.chunks(), threads, &AtomicBool::new(false), |chunk| {
+                all.push(chunk);
+                Ok::<(), Infallible>(())
+            });
+            assert_eq!(outcome, Ok(Outcome::Complete));
+            all
+        };
+        // No value is NaN, so that equality is equality of bits.
+        let alone: Vec<Chunk> = (0..plan.chunks()).map(|index| plan.evaluate(index, || false).unwrap()).collect();
+        assert!(run(1) == alone && run(2) == alone && run(7) == alone);
+    });
+}
+
+#[test]
+fn a_run_that_is_cancelled_or_refused_ends_behind_whole_chunks() {
+    energies(&Robot::from_toml(ROBOT).unwrap(), |plan| {
+        let (cancel, three) = (AtomicBool::new(false), NonZeroUsize::new(3).unwrap());
+        let mut seen = Vec::new();
+        let outcome = threads::run(plan, 2..plan.chunks(), three, &cancel, |chunk| {
+            seen.push(chunk.index);
+            if chunk.index == 5 {
+                cancel.store(true, Ordering::Relaxed);
+            }
+            Ok::<(), Infallible>(())
+        });
+        let Ok(Outcome::Cancelled { next }) = outcome else { panic!("{outcome:?}") };
+        assert!(next >= 6 && next < plan.chunks(), "{next}");
+        assert_eq!(seen, (2..next).collect::<Vec<_>>());
+
+        let refused = threads::run(plan, 0..plan.chunks(), three, &AtomicBool::new(false), |chunk| {
+            if chunk.index == 4 { Err("the disk is full") } else { Ok(()) }
+        });
+        assert_eq!(refused, Err("the disk is full"));
+    });
 }

@@ -5,7 +5,7 @@ use crate::equilibrium::least_stiffness;
 use crate::errors;
 use crate::pose;
 use crate::threads::Threads;
-use crate::waiting::{hand_over, look};
+use crate::waiting::{look, on_threads};
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
@@ -19,11 +19,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::convert::Infallible;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Sender, channel};
-use std::thread;
 
-/// States that a thread takes at once: some milliseconds.
+/// States of a block, which a thread takes at once: some milliseconds.
 const AT_ONCE: usize = 64;
 
 /// `funicular.Equilibria`.
@@ -126,14 +123,12 @@ impl Found {
     }
 }
 
-/// What the threads share.
+/// What is solved for every state.
 struct Work<'a> {
     robot: &'a Robot,
     states: &'a States,
     model: StaticModel,
     rule: Option<TensionRule>,
-    next: AtomicUsize,
-    stop: AtomicBool,
 }
 
 impl Work<'_> {
@@ -145,20 +140,12 @@ impl Work<'_> {
         }
     }
 
-    /// Takes rows until there are none, or nobody wants them.
-    fn run(&self, sender: &Sender<(Range<usize>, Vec<Row>)>) {
+    /// The rows of a block.
+    fn block(&self, index: usize) -> (Range<usize>, Vec<Row>) {
         let mut robot = self.robot.clone();
-        while !self.stop.load(Ordering::Relaxed) {
-            let from = self.next.fetch_add(AT_ONCE, Ordering::Relaxed);
-            let rows = from..(from + AT_ONCE).min(self.states.count());
-            if from >= rows.end {
-                return;
-            }
-            let found = rows.clone().map(|row| self.row(&mut robot, row)).collect();
-            if sender.send((rows, found)).is_err() {
-                return;
-            }
-        }
+        let rows = index * AT_ONCE..((index + 1) * AT_ONCE).min(self.states.count());
+        let found = rows.clone().map(|row| self.row(&mut robot, row)).collect();
+        (rows, found)
     }
 }
 
@@ -177,28 +164,14 @@ pub(crate) fn equilibria(
     let (robot, rule) = prepared().map_err(|error| errors::study(&error))?;
     let model = state.static_model;
     let mut columns = Columns::new(robot.cables.len(), states.count());
-    let next = AtomicUsize::new(0);
-    let work = Work { robot: &robot, states: &states, model, rule, next, stop: AtomicBool::new(false) };
-    let threads = Threads::of(threads).get().min(states.count().div_ceil(AT_ONCE)).max(1);
-    py.detach(|| side_by_side(&work, threads, |rows, found| columns.put(rows, found)))?;
+    let work = Work { robot: &robot, states: &states, model, rule };
+    let blocks = 0..states.count().div_ceil(AT_ONCE);
+    let put = |(rows, found)| {
+        columns.put(rows, found);
+        Ok(())
+    };
+    py.detach(|| on_threads(blocks, Threads::of(threads), |index, _| Some(work.block(index)), put, look))?;
     columns.into_python(py, model).map(Equilibria)
-}
-
-/// Threads of this call alone: a pool that outlives it would not survive a fork, and Python's process pools fork.
-fn side_by_side(work: &Work<'_>, threads: usize, mut put: impl FnMut(Range<usize>, Vec<Row>)) -> PyResult<()> {
-    thread::scope(|scope| {
-        let (sender, receiver) = channel();
-        for _ in 0..threads {
-            let sender = sender.clone();
-            scope.spawn(move || work.run(&sender));
-        }
-        drop(sender);
-        let mut take = |(rows, found)| {
-            put(rows, found);
-            Ok(())
-        };
-        hand_over(&receiver, &work.stop, &mut take, &mut look)
-    })
 }
 
 /// The columns of the result; NaN where a row has nothing.

@@ -2,13 +2,12 @@
 
 use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::DynamicsError;
-use funicular::ports::PlaceError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
 use funicular_files::FilesError;
 use funicular_study::robot_file::Refused;
 use funicular_study::set_values::EditError;
-use funicular_study::wording::{Words, worded};
+use funicular_study::wording::{Words, message, worded};
 use funicular_study::{Error, NoSolution};
 use pyo3::PyErr;
 
@@ -39,7 +38,7 @@ pub(crate) fn change(text: String) -> PyErr {
 /// Any error of the study; its kind and its cause decide the exception.
 pub(crate) fn study(error: &anyhow::Error) -> PyErr {
     let cause = error.downcast_ref::<Error>().map_or(error, Error::cause);
-    let text = || worded(&format!("{cause:#}"), Words::Python);
+    let text = || message(cause, Words::Python);
     if let Some(error) = cause.downcast_ref::<StaticsError>() {
         return python::StaticsError::new_err((text(), error.code()));
     }
@@ -50,9 +49,6 @@ pub(crate) fn study(error: &anyhow::Error) -> PyErr {
         return change(text());
     }
     if cause.is::<DynamicsError>() || cause.is::<CableMotionError>() {
-        return python::DynamicsError::new_err(text());
-    }
-    if let Some(PlaceError::Motion(_)) = cause.downcast_ref() {
         return python::DynamicsError::new_err(text());
     }
     if cause.is::<ResponseError>() {

@@ -391,7 +391,7 @@ impl PyRobot {
     ///     The executor's workers died; its `resume` goes on.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular::sweep::HIGHEST_HZ), tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::HIGHEST_HZ), tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
         threads=None, executor=None, chunks_per_task=None, progress=None
@@ -460,7 +460,7 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular::sweep::HIGHEST_HZ), tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::HIGHEST_HZ), tension_rule=None,
         wanted_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
         threads=None, executor=None, chunks_per_task=None, progress=None

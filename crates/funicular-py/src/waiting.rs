@@ -1,8 +1,11 @@
 //! Long work without Python's lock, given up at Ctrl-C.
 
+use funicular_files::threads::in_order;
 use pyo3::prelude::*;
+use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -40,9 +43,38 @@ pub(crate) fn interruptible<T: Send + 'static>(
     })
 }
 
+/// Results that may wait between the threads and who takes them.
+const WAITING: usize = 8;
+
+/// Computes items on threads of this call alone, and hands them over in order to this one, which looks for Ctrl-C. An error
+/// of `look` asks for the end, takes what is finished, and is the result.
+pub(crate) fn on_threads<T: Send>(
+    items: Range<usize>,
+    threads: NonZeroUsize,
+    compute: impl Fn(usize, &dyn Fn() -> bool) -> Option<T> + Sync,
+    mut take: impl FnMut(T) -> PyResult<()>,
+    mut look: impl FnMut() -> PyResult<()>,
+) -> PyResult<()> {
+    let cancel = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let (sender, receiver) = sync_channel(WAITING);
+        let (cancel, compute) = (&cancel, &compute);
+        let runner = scope.spawn(move || in_order(items, threads, cancel, compute, |item| sender.send(item)));
+        let ended = hand_over(&receiver, cancel, &mut take, &mut look);
+
+        // Nobody takes the rest.
+        cancel.store(true, Ordering::Relaxed);
+        drop(receiver);
+        match runner.join() {
+            Err(panic) => std::panic::resume_unwind(panic),
+            Ok(_) => ended,
+        }
+    })
+}
+
 /// Hands over results as they come, until there are none or one cannot be taken: then none behind it can, either. An
 /// error of `look` asks with `cancel` for the end, takes what is finished, and is the result.
-pub(crate) fn hand_over<T>(
+fn hand_over<T>(
     arriving: &Receiver<T>,
     cancel: &AtomicBool,
     take: &mut impl FnMut(T) -> PyResult<()>,

@@ -2,12 +2,13 @@
 
 use crate::names::TensionRuleName;
 use crate::request::{self, Load, Model, Points, Tensions, Terms};
+use crate::signals::{Input, Output};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
+use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
-use funicular::ports::{Input, OnCable, Output, PlaceError, Places};
-use funicular::response::Direction;
+use funicular::response::{Port, Signal};
 use funicular::robot::{self, Freedoms, Pose, Robot, State, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
 use funicular::validity;
@@ -170,24 +171,20 @@ pub fn linearisation(model: &Model, static_model: StaticModel) -> Linearisation 
 ///
 /// # Errors
 /// A signal that means nothing on the robot, or a point that is none.
-pub fn directions(robot: &Robot, input: &Input, output: &Output, points: &Points) -> Result<(Direction, Direction)> {
+pub fn signals(robot: &Robot, input: &Input, output: &Output, points: &Points) -> Result<[Signal; 2]> {
     points.check()?;
     let [from, to] = [points.input_point_m, points.output_point_m].map(|point| point.map(Vec3::from));
-    Ok((input.direction(robot, from)?, output.direction(robot, to)?))
+    Ok([input.signal(robot, from)?, output.signal(robot, to)?])
 }
 
 impl AtRest {
-    /// The points on cables where a response begins or ends.
+    /// Input and output of a response on the linearised robot; forces may act on both.
     ///
     /// # Errors
-    /// [`PlaceError`]: a cable that the robot does not have, or a model without motion along its cables.
-    pub fn places(
-        &self,
-        dynamics: &Dynamics,
-        input: Option<&OnCable>,
-        output: Option<&OnCable>,
-    ) -> Result<Places, PlaceError> {
-        Places::new(&self.robot, &self.equilibrium, dynamics, input, output)
+    /// [`CableMotionError`]: a model without motion along its cables.
+    pub fn ports(&self, dynamics: &Dynamics, signals: [Signal; 2]) -> Result<[Port; 2], CableMotionError> {
+        let all = Port::all(&self.robot, &self.equilibrium, dynamics, &signals, true)?;
+        Ok(all.try_into().expect("as many ports as signals"))
     }
 
     /// The robot linearised about its equilibrium, with warnings for frequencies up to a limit [Hz].

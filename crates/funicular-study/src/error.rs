@@ -1,6 +1,6 @@
 //! One error for every analysis: its kind decides the exit code, its text is for the user.
 
-use crate::wording::{Words, worded};
+use crate::wording::{Words, message};
 use funicular::dynamics::DynamicsError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
@@ -42,7 +42,7 @@ impl Error {
 
     /// The message in the words of a front end: names of options as that front end writes them.
     pub fn message(&self, words: Words) -> String {
-        worded(&format!("{:#}", self.cause), words)
+        message(&self.cause, words)
     }
 
     /// The error below, for front ends that know its type.

@@ -11,7 +11,7 @@ use crate::request;
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::modes::{self, Modes};
+use funicular::modes::{self, LowestError, Modes};
 use funicular::statics::StaticModel;
 
 /// Most modes that a file takes: each is a field of the whole robot, or a row of a table.
@@ -100,20 +100,20 @@ fn modes_below(at_rest: &AtRest, below_hz: f64, warnings: &mut Vec<String>) -> R
     Ok((dynamics, found))
 }
 
-/// The first natural frequencies of exact cables [Hz], and no more of them than there are below a limit.
-fn first_frequencies(at_rest: &AtRest, most: usize, warnings: &mut Vec<String>) -> Result<Vec<f64>> {
-    // A robot has fewer modes than wanted only if its cables are massless; those that it has are not far up.
+/// The lowest natural frequencies of exact cables [Hz], and no more of them than there are.
+fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>) -> Result<Vec<f64>> {
+    // A robot has fewer modes than requested only if its cables are massless; those that it has are not far up.
     const HIGHEST_HZ: f64 = 1e4;
-    let mut below_hz = 0.125;
-    loop {
-        let mut doubts = Vec::new();
-        let (_, found) = modes_below(at_rest, below_hz, &mut doubts)?;
-        warnings.extend(doubts);
-        if found.modes.len() >= most || below_hz >= HIGHEST_HZ {
-            return Ok(found.modes.iter().take(most).map(|mode| mode.frequency_hz).collect());
-        }
-        below_hz *= 2.0;
-    }
+    let lowest = |count| {
+        let AtRest { robot, equilibrium, .. } = at_rest;
+        modes::lowest(robot, equilibrium, Linearisation::default(), count, HIGHEST_HZ)
+    };
+    let (_, list) = match lowest(count) {
+        Err(LowestError::TooFew { found, .. }) => lowest(found)?,
+        other => other?,
+    };
+    warnings.extend(list.doubt());
+    Ok(list.modes.iter().take(count).map(|mode| mode.frequency_hz).collect())
 }
 
 /// A text of the user on one line, for titles and comments.

@@ -41,6 +41,7 @@ pub mod request;
 pub mod robot_file;
 mod run;
 pub mod set_values;
+pub mod signals;
 pub mod sweep;
 pub mod text;
 pub mod validation;

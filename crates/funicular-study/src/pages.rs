@@ -72,7 +72,7 @@ mod tests {
     use funicular::dynamics::{Dynamics, Linearisation};
     use funicular::math::Vec3;
     use funicular::modes;
-    use funicular::response::{Direction, Quantity};
+    use funicular::response::{self, Quantity};
     use funicular::robot::{Robot, State};
     use funicular::statics::{Equilibrium, StaticModel, forward};
 
@@ -92,8 +92,7 @@ mod tests {
     fn page_with(text: &str, model: StaticModel, linearisation: Linearisation) -> String {
         let robot = Robot::from_toml(text).unwrap();
         let equilibrium = rest(&robot, model);
-        let up = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
-        let u = up.vector(&equilibrium.pose);
+        let u = response::along(&Vec3::z(), &Vec3::zeros(), &equilibrium.pose);
         report(&ReportInput {
             at_rest: &AtRest { robot, equilibrium, instead_of: None, rule: None },
             file_label: "robot.toml",

@@ -16,9 +16,9 @@ pub use parts::{
 use crate::error::Error;
 use crate::import::SourceFile;
 use crate::names::suggestion;
+use crate::signals::{Input, Output};
 use crate::values::{not_negative, positive};
 use anyhow::{anyhow, bail};
-use funicular::ports::{Input, Output};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

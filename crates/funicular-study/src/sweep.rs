@@ -1,14 +1,29 @@
 //! Maps and sweeps: a request made ready to run, what its file says of itself, and rows for a page.
 //!
-//! The rows are computed by [`funicular::sweep::Plan`], which a front end runs with its own threads and keeps in its own
-//! files.
+//! A request becomes a [`PreparedSweep`], and that a [`Plan`] of points, quantities and options, whose rows come in chunks. A
+//! front end runs the chunks on its own threads and keeps them in its own files, which a [`Record`] describes.
 
+mod columns;
 mod digest;
+mod frequency;
+mod plan;
+mod points;
+mod quantity;
 mod record;
 mod robot_values;
+mod row;
+mod status;
+mod steps;
 
+pub use columns::{Chunk, Column, Kind, Values};
+pub use frequency::{PointModes, lowest_modes};
+pub use plan::{HIGHEST_HZ, MOST_POINTS, Options, Plan, SweepError};
+pub use points::{AXES, Point, Points, Poses};
+pub use quantity::{MOST_FREQUENCIES, Quantity, UnknownQuantity};
 pub use record::{Difference, Part, Record, SCHEMA, kind_name};
 pub use robot_values::{RobotValues, ValueAxis};
+pub use status::CODES;
+pub use steps::{Steps, digits};
 
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
@@ -18,7 +33,6 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
 use funicular::robot::{Freedoms, Pose, Robot, State};
 use funicular::statics;
-use funicular::sweep::{AXES, Chunk, Options, Plan, Points, Poses, Quantity, Steps, SweepError};
 use serde_json::{Map, Value, json};
 
 /// A map or sweep that is ready to run.

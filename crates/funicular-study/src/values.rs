@@ -1,12 +1,44 @@
 //! Ranges of numbers in requests: the rule for each kind of value, once for all front ends.
 
-use funicular::ports;
+use thiserror::Error;
 
 /// Smallest quantity that has to be positive, as in robot files.
 pub const MIN_POSITIVE: f64 = 1e-12;
 
 /// Largest magnitude of any number, as in robot files: no product of the analyses overflows within it.
 pub const MAX_MAGNITUDE: f64 = 1e12;
+
+/// A number in a text that is none, or not one to compute with.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NumberError {
+    /// Nothing.
+    #[error("a number is missing")]
+    Missing,
+    /// No number.
+    #[error("`{0}` is not a number (write it without its unit, with a point for decimals)")]
+    NotANumber(String),
+    /// NaN or infinite.
+    #[error("{0} is not a finite number")]
+    NotFinite(String),
+    /// Too large.
+    #[error("{0} is beyond {MAX_MAGNITUDE:e} in magnitude")]
+    TooLarge(String),
+}
+
+/// Reads a finite number of at most [`MAX_MAGNITUDE`] from a text.
+///
+/// # Errors
+/// [`NumberError`].
+pub fn number(text: &str) -> Result<f64, NumberError> {
+    let text = text.trim();
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value.abs() <= MAX_MAGNITUDE => Ok(value),
+        Ok(value) if value.is_finite() => Err(NumberError::TooLarge(text.to_owned())),
+        Ok(_) => Err(NumberError::NotFinite(text.to_owned())),
+        Err(_) if text.is_empty() => Err(NumberError::Missing),
+        Err(_) => Err(NumberError::NotANumber(text.to_owned())),
+    }
+}
 
 /// Checks that a number is finite and of at most [`MAX_MAGNITUDE`].
 ///
@@ -17,7 +49,7 @@ pub fn finite(value: f64) -> Result<f64, String> {
         return Ok(value);
     }
     // The reader of texts says what is wrong; a number prints as a text that it reads as that number.
-    ports::number(&format!("{value:?}")).map_err(|error| error.to_string())
+    number(&format!("{value:?}")).map_err(|error| error.to_string())
 }
 
 /// Checks that a number is at least [`MIN_POSITIVE`].

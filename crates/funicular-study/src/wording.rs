@@ -3,6 +3,8 @@
 //! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program shows
 //! `--min-tension-n`, Python and JSON show `min_tension_n`.
 
+use funicular::statics::StaticsError;
+
 /// Front ends by how they write the name of an option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Words {
@@ -43,6 +45,20 @@ pub fn worded(text: &str, words: Words) -> String {
     out + rest
 }
 
+/// The message of an error of any analysis as a front end writes it: its own text, and the option that helps.
+pub fn message(error: &anyhow::Error, words: Words) -> String {
+    let remedy = error.downcast_ref().and_then(remedy).unwrap_or_default();
+    worded(&format!("{error:#}{remedy}"), words)
+}
+
+/// The option of a request that helps against an error of the core, which knows no options.
+fn remedy(error: &StaticsError) -> Option<&'static str> {
+    match error {
+        StaticsError::Unsettled { .. } => Some(", or give ⟪min_tension_n⟫"),
+        _ => None,
+    }
+}
+
 /// The name of one option as a front end writes it.
 pub fn option(key: &str, words: Words) -> String {
     let own_name = |names: &[(&str, &'static str)]| names.iter().find(|(name, _)| *name == key).map(|(_, own)| *own);
@@ -53,5 +69,26 @@ pub fn option(key: &str, words: Words) -> String {
         },
         Words::Python => format!("`{}`", own_name(&PYTHON_NAMES).unwrap_or(key)),
         Words::Json => format!("`{key}`"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_of_the_core_is_told_with_the_option_that_helps() {
+        let error = StaticsError::Unsettled {
+            iterations: 100,
+            change: 1e-3,
+            limit: 1e-9,
+            residual: 1e-7,
+            x: 0.0,
+            y: 0.0,
+            z: 1.0,
+        };
+        assert!(!error.to_string().contains("--"));
+        let told = message(&error.into(), Words::Program);
+        assert!(told.ends_with("(`minimum_tension_n` in the robot file), or give --min-tension-n"), "{told}");
     }
 }

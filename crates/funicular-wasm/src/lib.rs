@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use serde_json::{Value, json};
 
-    const ROBOT: &str = include_str!("../../../robots/cogiro.toml");
+    const ROBOT: &str = funicular_robots::COGIRO;
 
     fn answered(request: &Value) -> (u32, String) {
         let (status, text) = answer(request.to_string().into_bytes());

@@ -6,10 +6,9 @@ use funicular::cable::CableModel;
 use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::robot::{Robot, State, TensionLimits};
 use funicular::statics::{self, StaticModel, TensionRule};
-use funicular::sweep::{Options, Plan, Poses, Quantity as Asked};
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
 use std::time::Duration;
@@ -127,7 +126,7 @@ fn responses(c: &mut Criterion) {
     let (robot, lengths) = robot();
     let (dynamics, pose) = linearised(&robot, &lengths);
     let frequencies: Vec<f64> = (0..10_000).map(|i| 0.002 * f64::from(i + 1)).collect();
-    let along = |direction_w| Direction::Along { direction_w, point_p: Vec3::zeros() }.vector(&pose);
+    let along = |direction_w| response::along(&direction_w, &Vec3::zeros(), &pose);
     let (input, output) = (along(Vec3::z()), along(Vec3::y()));
     c.bench_function("frf: 10,000 frequencies, one input, one output", |b| {
         b.iter(|| response::frf(&dynamics, black_box(&frequencies), &input, &output, Quantity::Acceleration));
@@ -182,28 +181,9 @@ fn exact_cables(c: &mut Criterion) {
     });
 }
 
-/// A thousand poses of the middle of the workspace, on one thread.
-fn sweeps(c: &mut Criterion) {
-    let (robot, _) = robot();
-    let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() - 0.5;
-    let poses = (0..1000)
-        .map(|i| [part(i, 2f64.sqrt()), part(i, 3f64.sqrt()), 0.6 + 0.4 * part(i, 5f64.sqrt()), 0.0, 0.0, 0.0])
-        .collect();
-    let points = Poses::list(robot.clone(), poses);
-    let options = Options::default();
-    let mut bench = |name: &str, quantities: &[Asked]| {
-        let plan = Plan::new(&points, &robot, quantities, &options).expect("a plan");
-        c.bench_function(&format!("sweep: 1,000 poses, {name}"), |b| {
-            b.iter(|| (0..plan.chunks()).map(|i| plan.evaluate(i, || false).map_or(0, |c| c.rows())).sum::<usize>());
-        });
-    };
-    bench("lengths and tensions", &[Asked::Lengths, Asked::Tensions]);
-    bench("lengths, tensions and exact first frequency", &[Asked::Lengths, Asked::Tensions, Asked::FirstFrequency]);
-}
-
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, responses, natural_frequencies, exact_cables, sweeps
+    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, responses, natural_frequencies, exact_cables
 }
 criterion_main!(jobs);

@@ -4,6 +4,7 @@
 mod blocks;
 mod complex;
 mod count;
+mod least_stiffness;
 mod pencil;
 
 pub(crate) use blocks::{CableBlocks, PlatformBlocks};

@@ -16,7 +16,7 @@
 //! use funicular::dynamics::{Dynamics, Linearisation};
 //! use funicular::math::Vec3;
 //! use funicular::modes;
-//! use funicular::response::{self, Direction, Quantity};
+//! use funicular::response::{self, Quantity};
 //! use funicular::robot::{Robot, State};
 //! use funicular::statics::{self, Stability, StaticModel};
 //!
@@ -38,7 +38,7 @@
 //! assert!((found.modes[0].frequency_hz - 1.020_75).abs() < 1e-5);
 //!
 //! // Vertical acceleration per vertical force at the platform origin.
-//! let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose);
+//! let z = response::along(&Vec3::z(), &Vec3::zeros(), &rest.pose);
 //! let accelerance = response::frf(&dynamics, &[1.1], &z, &z, Quantity::Acceleration)?;
 //! assert!((accelerance[0].norm() - 0.011_975).abs() < 1e-5); // (m/s²)/N
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -54,14 +54,12 @@ pub mod dynamics;
 pub mod math;
 pub mod modes;
 mod platform;
-pub mod ports;
 pub mod pose_error;
 pub mod reduction;
 pub mod response;
 pub mod robot;
 pub mod statics;
 pub mod suggest;
-pub mod sweep;
 pub mod validity;
 
 /// As a text says it: "1 cable", "2 cables".

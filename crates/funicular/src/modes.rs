@@ -8,11 +8,12 @@ mod checks;
 pub mod damped;
 pub mod derivatives;
 mod fundamental;
+mod lowest;
 mod mac;
 pub mod track;
 
 pub use fundamental::{First, FirstError, first, first_of_all};
-
+pub use lowest::{LowestError, lowest};
 pub use mac::mac;
 
 pub use checks::{MOST, TooMany, check_count, damped_partners};

@@ -6,31 +6,15 @@
 //! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 13.
 
 use crate::cable::DynamicCable;
-use crate::cable_motion::{CableMotionError, CableStations};
+use crate::cable_motion::CableMotionError;
 use crate::dynamics::{CableBlocks, Dynamics, PlatformBlocks};
-use crate::math::{CDMat, Complex, DMat, Vec3, Vec6, symmetric_part};
+use crate::math::{CDMat, Complex, DMat, Vec6, symmetric_part};
 use crate::modes;
-use crate::response::{self, Direction, Port, Quantity, ResponseError};
+use crate::response::{self, Port, Quantity, ResponseError, Signal};
 use crate::robot::{Damping, Robot};
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
 use thiserror::Error;
-
-/// Where a force acts or a motion is measured.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Place {
-    /// On the platform.
-    Platform(Direction),
-    /// On a cable.
-    Cable {
-        /// Which, file order.
-        cable: usize,
-        /// Part of its unstrained length from the platform.
-        fraction: f64,
-        /// Direction in world axes, a unit vector.
-        direction_w: Vec3,
-    },
-}
 
 /// What stands for damping in constant ratio, which no matrix C can be at every frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,15 +132,15 @@ pub fn reduce(
     robot: &Robot,
     equilibrium: &Equilibrium,
     dynamics: &Dynamics,
-    inputs: &[Place],
-    outputs: &[(Place, Quantity)],
+    inputs: &[Signal],
+    outputs: &[(Signal, Quantity)],
     wanted: Wanted,
 ) -> Result<SecondOrder, ReductionError> {
     if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::Exact(_))) {
         return Err(ReductionError::Model);
     }
     // The answer of a cable to a force on itself has a kink, which the modes that are kept do not.
-    let loaded = inputs.iter().any(|place| matches!(place, Place::Cable { .. }));
+    let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
     let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
 
     // What the reduced model has to answer.
@@ -213,16 +197,10 @@ fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>]) -> f6
         .fold(0.0, f64::max)
 }
 
-/// Inputs and outputs with the stations that those on cables need.
+/// Inputs and outputs on the linearised robot.
 struct Channels {
-    stations: Vec<CableStations>,
-    inputs: Vec<Channel>,
-    outputs: Vec<Channel>,
-}
-
-enum Channel {
-    Platform(Vec6),
-    Cable { stations: usize, station: usize, direction_w: Vec3 },
+    inputs: Vec<Port>,
+    outputs: Vec<Port>,
 }
 
 impl Channels {
@@ -230,74 +208,34 @@ impl Channels {
         robot: &Robot,
         equilibrium: &Equilibrium,
         dynamics: &Dynamics,
-        inputs: &[Place],
-        outputs: &[(Place, Quantity)],
+        inputs: &[Signal],
+        outputs: &[(Signal, Quantity)],
         loaded: bool,
     ) -> Result<Self, ReductionError> {
-        let places = || inputs.iter().chain(outputs.iter().map(|(place, _)| place));
-        // All stations of one cable together: a force at one of them moves the others.
-        let mut fractions: Vec<(usize, Vec<f64>)> = Vec::new();
-        for place in places() {
-            if let Place::Cable { cable, fraction, .. } = place {
-                match fractions.iter_mut().find(|(of, _)| of == cable) {
-                    Some((_, all)) => all.push(*fraction),
-                    None => fractions.push((*cable, vec![*fraction])),
-                }
-            }
-        }
-
-        let stations: Vec<CableStations> = fractions
-            .iter()
-            .map(|(cable, all)| CableStations::new(robot, equilibrium, dynamics, *cable, all, loaded))
-            .collect::<Result<_, _>>()?;
-
-        let channel = |place: &Place| match place {
-            Place::Platform(direction) => Channel::Platform(direction.vector(&equilibrium.pose)),
-            Place::Cable { cable, fraction, direction_w } => {
-                let at = fractions.iter().position(|(of, _)| of == cable).expect("every cable has stations");
-                let station = fractions[at]
-                    .1
-                    .iter()
-                    .position(|of| of.to_bits() == fraction.to_bits())
-                    .expect("and every fraction");
-                Channel::Cable { stations: at, station, direction_w: *direction_w }
-            }
-        };
-        let inputs = inputs.iter().map(channel).collect();
-        let outputs = outputs.iter().map(|(place, _)| channel(place)).collect();
-        Ok(Self { stations, inputs, outputs })
-    }
-
-    fn port(&self, channel: &Channel) -> Port<'_> {
-        match channel {
-            Channel::Platform(vector) => Port::Platform(*vector),
-            Channel::Cable { stations, station, direction_w } => {
-                Port::Cable { stations: &self.stations[*stations], station: *station, direction_w: *direction_w }
-            }
-        }
+        let signals: Vec<Signal> = inputs.iter().copied().chain(outputs.iter().map(|(signal, _)| *signal)).collect();
+        let mut inputs_first = Port::all(robot, equilibrium, dynamics, &signals, loaded)?;
+        let outputs = inputs_first.split_off(inputs.len());
+        Ok(Self { inputs: inputs_first, outputs })
     }
 
     /// Displacements of every output by every input.
     fn responses(&self, dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<Vec<Complex>>, ResponseError> {
         let pairs = self.outputs.iter().flat_map(|output| self.inputs.iter().map(move |input| (input, output)));
         pairs
-            .map(|(input, output)| {
-                let (input, output) = (self.port(input), self.port(output));
-                response::between(dynamics, frequencies_hz, &input, &output, Quantity::Displacement)
-            })
+            .map(|(input, output)| response::between(dynamics, frequencies_hz, input, output, Quantity::Displacement))
             .collect()
     }
 
-    /// The row of a channel over the coordinates.
-    fn row(&self, channel: &Channel, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
+    /// The row of a port over the coordinates.
+    fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
         let mut row = vec![0.0; layout.coordinates.len()];
         let coordinates = |vector: &Vec6| dynamics.coordinates().freedoms().reduced(vector);
-        match channel {
-            Channel::Platform(vector) => {
+        match port {
+            Port::Platform(vector) => {
                 row[..layout.freedoms].copy_from_slice(&coordinates(vector).as_slice()[..layout.freedoms]);
             }
-            Channel::Cable { stations, station, direction_w } => {
-                let (platform, term, amplitudes) = self.stations[*stations].row(dynamics, *station, direction_w);
+            Port::Cable { stations, station, direction_w } => {
+                let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
                 row[..layout.freedoms].copy_from_slice(&coordinates(&platform).as_slice()[..layout.freedoms]);
                 if let Some(term) = term {
                     let from = layout.first_of_term[term];
@@ -405,7 +343,7 @@ impl Matrices {
 fn assembled(
     dynamics: &Dynamics,
     channels: &Channels,
-    outputs: &[(Place, Quantity)],
+    outputs: &[(Signal, Quantity)],
     wanted: Wanted,
 ) -> Result<SecondOrder, ReductionError> {
     let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
@@ -420,9 +358,9 @@ fn assembled(
         matrices.damping = matrices.all_damping(wanted.damping_at)?;
     }
 
-    let rows = |channels_of: &[Channel]| {
-        let all: Vec<f64> = channels_of.iter().flat_map(|channel| channels.row(channel, dynamics, &layout)).collect();
-        DMat::from_row_slice(channels_of.len(), n, &all)
+    let rows = |ports: &[Port]| {
+        let all: Vec<f64> = ports.iter().flat_map(|port| Channels::row(port, dynamics, &layout)).collect();
+        DMat::from_row_slice(ports.len(), n, &all)
     };
     let (input, output) = (rows(&channels.inputs).transpose(), rows(&channels.outputs));
 

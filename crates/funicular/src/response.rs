@@ -5,15 +5,15 @@
 
 mod kernel;
 mod peaks;
+mod signals;
 
 pub use peaks::{Peak, peaks};
+pub use signals::{Port, Signal, about, along};
 
-use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6};
-use crate::modes::Mode;
-use crate::robot::Pose;
+use crate::math::{CMat6, Complex, Vec6};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// What is measured of a motion.
@@ -25,40 +25,6 @@ pub enum Quantity {
     Velocity,
     /// Acceleration [m/s²] or angular acceleration [rad/s²].
     Acceleration,
-}
-
-/// Where and along what a force acts or a motion is measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Direction {
-    /// A force on, or a translation of, a platform point along a direction in world axes (normalised on use).
-    Along {
-        /// Direction, world axes.
-        direction_w: Vec3,
-        /// The point, platform frame [m].
-        point_p: Vec3,
-    },
-    /// A moment on, or a rotation of, the platform about a direction in world axes.
-    About {
-        /// Axis, world axes.
-        axis_w: Vec3,
-    },
-}
-
-impl Direction {
-    /// The 6-vector u with force `F = u f` and motion `uᵀ x`, about the platform origin, at a pose.
-    pub fn vector(&self, pose: &Pose) -> Vec6 {
-        match self {
-            Self::Along { direction_w, point_p } => {
-                let u = direction_w.normalize();
-                let moment = (pose.rot_wp * point_p).cross(&u);
-                Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
-            }
-            Self::About { axis_w } => {
-                let u = axis_w.normalize();
-                Vec6::new(0.0, 0.0, 0.0, u.x, u.y, u.z)
-            }
-        }
-    }
 }
 
 /// Why there is no response.
@@ -81,50 +47,10 @@ pub enum ResponseError {
     SameCable,
 }
 
-/// Where a force acts or a motion is measured: on the platform, or on a cable.
-#[derive(Debug, Clone)]
-pub enum Port<'a> {
-    /// On the platform; a vector of [`Direction::vector`].
-    Platform(Vec6),
-    /// At a station of a cable.
-    Cable {
-        /// Its stations.
-        stations: &'a CableStations,
-        /// Which of them.
-        station: usize,
-        /// Direction in world axes, a unit vector.
-        direction_w: Vec3,
-    },
-}
-
-impl Port<'_> {
-    /// What the port sees of a mode, or how a force there drives it [m, as `Mode::shape`]; with two ports the mode's
-    /// residue is their product over its modal mass.
-    pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
-        match self {
-            Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
-            Self::Cable { stations, station, direction_w } => {
-                let [e, n, b] = stations.in_mode(dynamics, mode)[*station];
-                (stations.axes.e * e + stations.axes.n * n + stations.axes.b * b).dot(direction_w)
-            }
-        }
-    }
-
-    /// The vector about the platform origin at ω [rad/s].
-    fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
-        match self {
-            Self::Platform(vector) => vector.map(Complex::from),
-            Self::Cable { stations, station, direction_w } => {
-                stations.transmission(dynamics, *station, direction_w, omega)
-            }
-        }
-    }
-}
-
 /// Response of one output to one input at each frequency [Hz]: motion per force [m/N] or moment, and so on by the
 /// kinds of both.
 ///
-/// `input` and `output` come from [`Direction::vector`].
+/// `input` and `output` come from [`along`] or [`about`].
 ///
 /// # Errors
 /// [`ResponseError::Resonance`] where an undamped robot has no finite response.
@@ -165,7 +91,7 @@ pub fn between(
             Port::Cable { stations, station: loaded, direction_w: force_w },
             Port::Cable { stations: of_output, station, direction_w },
         ) if stations.cable == of_output.cable => {
-            if !(std::ptr::eq(*stations, *of_output) && stations.is_exact()) {
+            if !(Arc::ptr_eq(stations, of_output) && stations.is_exact()) {
                 return Err(ResponseError::SameCable);
             }
             Some((stations, (*station, direction_w), (*loaded, force_w)))

@@ -33,7 +33,7 @@ mod forward; // lengths to pose, cables that stretch
 mod ideal; // rigid cables: lengths to pose, pose to tensions
 mod inverse; // pose to lengths, as many cables as freedoms
 mod nearest; // the nearest pose that fewer cables than freedoms hold
-mod rest; // the choice between the solvers, by the robot's state
+mod rest; // the choice between the solvers, by the state and the number of cables
 mod tension; // pose to lengths, more cables than freedoms
 
 // Questions to an equilibrium.
@@ -48,13 +48,12 @@ pub use energy::energy;
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
 pub use forward::forward;
-pub use inverse::inverse;
 pub use limits::{Limit, Miss, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest::{Nearest, distance, nearest};
 pub use residual::{carries_nothing, wrench};
-pub use rest::{Rest, rest};
-pub use stiffness::tangent_stiffness;
+pub use rest::{Rest, inverse, rest, solve_at};
+pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};
 pub use tension::{TensionRule, distribute};
-pub use tension_gain::tension_gain;
 pub(crate) use tension_gain::tension_gain_exceeds;
+pub use tension_gain::{inverse_condition, tension_gain};

@@ -63,15 +63,6 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .map(|(_, name)| name)
 }
 
-/// `; did you mean …?` for a near name, else `; its OTHERS are …` with all names there are.
-pub(crate) fn or_list(word: &str, others: &str, names: &[String]) -> String {
-    if let Some(name) = nearest(word, names.iter().map(String::as_str)) {
-        return format!("; did you mean `{name}`?");
-    }
-    let all: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    format!("; its {others} are {}", all.join(", "))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

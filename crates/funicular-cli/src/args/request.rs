@@ -192,7 +192,7 @@ impl ReduceArgs {
 impl EachArgs {
     fn request(&self) -> EachPoint {
         EachPoint {
-            quantities: self.what.quantity.iter().map(funicular::sweep::Quantity::name).collect(),
+            quantities: self.what.quantity.iter().map(funicular_study::sweep::Quantity::name).collect(),
             up_to_hz: self.what.up_to_hz,
             state: self.state.request(),
             tensions: self.tensions.request(),

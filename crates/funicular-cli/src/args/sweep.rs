@@ -2,8 +2,7 @@
 
 use super::{Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
 use clap::Args;
-use funicular::sweep::{Quantity, Steps};
-use funicular_study::sweep::{Part, ValueAxis};
+use funicular_study::sweep::{Part, Quantity, Steps, ValueAxis};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -58,15 +57,19 @@ pub(crate) struct EachArgs {
 /// What is asked of every point.
 #[derive(Debug, Args)]
 pub(crate) struct WhatArgs {
-    /// What to compute, docs/sweeps.md has the list: first-frequency, first-kind, frequencies:N, tension-max, tension-min,
-    /// tensions, lengths, tension-margin, stiffness-min, stiffness, pose-error, sag-max, model-error:MODEL,
-    /// stiffness-error:MODEL, condition, energy, pose
-    #[arg(long, value_name = "Q,Q,…", value_parser = values::quantity, value_delimiter = ',', default_value = "tension-min,tension-max")]
+    // Help: the names of all quantities.
+    #[arg(long, help = quantities(), value_name = "Q,Q,…", value_parser = values::quantity, value_delimiter = ',', default_value = "tension-min,tension-max")]
     pub(crate) quantity: Vec<Quantity>,
 
     /// Where the search for natural frequencies ends [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular::sweep::HIGHEST_HZ)]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular_study::sweep::HIGHEST_HZ)]
     pub(crate) up_to_hz: f64,
+}
+
+/// Help of the option for quantities.
+fn quantities() -> String {
+    let names: Vec<&str> = Quantity::names().collect();
+    format!("What to compute, docs/sweeps.md has the list: {}", names.join(", "))
 }
 
 /// How rows are computed and where they go.

@@ -1,17 +1,16 @@
 //! Values on the command line: text in, checked numbers out, each error with the value and what it must be.
 
 use funicular::math::Vec3;
-use funicular::ports;
-use funicular::sweep::{self, Steps};
+use funicular_files::threads::{self, THREADS};
 use funicular_study::analyses::pose_error::MAX_MASSES;
 use funicular_study::request::MAX_STATIONS;
-use funicular_study::sweep::ValueAxis;
+use funicular_study::sweep::{self, Steps, ValueAxis};
 use funicular_study::{set_values, values};
 use std::num::NonZeroUsize;
 
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
-    ports::number(text).map_err(|error| error.to_string())
+    values::number(text).map_err(|error| error.to_string())
 }
 
 /// A positive number.
@@ -163,11 +162,9 @@ pub(crate) fn quantity(text: &str) -> Result<sweep::Quantity, String> {
 
 /// A number of threads.
 pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
-    const MOST: usize = 1024;
-    match text.trim().parse::<NonZeroUsize>() {
-        Ok(count) if count.get() <= MOST => Ok(count),
-        _ => Err(format!("`{text}` is not a number of threads: a whole number from 1 to {MOST}")),
-    }
+    let (first, last) = (THREADS.start(), THREADS.end());
+    (text.trim().parse().ok().and_then(threads::checked))
+        .ok_or_else(|| format!("`{text}` is not a number of threads: a whole number from {first} to {last}"))
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use crate::args::Format;
 use crate::output::Printed;
 use crate::table::{Table, counted, short, significant};
 use anyhow::Result;
-use funicular::sweep::{CODES, Chunk, Column, Kind, Values};
 use funicular_study::analyses::Found;
+use funicular_study::sweep::{CODES, Chunk, Column, Kind, Values};
 use serde::Serialize;
 
 /// Counts and ranges of the rows seen so far.

@@ -4,23 +4,16 @@ use super::work::PyWork;
 use crate::arrays::Reduced;
 use crate::errors;
 use crate::threads::Threads;
-use crate::waiting::hand_over;
-use funicular::sweep::Chunk;
+use crate::waiting::on_threads;
 use funicular_files::{Begin, Job, Opened, table};
 use funicular_study::request::Request;
-use funicular_study::sweep::{Part, PreparedSweep, Record};
+use funicular_study::sweep::{Chunk, Part, PreparedSweep, Record};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::sync_channel;
-use std::thread;
-
-/// Chunks that may wait between the threads and who takes them.
-const WAITING: usize = 8;
 
 /// A plan with all that it is made of.
 pub(crate) struct Whole {
@@ -50,24 +43,11 @@ impl Whole {
         &self,
         chunks: Range<usize>,
         threads: NonZeroUsize,
-        mut take: impl FnMut(Chunk) -> PyResult<()>,
-        mut look: impl FnMut() -> PyResult<()>,
+        take: impl FnMut(Chunk) -> PyResult<()>,
+        look: impl FnMut() -> PyResult<()>,
     ) -> PyResult<()> {
         let plan = self.sweep.plan().map_err(|error| errors::study(&error.into()))?;
-        let cancel = AtomicBool::new(false);
-        thread::scope(|scope| {
-            let (sender, receiver) = sync_channel(WAITING);
-            let (plan, cancel) = (&plan, &cancel);
-            let runner = scope.spawn(move || plan.run(chunks, threads, cancel, |chunk| sender.send(chunk)));
-            let ended = hand_over(&receiver, cancel, &mut take, &mut look);
-            // Nobody takes the rest.
-            cancel.store(true, Ordering::Relaxed);
-            drop(receiver);
-            match runner.join() {
-                Err(panic) => std::panic::resume_unwind(panic),
-                Ok(_) => ended,
-            }
-        })
+        on_threads(chunks, threads, |index, given_up| plan.evaluate(index, given_up), take, look)
     }
 }
 

@@ -20,7 +20,7 @@ enum Place {
 }
 
 impl Place {
-    fn add(&mut self, chunk: &funicular::sweep::Chunk) -> PyResult<()> {
+    fn add(&mut self, chunk: &funicular_study::sweep::Chunk) -> PyResult<()> {
         match self {
             Self::Memory(rows) => rows.add(chunk).map_err(|error| PyRuntimeError::new_err(error.to_string())),
             Self::File(job, _) => job.add(chunk).map_err(|error| errors::files(&error)),
@@ -122,7 +122,7 @@ impl PyWork {
         };
         py.detach(|| {
             let tell = &tell;
-            let take = |chunk: funicular::sweep::Chunk| {
+            let take = |chunk: funicular_study::sweep::Chunk| {
                 into.add(&chunk)?;
                 done.store(chunk.index + 1, Ordering::Relaxed);
                 Ok(())

@@ -3,14 +3,14 @@
 use super::found;
 use super::shared::Models;
 use crate::Watch;
-use crate::at_rest::{self, AtRest, directions};
+use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
 use crate::request;
+use crate::signals::{Input, Output};
 use anyhow::Result;
 use funicular::dynamics::Linearisation;
 use funicular::math::Complex;
-use funicular::ports::{Input, Output, Places};
-use funicular::response::{self, Peak, Quantity};
+use funicular::response::{self, Peak, Port, Quantity};
 use funicular::robot::Robot;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -66,7 +66,12 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
     let frequencies = request.range.frequencies()?;
     request::check_not_negative("prominence_db", request.prominence_db)?;
     // Signals that mean nothing are refused before the work.
-    directions(&robot, &request::input(&request.input)?, &request::output(&request.output)?, &request.signal_points)?;
+    at_rest::signals(
+        &robot,
+        &request::input(&request.input)?,
+        &request::output(&request.output)?,
+        &request.signal_points,
+    )?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
     let pair =
         Pair { input: &request.input, output: &request.output, points: request.signal_points, model: request.model };
@@ -127,15 +132,12 @@ pub struct Response {
 /// Signals that mean nothing on the robot, an undamped resonance at one of the frequencies, or work that was stopped.
 pub fn response(at_rest: &AtRest, pair: &Pair<'_>, frequencies: &[f64], watch: &mut dyn Watch) -> Result<Response> {
     let (from, to) = (request::input(pair.input)?, request::output(pair.output)?);
-    let (input, output) = directions(&at_rest.robot, &from, &to, &pair.points)?;
+    let signals = at_rest::signals(&at_rest.robot, &from, &to, &pair.points)?;
     let linearisation = at_rest::linearisation(&pair.model, at_rest.equilibrium.model);
     let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
 
-    let places = at_rest.places(&dynamics, from.on_cable.as_ref(), to.on_cable.as_ref())?;
-    let pose = &at_rest.equilibrium.pose;
-    let input = places.port(places.input, input.vector(pose), from.direction_w);
-    let output = places.port(places.output, output.vector(pose), to.direction_w);
+    let [input, output] = at_rest.ports(&dynamics, signals)?;
     let mut values: Vec<Complex> = Vec::with_capacity(frequencies.len());
     for chunk in frequencies.chunks(CHUNK) {
         values.extend(response::between(&dynamics, chunk, &input, &output, to.quantity)?);
@@ -144,8 +146,8 @@ pub fn response(at_rest: &AtRest, pair: &Pair<'_>, frequencies: &[f64], watch: &
             return Err(Cancelled.into());
         }
     }
-    let input_place = PlaceRow::of(&places, places.input, pair.points.input_point_m);
-    let output_place = PlaceRow::of(&places, places.output, pair.points.output_point_m);
+    let input_place = PlaceRow::of(&input, pair.points.input_point_m);
+    let output_place = PlaceRow::of(&output, pair.points.output_point_m);
     Ok(Response { from, to, input_place, output_place, linearisation, values, warnings })
 }
 
@@ -157,10 +159,10 @@ pub struct PlaceRow {
 }
 
 impl PlaceRow {
-    fn of(places: &Places, place: Option<(usize, usize)>, point: Option<[f64; 3]>) -> Self {
-        match place {
+    fn of(port: &Port, point: Option<[f64; 3]>) -> Self {
+        match port.cable_point_w() {
             None => Self { on_cable: false, point_m: point.unwrap_or_default() },
-            Some((at, station)) => Self { on_cable: true, point_m: places.stations[at].points_w[station].into() },
+            Some(point_w) => Self { on_cable: true, point_m: point_w.into() },
         }
     }
 

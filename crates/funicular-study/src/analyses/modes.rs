@@ -5,12 +5,12 @@ use super::shared::Models;
 use super::{found, frf};
 use crate::at_rest::{self, AtRest};
 use crate::request;
+use crate::signals::{Input, Output};
 use anyhow::{Result, bail};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::Dynamics;
 use funicular::modes;
-use funicular::ports::{Input, Output};
-use funicular::response::{Direction, Quantity};
+use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -110,7 +110,7 @@ impl From<modes::Mode> for ModeRow {
 pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     // Signals that mean nothing are refused before the work.
-    directions(&robot, pair(request)?.as_ref(), request)?;
+    signals(&robot, pair(request)?.as_ref(), request)?;
     about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
 }
 
@@ -121,7 +121,7 @@ pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
 pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     let pair = pair(request)?;
-    let directions = directions(&at_rest.robot, pair.as_ref(), request)?;
+    let signals = signals(&at_rest.robot, pair.as_ref(), request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, modes::MOST)?;
@@ -140,11 +140,8 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
         }
     }
     let mut participation = None;
-    if let (Some((input, output)), Some((from, to))) = (&pair, directions) {
-        let places = at_rest.places(&dynamics, input.on_cable.as_ref(), output.on_cable.as_ref())?;
-        let pose = &equilibrium.pose;
-        let from = places.port(places.input, from.vector(pose), input.direction_w);
-        let to = places.port(places.output, to.vector(pose), output.direction_w);
+    if let (Some((input, output)), Some(signals)) = (&pair, signals) {
+        let [from, to] = at_rest.ports(&dynamics, signals)?;
         for (row, mode) in rows.iter_mut().zip(&found.modes) {
             let residue = from.in_mode(&dynamics, mode) * to.in_mode(&dynamics, mode) / mode.modal_mass;
             let omega = mode.frequency_hz * TAU;
@@ -191,12 +188,12 @@ fn pair(request: &request::ModesRequest) -> Result<Option<(Input, Output)>> {
 }
 
 /// Where the response begins and ends on the platform.
-fn directions(
+fn signals(
     robot: &Robot,
     pair: Option<&(Input, Output)>,
     request: &request::ModesRequest,
-) -> Result<Option<(Direction, Direction)>> {
-    pair.map(|(input, output)| at_rest::directions(robot, input, output, &request.points)).transpose()
+) -> Result<Option<[Signal; 2]>> {
+    pair.map(|(input, output)| at_rest::signals(robot, input, output, &request.points)).transpose()
 }
 
 /// Equal steps along every cable.

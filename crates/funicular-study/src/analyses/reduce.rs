@@ -4,13 +4,13 @@ use super::found;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::request;
+use crate::signals::{Input, Output};
 use crate::text::significant;
 use anyhow::Result;
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::ports::{Input, OnCable, Output, cable_of};
-use funicular::reduction::{Coordinate, DampingAt, Place, SecondOrder, Wanted, reduce};
-use funicular::response::Quantity;
+use funicular::reduction::{Coordinate, DampingAt, SecondOrder, Wanted, reduce};
+use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
 
@@ -71,7 +71,7 @@ pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
 }
 
 /// Inputs and outputs of a model.
-type Signals = (Vec<(Input, Place)>, Vec<(Output, Place)>);
+type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
 
 /// Refuses numbers out of range and signals that mean nothing on the robot.
 fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
@@ -95,8 +95,8 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
     let damping_at = request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
     let wanted = Wanted { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
-    let from: Vec<Place> = inputs.iter().map(|(_, place)| place.clone()).collect();
-    let to: Vec<(Place, Quantity)> = outputs.iter().map(|(output, place)| (place.clone(), output.quantity)).collect();
+    let from: Vec<Signal> = inputs.iter().map(|(_, signal)| *signal).collect();
+    let to: Vec<(Signal, Quantity)> = outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect();
     let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, wanted)?;
     let mut reduced = Reduced {
         robot: at_rest.robot.name.clone(),
@@ -138,7 +138,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
 }
 
 /// The inputs asked, or every force and moment on the platform.
-fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Place)>> {
+fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Signal)>> {
     let all = ["fx", "fy", "fz", "mx", "my", "mz"];
     let asked = if request.input.is_empty() {
         let possible = robot.platform.freedoms.components();
@@ -146,16 +146,12 @@ fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input,
     } else {
         request.input.iter().map(|name| request::input(name)).collect::<Result<Vec<_>>>()?
     };
-    let place = |input: Input| {
-        let direction = input.direction(robot, request.points.input_point_m.map(Vec3::from))?;
-        let place = place(robot, input.on_cable.as_ref(), input.direction_w, direction)?;
-        Ok((input, place))
-    };
-    asked.into_iter().map(place).collect()
+    let point_p = request.points.input_point_m.map(Vec3::from);
+    asked.into_iter().map(|input| Ok(input.signal(robot, point_p).map(|signal| (input, signal))?)).collect()
 }
 
 /// The outputs asked, or every displacement and rotation of the platform.
-fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Place)>> {
+fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Signal)>> {
     let all = ["x", "y", "z", "rx", "ry", "rz"];
     let asked = if request.output.is_empty() {
         let possible = robot.platform.freedoms.components();
@@ -163,28 +159,8 @@ fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Outpu
     } else {
         request.output.iter().map(|name| request::output(name)).collect::<Result<Vec<_>>>()?
     };
-    let place = |output: Output| {
-        let direction = output.direction(robot, request.points.output_point_m.map(Vec3::from))?;
-        let place = place(robot, output.on_cable.as_ref(), output.direction_w, direction)?;
-        Ok((output, place))
-    };
-    asked.into_iter().map(place).collect()
-}
-
-fn place(
-    robot: &Robot,
-    on_cable: Option<&OnCable>,
-    direction_w: Vec3,
-    direction: funicular::response::Direction,
-) -> Result<Place> {
-    Ok(match on_cable {
-        None => Place::Platform(direction),
-        Some(place) => Place::Cable {
-            cable: cable_of(robot, place)?,
-            fraction: place.fraction,
-            direction_w: direction_w.normalize(),
-        },
-    })
+    let point_p = request.points.output_point_m.map(Vec3::from);
+    asked.into_iter().map(|output| Ok(output.signal(robot, point_p).map(|signal| (output, signal))?)).collect()
 }
 
 fn unit(output: &Output) -> &'static str {

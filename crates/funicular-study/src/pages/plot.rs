@@ -9,12 +9,11 @@ use super::Shell;
 use super::figure::Figure;
 use super::table::{Table, significant};
 use crate::Watch;
-use crate::sweep::SweepRows;
+use crate::sweep::{CODES, SweepRows};
 use crate::text::{counted, short};
 use anyhow::{Context as _, bail};
 use askama::Template;
 use funicular::modes::Mode;
-use funicular::sweep::CODES;
 use rows::{Rows, label, robot_name, with_unit};
 use slices::Slices;
 

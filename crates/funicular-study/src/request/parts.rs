@@ -1,13 +1,13 @@
 //! Groups of keys that several commands share.
 
 use crate::names::{TensionRuleName, optional};
+use crate::sweep::Steps;
 use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::{Quaternion, Rotation, rotation};
 use funicular::statics::StaticModel;
-use funicular::sweep::Steps;
 use serde::{Deserialize, Serialize};
 
 /// The text of a robot file with its changes.
@@ -300,7 +300,7 @@ impl EachPoint {
 }
 
 fn default_up_to_hz() -> f64 {
-    funicular::sweep::HIGHEST_HZ
+    crate::sweep::HIGHEST_HZ
 }
 
 /// Numbers of ropes that files of other programs may lack; given, they win over the files.

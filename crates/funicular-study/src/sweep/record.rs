@@ -1,6 +1,6 @@
 //! What a file says of itself: robot, plan, columns. Two results belong together if these are the same.
 
-use funicular::sweep::{Chunk, Column, Kind, Values};
+use crate::sweep::{Chunk, Column, Kind, Values};
 use serde_json::{Map, Value, json};
 use std::fmt;
 use std::io;

@@ -1,8 +1,8 @@
 //! Robots that differ in values of their file, as points of a sweep.
 
 use crate::set_values::{self, Assignment};
+use crate::sweep::{Column, Kind, Point, Points, Steps, digits};
 use funicular::robot::Robot;
-use funicular::sweep::{Column, Kind, Point, Points, Steps, digits};
 use std::borrow::Cow;
 
 /// One value of the robot file that varies.

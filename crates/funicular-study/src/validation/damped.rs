@@ -3,13 +3,12 @@
 use super::reference::{Damped, DampedRobot, Independent, Point, PointRobot, RopeDamping, robot};
 use super::{Bound, Case, Kind, Row, Section, shapes, worst};
 use anyhow::{Context, Result};
-use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::response::{self, Direction, Port, Quantity};
+use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Damping, Robot};
-use funicular::statics::{self, Equilibrium, StaticModel};
+use funicular::statics::{self, StaticModel};
 
 pub(super) fn section(reference: &Damped, robots: &Independent) -> Result<Section> {
     let toml = |id: &str| {
@@ -100,16 +99,9 @@ fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Row> {
     let mut gaps = Vec::new();
     let mut shown = (0.0, 0.0);
     for pair in &of.pairs {
-        let (from, to) = (&pair.force, &pair.displacement);
-        // Both points of one cable are stations of one list.
-        let together = from.cable.is_some() && from.cable == to.cable;
-        let with = if together { vec![from, to] } else { vec![from] };
-        let of_force = stations(&robot, &rest, &dynamics, &with)?;
-        let of_motion = if together { None } else { stations(&robot, &rest, &dynamics, &[to])? };
-        let seen = if together { of_force.as_ref() } else { of_motion.as_ref() };
-        let input = port(from, of_force.as_ref(), 0, &rest);
-        let output = port(to, seen, usize::from(together), &rest);
-        let ours = response::between(&dynamics, &of.frequency_hz, &input, &output, Quantity::Displacement)?;
+        let signals = [signal(&pair.force, &robot)?, signal(&pair.displacement, &robot)?];
+        let ports = Port::all(&robot, &rest, &dynamics, &signals, true)?;
+        let ours = response::between(&dynamics, &of.frequency_hz, &ports[0], &ports[1], Quantity::Displacement)?;
         for (k, value) in ours.iter().enumerate() {
             let (re, im) = (pair.response.real[k], pair.response.imag[k]);
             gaps.push((value.re - re).hypot(value.im - im) / re.hypot(im));
@@ -127,22 +119,14 @@ fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Row> {
     ))
 }
 
-fn stations(
-    robot: &Robot,
-    rest: &Equilibrium,
-    dynamics: &Dynamics,
-    points: &[&Point],
-) -> Result<Option<CableStations>> {
-    let Some(name) = &points[0].cable else { return Ok(None) };
-    let i = robot.cables.iter().position(|cable| cable.name == *name).context("a cable of the robot")?;
-    let fractions: Vec<f64> = points.iter().map(|point| point.fraction).collect();
-    Ok(Some(CableStations::new(robot, rest, dynamics, i, &fractions, true)?))
-}
-
-fn port<'a>(point: &Point, stations: Option<&'a CableStations>, station: usize, rest: &Equilibrium) -> Port<'a> {
+/// A signal of the reference, at the platform's origin or on a cable.
+fn signal(point: &Point, robot: &Robot) -> Result<Signal> {
     let direction_w = Vec3::from(point.direction_world);
-    match stations {
-        Some(stations) => Port::Cable { stations, station, direction_w: direction_w.normalize() },
-        None => Port::Platform(Direction::Along { direction_w, point_p: Vec3::zeros() }.vector(&rest.pose)),
-    }
+    Ok(match &point.cable {
+        Some(name) => {
+            let cable = robot.cables.iter().position(|cable| cable.name == *name).context("a cable of the robot")?;
+            Signal::OnCable { cable, fraction: point.fraction, direction_w }
+        }
+        None => Signal::Along { direction_w, point_p: Vec3::zeros() },
+    })
 }

@@ -10,7 +10,7 @@ use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes;
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 
@@ -145,7 +145,7 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Row>> {
     // A list that its own count does not certify is no list.
     let certified = if found.certified { found.modes.len() } else { 0 };
     let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
-    let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose);
+    let z = response::along(&Vec3::z(), &Vec3::zeros(), &rest.pose);
     let ours = response::frf(&dynamics, &of.frf.frequency_hz, &z, &z, Quantity::Acceleration)?;
     let theirs: Vec<Complex> =
         of.frf.response.real.iter().zip(&of.frf.response.imag).map(|(re, im)| Complex::new(*re, *im)).collect();

@@ -7,7 +7,7 @@ use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
 use funicular::math::{Complex, Mat6, Vec3, Vec6, rotation};
 use funicular::modes;
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -176,8 +176,7 @@ impl Compared<'_> {
 
     fn responses(&self, rows: &mut Vec<Row>) -> Result<()> {
         let dynamics = self.closed(&self.robot, Assembly::Consistent, false)?;
-        let along =
-            |direction_w: Vec3, point_p: Vec3| Direction::Along { direction_w, point_p }.vector(&self.rest.pose);
+        let along = |direction_w: Vec3, point_p: Vec3| response::along(&direction_w, &point_p, &self.rest.pose);
         let frf = &self.given.frf;
         let (up, aside) = (along(Vec3::z(), Vec3::zeros()), along(Vec3::y(), Vec3::zeros()));
         let ours = |frequencies: &[f64], input: &Vec6, output: &Vec6, quantity| {

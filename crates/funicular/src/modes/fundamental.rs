@@ -40,9 +40,9 @@ mod lever_axes;
 mod pencil;
 mod search;
 
-use super::{Kind, Mode, below};
-use crate::cable::Sag;
-use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
+use super::lowest::{LowestError, lowest};
+use super::{Kind, Mode, Modes};
+use crate::dynamics::{DynamicsError, Linearisation};
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use pencil::Pencil;
@@ -124,28 +124,22 @@ pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstErr
 /// # Errors
 /// As [`first`].
 pub fn first_of_all(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    let strings = equilibrium.cables.iter().enumerate().map(|(i, state)| {
-        let string = Sag::of(robot, i, state).string_frequency_hz();
-        if string > 0.0 { string } else { f64::INFINITY }
-    });
-    let lowest = strings.fold(f64::INFINITY, f64::min);
-    // No limit of a cable follows without mass: then the platform's, from weight over a length.
-    let mut below_hz = if lowest.is_finite() { 1.1 * lowest } else { 10.0 };
-    let mut directions = 0;
-    for _ in 0..MOST_DOUBLINGS {
-        let dynamics = Dynamics::about(robot, equilibrium, Linearisation::default(), below_hz)?;
-        let found = below(&dynamics, below_hz);
-        directions = found.unstable_directions;
-        if let Some(mode) = found.modes.into_iter().next() {
-            return Ok(First::of_mode(mode, directions, found.certified));
-        }
-        below_hz *= 2.0;
+    let (_, found) =
+        lowest(robot, equilibrium, Linearisation::default(), 1, HIGHEST_HZ).map_err(|error| match error {
+            LowestError::Dynamics(error) => FirstError::Dynamics(error),
+            LowestError::TooFew { unstable_directions, highest_hz, .. } => {
+                FirstError::None { below_hz: highest_hz, directions: unstable_directions }
+            }
+        })?;
+    let Modes { modes, unstable_directions, below_hz, certified, .. } = found;
+    match modes.into_iter().next() {
+        Some(mode) => Ok(First::of_mode(mode, unstable_directions, certified)),
+        None => Err(FirstError::None { below_hz, directions: unstable_directions }),
     }
-    Err(FirstError::None { below_hz, directions })
 }
 
-/// From a tenth of a hertz to what no rope's sound reaches.
-const MOST_DOUBLINGS: usize = 24;
+/// Limit of the search [Hz]: far above the sound of any rope.
+const HIGHEST_HZ: f64 = 1e8;
 
 impl First {
     fn of_mode(mode: Mode, unstable_directions: usize, certified: bool) -> Self {

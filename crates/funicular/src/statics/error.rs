@@ -230,7 +230,7 @@ pub enum StaticsError {
     /// The tensions of a robot with more cables than freedoms do not come to rest.
     #[error(
         "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual is \
-         {residual:.3e}; raise the least tensions (`minimum_tension_n`, `--min-tension-n`)",
+         {residual:.3e}; raise the least tensions (`minimum_tension_n` in the robot file)",
         unrest(*change, *limit)
     )]
     Unsettled {

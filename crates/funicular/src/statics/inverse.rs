@@ -9,16 +9,12 @@ use super::ideal::{self, pushing, straight_tensions};
 use super::loaded_cable::{LONGEST, LoadedCable};
 use super::model::StaticModel;
 use super::residual::scaled_residual;
-use super::tension::{TensionRule, distribute};
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, balance, load_size, load_wrench, wrench_of};
 use crate::robot::{Pose, Robot};
 
-/// The unstrained lengths and tensions that hold the platform at a pose.
-///
-/// With more cables than freedoms the tensions are chosen: as low as their limits allow, see [`distribute`], which knows
-/// other rules. With as many there is one solution, whatever the limits; [`crate::validity`] compares.
+/// The unstrained lengths and tensions that hold the platform at a pose by as many cables as degrees of freedom.
 ///
 /// Straight cables have a linear solution; sagging ones start from it, with half of each cable's weight on the
 /// platform, and a Newton iteration on the lengths follows whose steps are taken in the tension parallel to the chord, in
@@ -26,25 +22,10 @@ use crate::robot::{Pose, Robot};
 /// nowhere, a damped iteration searches from other starts, deeply sagging ones among them.
 ///
 /// # Errors
-/// [`StaticsError`]: fewer cables than freedoms ([`nearest`](super::nearest) knows what they can hold), tensions beyond their limits if there is a choice, a singular pose, a straight cable that would
-/// have to push, no tensions found for sagging ones, coinciding ends, or no convergence.
-///
-/// # Example
-/// ```
-/// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
-/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
-/// let pose = Pose::new([0.5, 0.1, 0.6], [0.0, 2.0, 0.0]);
-/// let held = statics::inverse(&robot, &pose, StaticModel::Catenary)?;
-/// let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
-/// let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
-/// assert!((back.pose.position_w - pose.position_w).norm() < 1e-9);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-    if cables != freedoms {
-        return distribute(robot, pose, model, &TensionRule::default());
-    }
+/// [`StaticsError`]: a singular pose, a straight cable that would have to push, no tensions found for sagging ones,
+/// coinciding ends, or no convergence.
+pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+    let cables = robot.cables.len();
     robot.platform.freedoms.check(pose)?;
 
     // Straight cables, with half of each cable's load.

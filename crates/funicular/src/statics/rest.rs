@@ -3,11 +3,12 @@
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::forward::forward;
-use super::inverse::inverse;
+use super::inverse::determinate;
 use super::model::StaticModel;
 use super::nearest::nearest;
 use super::tension::{TensionRule, distribute};
 use crate::robot::{Pose, Robot, State};
+use std::cmp::Ordering;
 
 /// A robot's equilibrium, and how it came about.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +22,7 @@ pub struct Rest {
     pub rule: Option<TensionRule>,
 }
 
-/// The equilibrium at [`Robot::state`]: of lengths the pose ([`forward`]), of a pose the lengths ([`inverse`]; of more
-/// cables than freedoms by a rule, [`distribute`]; of fewer the nearest pose, [`nearest`]).
+/// Equilibrium at [`Robot::state`] by [`solve_at`], where a rule that is given must have a choice.
 ///
 /// # Errors
 /// [`StaticsError`]; [`StaticsError::NoState`] of a robot without state, [`StaticsError::NothingToChoose`] for a rule that
@@ -41,22 +41,92 @@ pub struct Rest {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn rest(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Result<Rest, StaticsError> {
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    if rule.is_some() {
+        refuse_rule_without_choice(robot)?;
+    }
+    solve_at(robot, &robot.state, model, &rule.unwrap_or_default())
+}
+
+/// Equilibrium of a robot at a state, which need not be its own: of unstrained lengths the pose ([`forward`]); of a pose the
+/// lengths and tensions ([`inverse`]), by the rule where more cables than degrees of freedom leave a choice
+/// ([`distribute`]); of a pose that fewer cables cannot hold, the nearest one that they can ([`nearest`]).
+///
+/// # Errors
+/// [`StaticsError`] of the function that solves it; [`StaticsError::NoState`] of an unknown state.
+///
+/// # Example
+/// ```
+/// use funicular::robot::{Pose, Robot, State};
+/// use funicular::statics::{self, StaticModel, TensionRule};
+///
+/// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+/// let state = State::Pose(Pose::new([0.5, 0.1, 0.6], [0.0; 3]));
+/// let rest = statics::solve_at(&robot, &state, StaticModel::Catenary, &TensionRule::Lowest)?;
+/// assert_eq!(rest.rule, None); // six cables for six degrees of freedom: no choice
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solve_at(robot: &Robot, state: &State, model: StaticModel, rule: &TensionRule) -> Result<Rest, StaticsError> {
     let found = |equilibrium| Rest { equilibrium, instead_of: None, rule: None };
-    match &robot.state {
-        State::Pose(pose) if cables > freedoms => {
-            let rule = rule.unwrap_or_default();
-            let equilibrium = distribute(robot, pose, model, &rule)?;
-            Ok(Rest { rule: Some(rule), ..found(equilibrium) })
-        }
-        State::Pose(_) if rule.is_some() => Err(StaticsError::NothingToChoose { cables, freedoms }),
-        State::Lengths(_) if rule.is_some() => Err(StaticsError::RuleOfLengths),
-        State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
-        State::Pose(pose) if cables < freedoms => {
-            let nearest = nearest(robot, pose, model)?;
-            Ok(Rest { instead_of: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
-        }
-        State::Pose(pose) => Ok(found(inverse(robot, pose, model)?)),
+    match state {
         State::Unknown => Err(StaticsError::NoState),
+        State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
+        State::Pose(pose) => match cables_to_freedoms(robot) {
+            Ordering::Less => {
+                let nearest = nearest(robot, pose, model)?;
+                Ok(Rest { instead_of: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
+            }
+            Ordering::Equal => Ok(found(determinate(robot, pose, model)?)),
+            Ordering::Greater => {
+                let equilibrium = distribute(robot, pose, model, rule)?;
+                Ok(Rest { rule: Some(rule.clone()), ..found(equilibrium) })
+            }
+        },
+    }
+}
+
+/// The unstrained lengths and tensions that hold the platform at a pose.
+///
+/// With more cables than degrees of freedom the tensions are chosen: as low as their limits allow; [`solve_at`] takes other
+/// rules. With as many there is one solution, whatever the limits; [`crate::validity`] compares.
+///
+/// # Errors
+/// [`StaticsError`]: fewer cables than degrees of freedom ([`nearest`] knows what they can hold), tensions beyond their limits
+/// if there is a choice, a singular pose, a straight cable that would have to push, no tensions found for sagging ones,
+/// coinciding ends, or no convergence.
+///
+/// # Example
+/// ```
+/// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+/// let pose = Pose::new([0.5, 0.1, 0.6], [0.0, 2.0, 0.0]);
+/// let held = statics::inverse(&robot, &pose, StaticModel::Catenary)?;
+/// let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
+/// let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// assert!((back.pose.position_w - pose.position_w).norm() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+    match cables_to_freedoms(robot) {
+        Ordering::Equal => determinate(robot, pose, model),
+        // Refuses fewer cables than degrees of freedom.
+        Ordering::Less | Ordering::Greater => distribute(robot, pose, model, &TensionRule::default()),
+    }
+}
+
+/// Number of cables, compared with the number of degrees of freedom.
+fn cables_to_freedoms(robot: &Robot) -> Ordering {
+    robot.cables.len().cmp(&robot.platform.freedoms.count())
+}
+
+/// Refuses a tension rule where the tensions follow from the state alone.
+fn refuse_rule_without_choice(robot: &Robot) -> Result<(), StaticsError> {
+    let choice = cables_to_freedoms(robot) == Ordering::Greater;
+    match &robot.state {
+        State::Pose(_) if !choice => {
+            let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+            Err(StaticsError::NothingToChoose { cables, freedoms })
+        }
+        State::Lengths(_) => Err(StaticsError::RuleOfLengths),
+        State::Pose(_) | State::Unknown => Ok(()),
     }
 }

@@ -1,7 +1,8 @@
 //! Static stiffness of the platform at an equilibrium, and what its eigenvalues say of stability.
 
+use super::drag::drag_stiffness;
 use super::equilibrium::{Equilibrium, Stability};
-use crate::math::{Mat3, Mat6, Vec3, inertia};
+use crate::math::{Mat3, Mat6, Vec3, inertia, symmetric_part};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
 
@@ -24,6 +25,25 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
         .collect();
     let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
     Some(Coordinates::of(robot).allowed_matrix(&whole))
+}
+
+/// Load along each coordinate of the platform over the motion along it, all others free [N/m, N m/rad]: one over the
+/// diagonal of the compliance. In wind the drag turns with the cables.
+///
+/// `None` for ideal cables, and where the stiffness is singular.
+pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> Option<Vec<f64>> {
+    // Symmetric to rounding; what the turn of the drag adds in wind is not symmetric.
+    let mut whole = symmetric_part(&tangent_stiffness(robot, equilibrium)?);
+    if let Some(turn) = drag_stiffness(robot, equilibrium) {
+        whole += turn;
+    }
+
+    let freedoms = &robot.platform.freedoms;
+    let n = freedoms.count();
+    let mut reduced = freedoms.reduced_matrix(&whole);
+    (n..6).for_each(|k| reduced[(k, k)] = 1.0);
+    let compliance = reduced.try_inverse()?;
+    Some((0..n).map(|k| 1.0 / compliance[(k, k)]).collect())
 }
 
 /// Stiffness of cables (3×3, force on the platform, lever arm) and of weight and load at a pose.

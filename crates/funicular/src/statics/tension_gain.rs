@@ -1,7 +1,7 @@
 //! Nearness to a singular pose: how much tension a load may take.
 
 use super::equilibrium::Equilibrium;
-use crate::math::{Mat6, inertia};
+use crate::math::{DMat, Mat6, Vec6, inertia};
 use crate::platform::Coordinates;
 use crate::robot::Robot;
 
@@ -26,6 +26,19 @@ pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, lim
         gram[(k, k)] += if k < n { -1.0 / (limit * limit) } else { 1.0 };
     }
     gram.cholesky().is_none()
+}
+
+/// Least over largest singular value of the matrix of the cables' directions, moments over ℓ, in the platform's
+/// coordinates: 0 at a singular pose, 1 where all degrees of freedom are held alike.
+pub fn inverse_condition(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
+    let coordinates = Coordinates::of(robot);
+    let columns: Vec<Vec6> = (equilibrium.cables.iter())
+        .map(|cable| coordinates.reduce_force(&cable.chord_w().normalize(), &cable.lever_w))
+        .collect();
+    let matrix = DMat::from_fn(coordinates.count(), columns.len(), |i, j| columns[j][i]);
+    let values = matrix.singular_values();
+    let (least, most) = (values.min(), values.max());
+    if most > 0.0 { least / most } else { 0.0 }
 }
 
 /// Sum of the squares of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None`

@@ -6,7 +6,7 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::response::{self, Direction, Port, Quantity};
+use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::Damping;
 
 const EXACT: Linearisation =
@@ -21,12 +21,12 @@ fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {
     let refused = CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], false).unwrap_err();
     assert!(refused.to_string().contains("needs the model `exact`"), "{refused}");
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 5.0).unwrap();
-    let make = || CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], true).unwrap();
-    let (one, other) = (make(), make());
-    let port = |stations| Port::Cable { stations, station: 0, direction_w: Vec3::z() };
-    let between = |a, b| response::between(&dynamics, &[1.0], &port(a), &port(b), Quantity::Displacement);
+    let middle = Signal::OnCable { cable: 0, fraction: 0.5, direction_w: Vec3::z() };
+    let make = || Port::all(&robot, &rest, &dynamics, &[middle], true).unwrap().remove(0);
+    let (one, apart) = (make(), make());
+    let between = |a, b| response::between(&dynamics, &[1.0], a, b, Quantity::Displacement);
     assert!(between(&one, &one).is_ok());
-    assert_eq!(between(&one, &other).unwrap_err(), response::ResponseError::SameCable);
+    assert_eq!(between(&one, &apart).unwrap_err(), response::ResponseError::SameCable);
 }
 
 #[test]
@@ -40,16 +40,18 @@ fn what_a_mode_adds_to_a_response_is_its_residue() {
     let rest = at_rest(&robot);
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 12.0).unwrap();
     let found = modes::below(&dynamics, 10.0);
-    let on = |cable, fractions: &[f64]| CableStations::new(&robot, &rest, &dynamics, cable, fractions, true).unwrap();
-    let (one, other) = (on(2, &[0.37, 0.8]), on(4, &[0.25]));
-    let z = Port::Platform(Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose));
-    let port = |stations, station, direction_w| Port::Cable { stations, station, direction_w };
+    let z = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+    let on = |cable, fraction, direction_w| Signal::OnCable { cable, fraction, direction_w };
     let pairs = [
-        (z.clone(), z.clone()),
-        (z, port(&one, 0, Vec3::x())),
-        (port(&one, 1, Vec3::y()), port(&other, 0, Vec3::z())),
-        (port(&one, 1, Vec3::y()), port(&one, 0, Vec3::x())),
+        [z, z],
+        [z, on(2, 0.37, Vec3::x())],
+        [on(2, 0.8, Vec3::y()), on(4, 0.25, Vec3::z())],
+        [on(2, 0.8, Vec3::y()), on(2, 0.37, Vec3::x())],
     ];
+    let pairs = pairs.map(|signals| {
+        let mut ports = Port::all(&robot, &rest, &dynamics, &signals, true).unwrap();
+        (ports.remove(0), ports.remove(0))
+    });
     let residue = |(input, output): &(Port, Port), mode: &modes::Mode| {
         input.in_mode(&dynamics, mode) * output.in_mode(&dynamics, mode) / mode.modal_mass
     };

@@ -19,5 +19,4 @@ mod reduction;
 mod response;
 mod robot;
 mod statics;
-mod sweep;
 mod validity;

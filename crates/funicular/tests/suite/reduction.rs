@@ -3,8 +3,8 @@
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, Vec3};
 use funicular::modes;
-use funicular::reduction::{Coordinate, DampingAt, Place, ReductionError, SecondOrder, Wanted, reduce};
-use funicular::response::{self, Direction, Quantity};
+use funicular::reduction::{Coordinate, DampingAt, ReductionError, SecondOrder, Wanted, reduce};
+use funicular::response::{self, Quantity, Signal};
 use funicular::robot::{Damping, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -20,8 +20,8 @@ fn at_rest(damping: Damping) -> (Robot, Equilibrium, Dynamics) {
     (robot, rest, dynamics)
 }
 
-fn on_platform(direction_w: Vec3) -> Place {
-    Place::Platform(Direction::Along { direction_w, point_p: Vec3::new(0.1, 0.0, 0.0) })
+fn on_platform(direction_w: Vec3) -> Signal {
+    Signal::Along { direction_w, point_p: Vec3::new(0.1, 0.0, 0.0) }
 }
 
 const WANTED: Wanted = Wanted { below_hz: 5.0, tolerance: 1e-3, damping_at: DampingAt::NaturalFrequencies };
@@ -29,7 +29,7 @@ const WANTED: Wanted = Wanted { below_hz: 5.0, tolerance: 1e-3, damping_at: Damp
 fn model(damping: Damping, wanted: Wanted) -> (SecondOrder, Equilibrium, Dynamics) {
     let (robot, rest, dynamics) = at_rest(damping);
     let inputs = [on_platform(Vec3::z()), on_platform(Vec3::x())];
-    let on_cable = Place::Cable { cable: 2, fraction: 0.4, direction_w: Vec3::y() };
+    let on_cable = Signal::OnCable { cable: 2, fraction: 0.4, direction_w: Vec3::y() };
     let outputs = [
         (on_platform(Vec3::y()), Quantity::Displacement),
         (on_platform(Vec3::z()), Quantity::Acceleration),
@@ -44,8 +44,8 @@ fn with_viscous_damping_it_has_the_responses_and_the_damped_frequencies_of_the_f
     assert!(found.truncation_error.unwrap() < 1e-12 && found.damping_error == Some(0.0));
     assert!(found.frequency_error < 1e-12);
     // Responses, by elimination of all coordinates.
-    let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::new(0.1, 0.0, 0.0) }.vector(&rest.pose);
-    let y = Direction::Along { direction_w: Vec3::y(), point_p: Vec3::new(0.1, 0.0, 0.0) }.vector(&rest.pose);
+    let z = response::along(&Vec3::z(), &Vec3::new(0.1, 0.0, 0.0), &rest.pose);
+    let y = response::along(&Vec3::y(), &Vec3::new(0.1, 0.0, 0.0), &rest.pose);
     for frequency_hz in [0.3, 1.1, 1.19, 2.7, 4.4] {
         let full = response::frf(&dynamics, &[frequency_hz], &z, &y, Quantity::Displacement).unwrap()[0];
         let reduced = found.receptance(frequency_hz * TAU).unwrap()[(0, 0)];
@@ -71,8 +71,8 @@ fn a_small_model_is_as_good_as_it_says() {
         assert!(found.truncation_error.unwrap() <= 1e-3, "{:?}", found.truncation_error);
         // A hundred of the cables' own, and three a cable for all the others.
         assert!(found.mass.nrows() < 140, "{}", found.mass.nrows());
-        let x = Direction::Along { direction_w: Vec3::x(), point_p: Vec3::new(0.1, 0.0, 0.0) }.vector(&rest.pose);
-        let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::new(0.1, 0.0, 0.0) }.vector(&rest.pose);
+        let x = response::along(&Vec3::x(), &Vec3::new(0.1, 0.0, 0.0), &rest.pose);
+        let z = response::along(&Vec3::z(), &Vec3::new(0.1, 0.0, 0.0), &rest.pose);
         let all = found.damping_error.unwrap() + 1e-3;
         // Damping that is right at each natural frequency is off by its second order in the response at peaks.
         assert!(all < 0.05, "{damping:?}: {all}");

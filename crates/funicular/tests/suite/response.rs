@@ -3,7 +3,7 @@
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3, Vec6};
-use funicular::response::{self, Direction, Quantity, ResponseError};
+use funicular::response::{self, Quantity, ResponseError};
 use funicular::robot::{Damping, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -66,7 +66,7 @@ fn at_rest_the_response_is_the_compliance_and_far_up_it_is_the_mass() {
     let compliance = statics::tangent_stiffness(&robot, &rest).unwrap().try_inverse().unwrap();
     let still = response::receptances(&dynamics, &[0.0]).unwrap()[0].map(|z| z.re);
     assert!((still - compliance).amax() < 1e-10 * compliance.amax());
-    let z = Direction::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }.vector(&rest.pose);
+    let z = response::along(&Vec3::z(), &Vec3::zeros(), &rest.pose);
     let fast = response::frf(&dynamics, &[1e5], &z, &z, Quantity::Acceleration).unwrap()[0];
     assert!((fast.re * robot.platform.mass - 1.0).abs() < 1e-6, "accelerance tends to 1/m");
 }
@@ -76,9 +76,8 @@ fn reciprocity_and_positive_power_hold_between_any_two_points() {
     let (robot, rest) = load(ROBOTS[1]);
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
     let frequencies: Vec<f64> = (1..500).map(|i| 0.04 * f64::from(i)).collect();
-    let a = Direction::Along { direction_w: Vec3::new(1.0, 2.0, -0.5), point_p: Vec3::new(0.1, 0.0, 0.3) }
-        .vector(&rest.pose);
-    let b = Direction::About { axis_w: Vec3::new(0.0, 3.0, 1.0) }.vector(&rest.pose);
+    let a = response::along(&Vec3::new(1.0, 2.0, -0.5), &Vec3::new(0.1, 0.0, 0.3), &rest.pose);
+    let b = response::about(&Vec3::new(0.0, 3.0, 1.0));
     let there = response::frf(&dynamics, &frequencies, &a, &b, Quantity::Velocity).unwrap();
     let back = response::frf(&dynamics, &frequencies, &b, &a, Quantity::Velocity).unwrap();
     let own = response::frf(&dynamics, &frequencies, &a, &a, Quantity::Velocity).unwrap();
@@ -92,7 +91,7 @@ fn reciprocity_and_positive_power_hold_between_any_two_points() {
 fn velocity_and_acceleration_are_the_derivatives_of_displacement() {
     let (robot, rest) = load(ROBOTS[2]);
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
-    let u = Direction::Along { direction_w: Vec3::x(), point_p: Vec3::zeros() }.vector(&rest.pose);
+    let u = response::along(&Vec3::x(), &Vec3::zeros(), &rest.pose);
     let f = 3.7;
     let [x, v, a] = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
         .map(|quantity| response::frf(&dynamics, &[f], &u, &u, quantity).unwrap()[0]);

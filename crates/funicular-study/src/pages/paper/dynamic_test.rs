@@ -11,7 +11,7 @@ use funicular::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Mat3, Vec3};
 use funicular::modes::{self, Modes};
-use funicular::response::{Direction, Peak, Quantity, peaks};
+use funicular::response::{self, Peak, Quantity, peaks};
 use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, StaticModel};
 
@@ -99,7 +99,7 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let rest = statics::forward(&robot, &lengths(&robot), StaticModel::Catenary, None)?;
     // Force and sensor at cable 3's attachment; the paper says neither.
     let point_p = robot.cables[2].attachment_p;
-    let along = |direction_w: Vec3| Direction::Along { direction_w, point_p }.vector(&rest.pose);
+    let along = |direction_w: Vec3| response::along(&direction_w, &point_p, &rest.pose);
     let input = along(Vec3::z());
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
     let with = |cable_model| -> anyhow::Result<(Modes, Curve)> {

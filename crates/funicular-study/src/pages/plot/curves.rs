@@ -3,7 +3,7 @@
 use super::rows::{Rows, Series, label, with_unit};
 use super::{Tracking, axis_title};
 use crate::pages::figure::{Figure, axis, colour, line, plain, rounded, with};
-use funicular::sweep::CODES;
+use crate::sweep::CODES;
 use serde_json::{Value, json};
 
 /// What the figures are drawn over.

@@ -1,8 +1,7 @@
 //! Rows of a sweep on their way into pictures: counted and binned all of them, kept as many as a page carries.
 
-use crate::sweep::{SweepRows, axes_of};
+use crate::sweep::{CODES, Chunk, Column, Kind, MOST_POINTS, Steps, SweepRows, Values, axes_of};
 use anyhow::{Context as _, Result, bail};
-use funicular::sweep::{CODES, Chunk, Column, Kind, MOST_POINTS, Steps, Values};
 use serde_json::Value;
 
 /// Numbers that a page carries of a grid, packed: some two megabytes.

@@ -4,8 +4,8 @@ use super::rows::{NOT_COMPUTED, Rows, label, with_unit};
 use super::{axis_title, status};
 use crate::pages::figure::colour;
 use crate::pages::packed;
+use crate::sweep::CODES;
 use askama::Template;
-use funicular::sweep::CODES;
 use serde_json::json;
 
 /// The part of the page with a choice of quantity and slice.

@@ -2,11 +2,10 @@
 
 use super::Tracking;
 use crate::Watch;
-use crate::sweep::{PreparedSweep, Record, SweepRows};
+use crate::sweep::{PreparedSweep, Quantity, Record, SweepRows, lowest_modes};
 use crate::text::counted;
 use funicular::modes::Mode;
 use funicular::modes::track::{Tracked, branches};
-use funicular::sweep::{Quantity, lowest_modes};
 
 /// Maximum number of rows whose modes are computed again to be followed: a minute of work.
 const MAX_TRACKED: usize = 2000;
@@ -21,10 +20,7 @@ pub(super) fn tracking(file: &dyn SweepRows, watch: &mut dyn Watch) -> Option<Re
         return None;
     }
     let quantities = record.plan.get("quantities")?.as_array()?.iter();
-    let count = quantities.filter_map(|name| match name.as_str()?.parse() {
-        Ok(Quantity::Frequencies(count)) => Some(count),
-        _ => None,
-    });
+    let count = quantities.filter_map(|name| name.as_str()?.parse::<Quantity>().ok()?.count());
     let count = count.max().filter(|count| *count > 1)?;
     Some(follow(file, record, count, watch))
 }

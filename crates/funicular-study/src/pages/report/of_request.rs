@@ -6,10 +6,10 @@ use crate::at_rest::{self, AtRest};
 use crate::pages::table::listed;
 use crate::request::{self, Tensions};
 use crate::robot_file::RobotFile;
-use anyhow::{Result, bail};
+use crate::signals::{Input, Output};
+use anyhow::{Result, anyhow};
 use funicular::math::Vec3;
-use funicular::ports::{Input, Output};
-use funicular::response::Quantity;
+use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 
 /// The page of a request, whose robot was read; `command_line` writes it again.
@@ -21,7 +21,7 @@ pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_lin
     let RobotFile { robot, name, text } = file;
     // Signals that mean nothing are refused before the work.
     let (from, to) = response(request, &robot)?;
-    at_rest::directions(&robot, &from, &to, &request.points)?;
+    at_rest::signals(&robot, &from, &to, &request.points)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &Tensions::default())?;
     about(&at_rest, request, &name, &text, command_line)
 }
@@ -39,23 +39,20 @@ pub fn about(
 ) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     let (from, to) = response(request, &at_rest.robot)?;
-    if let Some(signal) = [(&from.on_cable, &from.name), (&to.on_cable, &to.name)]
-        .into_iter()
-        .find_map(|(place, name)| place.is_some().then_some(name))
-    {
-        bail!("{signal} is on a cable, and the report's response is the platform's: use `funicular frf` for it");
-    }
-
-    let (input, output) = at_rest::directions(&at_rest.robot, &from, &to, &request.points)?;
-    let pose = &at_rest.equilibrium.pose;
+    let [input, output] = at_rest::signals(&at_rest.robot, &from, &to, &request.points)?;
+    let vector = |signal: Signal, name: &str| {
+        signal.platform_vector(&at_rest.equilibrium.pose).ok_or_else(|| {
+            anyhow!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it")
+        })
+    };
     report(&ReportInput {
         at_rest,
         file_label: name,
         robot_text: text,
         linearisation: at_rest::linearisation(&request.model, at_rest.equilibrium.model),
         below_hz: request.below_hz,
-        frf_input: (input_in_words(&from, request.points.input_point_m), input.vector(pose)),
-        frf_output: (output_in_words(&to, request.points.output_point_m), output.vector(pose), to.quantity),
+        frf_input: (input_in_words(&from, request.points.input_point_m), vector(input, &from.name)?),
+        frf_output: (output_in_words(&to, request.points.output_point_m), vector(output, &to.name)?, to.quantity),
         frf_unit: &frf::unit(&from, &to),
         command_line,
     })

@@ -5,7 +5,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{DMat, Mat3, Mat6, Vec3, Vec6};
 use funicular::modes::{self, Mode};
-use funicular::response::{self, Direction, Quantity};
+use funicular::response::{self, Quantity};
 use funicular::robot::{Freedoms, Plane, Pose, Robot};
 use funicular::statics::{self, Stability, StaticModel, TensionRange, TensionRule};
 use proptest::prelude::*;
@@ -231,9 +231,8 @@ fn the_papers_robot_restricted_to_a_plane_is_a_block_of_the_rigid_one() {
                 }
             }
         }
-        let input = Direction::Along { direction_w: Vec3::new(1.0, 2.0, 3.0), point_p: Vec3::new(0.1, 0.0, 0.2) };
-        let output = Direction::About { axis_w: Vec3::new(0.0, 1.0, 1.0) };
-        let (u, v) = (input.vector(&pose), output.vector(&pose));
+        let u = response::along(&Vec3::new(1.0, 2.0, 3.0), &Vec3::new(0.1, 0.0, 0.2), &pose);
+        let v = response::about(&Vec3::new(0.0, 1.0, 1.0));
         let one = response::frf(&guided, &[f], &u, &v, Quantity::Displacement).unwrap()[0];
         let expected: funicular::math::Complex =
             (0..36).map(|k| receptance[(k / 6, k % 6)] * v[k / 6] * u[k % 6]).sum();

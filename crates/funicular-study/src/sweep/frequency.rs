@@ -1,14 +1,14 @@
-//! The lowest natural frequencies of a robot at rest, how many are asked.
+//! The lowest natural frequencies of a robot at rest, as many as are requested.
 
+use super::plan::Options;
+use super::points::Point;
 use super::status::Status;
-use super::{Options, Point, row};
-use crate::cable::{CableModel, Sag};
-use crate::cable_motion::WeightedMotions;
-use crate::dynamics::{Dynamics, Linearisation};
-use crate::modes::{self, Kind, Mode, track::Tracked};
-use crate::robot::Robot;
-use crate::statics::{Equilibrium, Stability};
-use std::f64::consts::TAU;
+use funicular::cable_motion::WeightedMotions;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes::track::Tracked;
+use funicular::modes::{self, Kind, LowestError, Mode};
+use funicular::robot::Robot;
+use funicular::statics::{self, Equilibrium, Stability};
 
 /// The lowest modes of a point, ascending, and each as tracking takes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,14 +19,15 @@ pub struct PointModes {
     pub tracked: Vec<Tracked>,
 }
 
-/// The lowest `count` modes of a point: those whose frequencies the quantity [`Frequencies`](super::Quantity::Frequencies)
-/// gives, with their motions, to be [tracked](modes::track::branches) from point to point.
+/// The lowest `count` modes of a point: those whose frequencies the quantity `frequencies:N` gives, with their
+/// motions, to be [tracked](modes::track::branches) from point to point.
 ///
 /// # Errors
 /// The reason why there are none, as a row has it.
 pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<PointModes, String> {
     let (robot, state) = point.robot.as_ref().map_err(Clone::clone)?;
-    let (rest, _) = row::at_rest(robot, state, options).map_err(|error| error.to_string())?;
+    let found = statics::solve_at(robot, state, options.static_model, &options.tension_rule);
+    let rest = found.map_err(|error| error.to_string())?.equilibrium;
     if let Some(status) = Status::refusing(robot, &rest) {
         return Err(status.reason);
     }
@@ -55,7 +56,8 @@ pub(super) fn lowest(
     if count == 1 && linearisation == Linearisation::default() {
         let first = modes::first(robot, rest).map_err(|error| Status::new("no-frequency", &error))?;
         if first.frequency_hz > highest_hz {
-            return Err(too_few(count, highest_hz));
+            let too_few = LowestError::TooFew { requested: count, found: 0, highest_hz, unstable_directions: 0 };
+            return Err(Status::new("no-frequency", &too_few));
         }
         return Ok(Lowest { modes: vec![(first.frequency_hz, first.kind)], certified: first.certified });
     }
@@ -63,10 +65,7 @@ pub(super) fn lowest(
     Ok(Lowest { modes: modes.iter().map(|mode| (mode.frequency_hz, mode.kind)).collect(), certified })
 }
 
-/// The same with whole modes and what they are modes of, and whether they are certified.
-///
-/// The limit of the search starts where the first frequency is likely and is doubled until the count says that there are
-/// enough below it.
+/// The lowest `count` modes, their robot, and whether they are certified.
 fn search(
     robot: &Robot,
     rest: &Equilibrium,
@@ -75,21 +74,11 @@ fn search(
     highest_hz: f64,
 ) -> Result<(Dynamics, Vec<Mode>, bool), Status> {
     refuse_unstable(rest)?;
-    let none = |reason: String| Status::new("no-frequency", &reason);
-    let mut limit = first_limit(robot, rest, linearisation.cable_model).min(highest_hz);
-    loop {
-        let dynamics = Dynamics::about(robot, rest, linearisation, limit).map_err(|error| none(error.to_string()))?;
-        if dynamics.modes_below(limit * TAU) >= count {
-            let mut found = modes::below(&dynamics, limit);
-            found.modes.truncate(count);
-            let certified = found.certified && found.modes.len() == count;
-            return Ok((dynamics, found.modes, certified));
-        }
-        if limit >= highest_hz {
-            return Err(too_few(count, highest_hz));
-        }
-        limit = (2.0 * limit).min(highest_hz);
-    }
+    let found = modes::lowest(robot, rest, linearisation, count, highest_hz);
+    let (dynamics, mut found) = found.map_err(|error| Status::new("no-frequency", &error))?;
+    found.modes.truncate(count);
+    let certified = found.certified && found.modes.len() == count;
+    Ok((dynamics, found.modes, certified))
 }
 
 fn refuse_unstable(rest: &Equilibrium) -> Result<(), Status> {
@@ -100,25 +89,10 @@ fn refuse_unstable(rest: &Equilibrium) -> Result<(), Status> {
     Ok(())
 }
 
-fn too_few(count: usize, highest_hz: f64) -> Status {
-    let reason =
-        format!("fewer than {count} natural frequencies are below {highest_hz} Hz: raise the limit of the search");
-    Status::new("no-frequency", &reason)
-}
-
-/// Where to begin: a little above the lowest frequency of a cable between fixed ends, which is above the first of the robot.
-fn first_limit(robot: &Robot, rest: &Equilibrium, model: CableModel) -> f64 {
-    /// A cable's first frequency out of plane is that of a string, to the sag's second order.
-    const ABOVE: f64 = 1.05;
-    let strings = rest.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state).string_frequency_hz());
-    let lowest = strings.filter(|hz| hz.is_finite() && *hz > 0.0).fold(f64::INFINITY, f64::min);
-    if model.is_dynamic() && lowest.is_finite() { ABOVE * lowest } else { 1.0 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::modes::track::branches;
+    use funicular::modes::track::branches;
     use std::borrow::Cow;
 
     #[test]

@@ -1,8 +1,8 @@
 //! Why a row has no numbers, or not all: a short code that stays, and a text.
 
-use crate::robot::Robot;
-use crate::statics::{Equilibrium, Stability, StaticsError};
-use crate::validity::{self, Warning};
+use funicular::robot::Robot;
+use funicular::statics::{Equilibrium, Stability, StaticsError};
+use funicular::validity::{self, Warning};
 use std::borrow::Cow;
 
 /// What there is to say of a row.
@@ -61,7 +61,7 @@ impl Status {
     /// What to mind of a feasible one.
     pub(super) fn remarking(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let unstable = matches!(equilibrium.stability, Stability::Unstable { .. });
-        if !unstable && !equilibrium.cables.iter().any(crate::statics::CableState::is_slack) {
+        if !unstable && !equilibrium.cables.iter().any(funicular::statics::CableState::is_slack) {
             return None;
         }
         validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {

@@ -3,29 +3,16 @@
 //! A [`Plan`] is what is asked: points in a fixed order, quantities, options. Its rows come in chunks of a size that
 //! the plan alone determines, and every row is computed from its own point alone, so that a row is the same bit for bit
 //! whatever the number of threads, however the chunks are shared between machines, and wherever a run was interrupted.
-//! A point without an equilibrium is a row, with a [code](CODES) and a reason; what does not exist is `None`, never NaN.
+//! A point without an equilibrium is a row, with a [code](super::CODES) and a reason; what does not exist is `None`, never NaN.
 
-mod columns;
-mod frequency;
-mod points;
-mod quantity;
-mod row;
-mod run;
-mod status;
-mod steps;
-
-pub use columns::{Chunk, Column, Kind, Values};
-pub use frequency::{PointModes, lowest_modes};
-pub use points::{AXES, Point, Points, Poses};
-pub use quantity::{MOST_FREQUENCIES, QUANTITIES, Quantity, UnknownQuantity};
-pub use run::Outcome;
-pub use status::CODES;
-pub use steps::{Steps, digits};
-
-use crate::dynamics::Linearisation;
-use crate::robot::Robot;
-use crate::statics::{StaticModel, StaticsError, TensionRule};
-use columns::Value;
+use super::columns::{Chunk, Column, Kind, Value, Values};
+use super::points::Points;
+use super::quantity::Quantity;
+use super::row;
+use super::status::Status;
+use funicular::dynamics::Linearisation;
+use funicular::robot::Robot;
+use funicular::statics::{self, StaticModel, StaticsError, TensionRule};
 use thiserror::Error;
 
 /// How every point is computed.
@@ -162,20 +149,18 @@ impl<'a> Plan<'a> {
     /// # Example
     /// ```
     /// use funicular::robot::Robot;
-    /// use funicular::sweep::{Options, Plan, Poses, Quantity, Steps, Values};
+    /// use funicular_study::sweep::{Options, Plan, Poses, Quantity, Steps, Values};
     ///
     /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let axes = [("x", Steps::range(-5.0, 5.0, 11)?), ("y", Steps::List(vec![0.0])), ("z", Steps::List(vec![0.5]))];
     /// let poses = Poses::grid(robot.clone(), &axes.map(|(axis, steps)| (axis.to_owned(), steps)), None)?;
-    /// let (quantities, options) = ([Quantity::TensionMax], Options::default());
+    /// let (quantities, options) = (["tension-max".parse::<Quantity>()?], Options::default());
     /// let plan = Plan::new(&poses, &robot, &quantities, &options)?;
     /// let mut rows = Vec::new();
-    /// let cancel = std::sync::atomic::AtomicBool::new(false);
-    /// plan.run(0..plan.chunks(), std::num::NonZeroUsize::MIN, &cancel, |chunk| {
+    /// for chunk in (0..plan.chunks()).filter_map(|index| plan.evaluate(index, || false)) {
     ///     let [.., Values::Text(status), _, Values::Real(tension_max)] = &chunk.columns[..] else { unreachable!() };
     ///     rows.extend(status.iter().cloned().zip(tension_max.iter().copied()));
-    ///     Ok::<(), std::convert::Infallible>(())
-    /// })?;
+    /// }
     /// assert_eq!(rows[0], (Some("would-push".into()), None));
     /// assert!((rows[5].1.unwrap() - 55.174).abs() < 1e-3); // N, in the middle
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -218,8 +203,9 @@ impl<'a> Plan<'a> {
     fn check_first(&self) -> Result<(), SweepError> {
         let first = self.points.point(0);
         let Ok((robot, state)) = &first.robot else { return Ok(()) };
-        match row::at_rest(robot, state, self.options) {
-            Err(error) if status::Status::of_error(&error).code == "bad-input" => Err(error.into()),
+        let Options { static_model, tension_rule, .. } = self.options;
+        match statics::solve_at(robot, state, *static_model, tension_rule) {
+            Err(error) if Status::of_error(&error).code == "bad-input" => Err(error.into()),
             _ => Ok(()),
         }
     }
@@ -258,7 +244,7 @@ impl<'a> Plan<'a> {
             let point = self.points.point(i);
             row.clear();
             row.extend(point.coordinates.iter().map(|value| Value::real(Some(*value))));
-            row::values(&point, self.quantities, self.options, self.with_distance, self.width, &mut row);
+            row::cells(&point, self.quantities, self.options, self.with_distance, self.width, &mut row);
             for (column, value) in columns.iter_mut().zip(row.drain(..)) {
                 column.push(value);
             }

@@ -1,8 +1,10 @@
 //! Where a sweep looks: grids and lists of poses, or robots that the caller supplies.
 
-use super::{Column, Kind, Steps, SweepError, steps};
-use crate::math::rotation;
-use crate::robot::{Freedoms, Pose, Robot, State};
+use super::columns::{Column, Kind};
+use super::plan::SweepError;
+use super::steps::{Steps, digits};
+use funicular::math::rotation;
+use funicular::robot::{Freedoms, Pose, Robot, State};
 use std::borrow::Cow;
 
 /// The points of a sweep, in a fixed order.
@@ -54,7 +56,7 @@ impl Poses {
     /// # Example
     /// ```
     /// use funicular::robot::{Pose, Robot};
-    /// use funicular::sweep::{Points, Poses, Steps};
+    /// use funicular_study::sweep::{Points, Poses, Steps};
     ///
     /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let base = Pose::new([0.0, 0.0, 0.5], [0.0; 3]);
@@ -168,7 +170,7 @@ impl Points for Poses {
             Which::Grid { axes, turns, base } => {
                 let mut at = [0.0; 6];
                 for ((value, steps), digit) in
-                    at.iter_mut().zip(axes.iter()).zip(steps::digits(i, axes.iter().map(Steps::count)))
+                    at.iter_mut().zip(axes.iter()).zip(digits(i, axes.iter().map(Steps::count)))
                 {
                     *value = steps.at(digit);
                 }

@@ -55,7 +55,7 @@ impl Steps {
     ///
     /// # Example
     /// ```
-    /// use funicular::sweep::Steps;
+    /// use funicular_study::sweep::Steps;
     ///
     /// let steps = Steps::range(-4.0, 4.0, 81)?;
     /// assert_eq!((steps.at(0), steps.at(40), steps.at(80)), (-4.0, 0.0, 4.0));

@@ -1,0 +1,564 @@
+//! Quantities of a map or sweep: one row of [`TABLE`] each.
+//!
+//! A row holds everything about its quantity: name, description, the text of docs/sweeps.md, what it needs, its columns and
+//! its value. Names, help texts, documentation and the evaluation of points read the table; nothing else knows a quantity.
+
+use super::columns::{Column, Kind, Value};
+use super::points::AXES;
+use super::row::Row;
+use funicular::cable::{CableModel, Sag};
+use funicular::math::rotation;
+use funicular::robot::Robot;
+use funicular::statics::{self, Stability, StaticModel, TensionRange};
+use funicular::suggest::nearest;
+use std::fmt;
+use thiserror::Error;
+
+/// Everything about one quantity.
+struct Definition {
+    /// Its name, with the form of its parameter.
+    name: &'static str,
+    /// Description in a line.
+    about: &'static str,
+    /// Columns and their meaning, as docs/sweeps.md has them.
+    documentation: &'static str,
+    takes: Takes,
+    needs: Needs,
+    /// How many of the lowest natural frequencies it shows, in the cable model of the options.
+    frequencies: fn(Parameter) -> usize,
+    columns: fn(&Robot, Parameter) -> Vec<Column>,
+    /// Adds the values of a point, as many as there are columns.
+    values: fn(&mut Row<'_>, Parameter, &mut Vec<Value>),
+}
+
+/// Parameter that a name has after its colon.
+enum Takes {
+    Nothing,
+    /// A number from 1 to [`MOST_FREQUENCIES`].
+    Count,
+    /// A cable model simpler than the exact one; that of the name without a colon.
+    Model(CableModel),
+}
+
+/// Static models that a quantity exists with.
+enum Needs {
+    Anything,
+    /// Cables that stretch.
+    Elastic,
+    Catenary,
+}
+
+/// Value of the parameter in a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Parameter {
+    None,
+    Count(usize),
+    Model(CableModel),
+}
+
+/// Most natural frequencies of a point.
+pub const MOST_FREQUENCIES: usize = 100;
+
+/// Every quantity, in the order of the documentation.
+static TABLE: [Definition; 17] = [
+    Definition {
+        name: "first-frequency",
+        about: "lowest natural frequency",
+        documentation: "`first_frequency_hz`: the lowest natural frequency, undamped, with the cable model asked (exact)",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 1,
+        columns: |_, _| one("first_frequency_hz", "Hz", "lowest natural frequency, undamped"),
+        values: |row, _, out| row.frequencies(1, out),
+    },
+    Definition {
+        name: "first-kind",
+        about: "whose vibration that is: platform, cable or mixed",
+        documentation: "`first_kind`: whose vibration that is, by kinetic energy: platform, cable or mixed",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 1,
+        columns: |_, _| {
+            let about = "whose vibration the first mode is: platform, cable or mixed";
+            vec![Column { kind: Kind::Text, ..column("first_kind".to_owned(), "", about) }]
+        },
+        values: |row, _, out| {
+            let kind = row.modes().and_then(|modes| modes.first().map(|mode| mode.1));
+            out.push(kind.map_or(Value::Nothing, |kind| Value::Text(kind.name().into())));
+        },
+    },
+    Definition {
+        name: "frequencies:N",
+        about: "the lowest N natural frequencies",
+        documentation: "`frequency_1_hz` …: the lowest N",
+        takes: Takes::Count,
+        needs: Needs::Anything,
+        frequencies: Parameter::count,
+        columns: |_, parameter| {
+            let about = "natural frequency, ascending, undamped";
+            (1..=parameter.count()).map(|i| column(format!("frequency_{i}_hz"), "Hz", about)).collect()
+        },
+        values: |row, parameter, out| row.frequencies(parameter.count(), out),
+    },
+    Definition {
+        name: "tension-max",
+        about: "greatest tension anywhere in a cable",
+        documentation: "`tension_max_n`: greatest tension anywhere in any cable",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("tension_max_n", "N", "greatest tension anywhere in a cable"),
+        values: |row, _, out| out.push(Value::real(row.tensions().map(|(_, most)| most).reduce(f64::max))),
+    },
+    Definition {
+        name: "tension-min",
+        about: "least tension anywhere in a cable",
+        documentation: "`tension_min_n`: least tension anywhere in any cable",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("tension_min_n", "N", "least tension anywhere in a cable"),
+        values: |row, _, out| out.push(Value::real(row.tensions().map(|(least, _)| least).reduce(f64::min))),
+    },
+    Definition {
+        name: "tensions",
+        about: "tension of every cable at the platform",
+        documentation: "`tension_platform_NAME_n`: of every cable, at the platform",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at the platform"),
+        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_platform)))),
+    },
+    Definition {
+        name: "lengths",
+        about: "unstrained length of every cable",
+        documentation: "`unstrained_length_NAME_m`",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |robot, _| each_cable(robot, "unstrained_length", "m", "m", "unstrained length of a cable"),
+        values: |row, _, out| {
+            out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.unstrained_length))))
+        },
+    },
+    Definition {
+        name: "tension-margin",
+        about: "least distance of a tension from its limits, negative beyond them",
+        documentation: "`tension_margin_n`: least distance of a tension from its limits (as of `--tension-rule`), negative \
+                        beyond them",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("tension_margin_n", "N", "least distance of a tension from its limits"),
+        values: |row, _, out| {
+            let cables = row.rest.cables.iter().enumerate();
+            let margins =
+                cables.map(|(i, cable)| TensionRange::of(row.robot, i, &cable.chord_w()).margin(cable).distance());
+            out.push(Value::real(margins.reduce(f64::min)));
+        },
+    },
+    Definition {
+        name: "stiffness-min",
+        about: "least eigenvalue of the static stiffness, rotations scaled by the platform's size",
+        documentation: "`stiffness_min_n_per_m`: least eigenvalue of the static stiffness, rotations scaled by the \
+                        platform's size; in wind of its symmetric part",
+        takes: Takes::Nothing,
+        needs: Needs::Elastic,
+        frequencies: |_| 0,
+        columns: |_, _| one("stiffness_min_n_per_m", "N/m", "least eigenvalue of the scaled static stiffness"),
+        values: |row, _, out| {
+            out.push(Value::real(match row.rest.stability {
+                Stability::Stable { least_stiffness } | Stability::Unstable { least_stiffness, .. } => {
+                    Some(least_stiffness)
+                }
+                Stability::Rigid => None,
+            }));
+        },
+    },
+    Definition {
+        name: "stiffness",
+        about: "static stiffness along every coordinate, the others free",
+        documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: load along a coordinate over the motion along \
+                        it, all others free; in wind the drag turns with the cables",
+        takes: Takes::Nothing,
+        needs: Needs::Elastic,
+        frequencies: |_| 0,
+        columns: |robot, _| stiffness_columns(robot),
+        values: |row, _, out| {
+            let found = statics::stiffness_along_coordinates(row.robot, row.rest);
+            let along = |k: usize| found.as_ref().map(|stiffness| stiffness[k]);
+            out.extend((0..row.robot.platform.freedoms.count()).map(|k| Value::real(along(k))));
+        },
+    },
+    Definition {
+        name: "pose-error",
+        about: "distances between the poses of ideal, spring and catenary cables of the same lengths",
+        documentation: "`spring_from_ideal_distance_m`, `catenary_from_ideal_distance_m`, `spring_from_catenary_distance_m`: \
+                        how far the platform rests from where the other model says, at the unstrained lengths of the \
+                        catenaries; the first two where there are as many cables as freedoms; nothing where the other \
+                        model holds the platform nowhere near, as springs that are all slack",
+        takes: Takes::Nothing,
+        needs: Needs::Catenary,
+        frequencies: |_| 0,
+        columns: |robot, _| pose_error_columns(robot),
+        values: |row, _, out| row.pose_error(out),
+    },
+    Definition {
+        name: "sag-max",
+        about: "largest sag over chord",
+        documentation: "`sag_ratio_max`: largest sag over chord",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("sag_ratio_max", "1", "largest sag over chord"),
+        values: |row, _, out| {
+            let sags = row.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(row.robot, i, cable));
+            let ratios = sags.map(|sag| if sag.tension > 0.0 { sag.ratio() } else { f64::INFINITY });
+            out.push(Value::real(ratios.reduce(f64::max)));
+        },
+    },
+    Definition {
+        name: "model-error:MODEL",
+        about: "first frequency with a simpler cable model, relative to the exact one",
+        documentation: "`model_error_MODEL`: first frequency with a simpler cable model over the exact one, less one; \
+                        without MODEL `closed-form`",
+        takes: Takes::Model(CableModel::ClosedForm),
+        needs: Needs::Catenary,
+        frequencies: |_| 0,
+        columns: |_, parameter| {
+            let about = "first frequency with this cable model over the exact one, less one";
+            vec![column(format!("model_error_{}", parameter.underscored()), "1", about)]
+        },
+        values: |row, parameter, out| {
+            let error = parameter.model().map(|model| row.model_error(model));
+            row.push(error, out);
+        },
+    },
+    Definition {
+        name: "stiffness-error:MODEL",
+        about: "least stiffness with a simpler cable model, relative to the exact one",
+        documentation: "`stiffness_error_MODEL`: least static stiffness with a simpler cable model over that of the \
+                        catenaries, less one; without MODEL `spring`",
+        takes: Takes::Model(CableModel::Spring),
+        needs: Needs::Catenary,
+        frequencies: |_| 0,
+        columns: |_, parameter| {
+            let about = "least static stiffness with this cable model over the exact one, less one";
+            vec![column(format!("stiffness_error_{}", parameter.underscored()), "1", about)]
+        },
+        values: |row, parameter, out| {
+            let error = parameter.model().map(|model| row.stiffness_error(model));
+            row.push(error, out);
+        },
+    },
+    Definition {
+        name: "condition",
+        about: "inverse condition of the cables' directions: 0 at a singular pose, 1 at best",
+        documentation: "`inverse_condition`: least over largest singular value of the cables' directions (moments over the \
+                        platform's size); 0 at a singular pose",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| {
+            one("inverse_condition", "1", "least over largest singular value of the cables' scaled directions")
+        },
+        values: |row, _, out| out.push(Value::real(Some(statics::inverse_condition(row.robot, row.rest)))),
+    },
+    Definition {
+        name: "energy",
+        about: "potential energy of platform, load and cables",
+        documentation: "`potential_energy_j`: of platform, load and cables, heights from the world's origin",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("potential_energy_j", "J", "potential energy of platform, load and cables"),
+        values: |row, _, out| out.push(Value::real(Some(statics::energy(row.robot, row.rest)))),
+    },
+    Definition {
+        name: "pose",
+        about: "the pose that is found",
+        documentation: "`pose_x_m` … `pose_yaw_deg`: the pose that is found, which a `sweep` from lengths asks for",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| {
+            let axes = AXES.iter().enumerate().map(|(i, axis)| (axis, if i < 3 { "m" } else { "deg" }));
+            let about = "of the pose found, world axes, R = Rz Ry Rx";
+            axes.map(|(axis, unit)| column(format!("pose_{axis}_{unit}"), unit, about)).collect()
+        },
+        values: |row, _, out| {
+            let pose = &row.rest.pose;
+            let angles = rotation::to_roll_pitch_yaw_deg(&pose.rot_wp);
+            out.extend(pose.position_w.iter().chain(&angles).map(|value| Value::real(Some(*value))));
+        },
+    },
+];
+
+/// One thing to know about every point, by its name; `frequencies:3` and `model-error:spring` have a parameter.
+///
+/// # Example
+/// ```
+/// use funicular_study::sweep::Quantity;
+///
+/// let quantity: Quantity = "frequencies:3".parse()?;
+/// assert_eq!((quantity.name(), quantity.count()), ("frequencies:3".to_owned(), Some(3)));
+/// let error = "tension-mx".parse::<Quantity>().unwrap_err();
+/// assert_eq!(error.to_string(), "there is no quantity `tension-mx`; did you mean `tension-max`?");
+/// # Ok::<(), funicular_study::sweep::UnknownQuantity>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Quantity {
+    definition: &'static Definition,
+    parameter: Parameter,
+}
+
+/// A name that is no quantity.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("there is no quantity `{name}`{hint}")]
+pub struct UnknownQuantity {
+    /// As given.
+    pub name: String,
+    /// The nearest one or all of them.
+    pub hint: String,
+}
+
+impl Quantity {
+    /// Names of all quantities, with the form of their parameters, in the order of the documentation.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        TABLE.iter().map(|definition| definition.name)
+    }
+
+    /// Rows of a Markdown table of all quantities: name, description.
+    pub fn documentation() -> String {
+        TABLE.iter().map(|of| format!("| `{}` | {} |\n", of.name, of.documentation)).collect()
+    }
+
+    /// Its name, the parameter written out.
+    pub fn name(&self) -> String {
+        let head = self.definition.head();
+        match self.parameter {
+            Parameter::None => head.to_owned(),
+            Parameter::Count(count) => format!("{head}:{count}"),
+            Parameter::Model(model) => format!("{head}:{model}"),
+        }
+    }
+
+    /// Its description, in a line.
+    pub fn about(&self) -> &'static str {
+        self.definition.about
+    }
+
+    /// How many values of a kind it has, if its name says so: 3 of `frequencies:3`.
+    pub fn count(&self) -> Option<usize> {
+        match self.parameter {
+            Parameter::Count(count) => Some(count),
+            Parameter::None | Parameter::Model(_) => None,
+        }
+    }
+
+    /// Its columns for a robot.
+    pub fn columns(&self, robot: &Robot) -> Vec<Column> {
+        (self.definition.columns)(robot, self.parameter)
+    }
+
+    /// Number of the lowest natural frequencies that it shows, in the cable model of the options.
+    pub(super) fn frequencies(&self) -> usize {
+        (self.definition.frequencies)(self.parameter)
+    }
+
+    /// Whether it does not exist with a static model.
+    pub(super) fn excludes(&self, model: StaticModel) -> bool {
+        match self.definition.needs {
+            Needs::Anything => false,
+            Needs::Elastic => model == StaticModel::Ideal,
+            Needs::Catenary => model != StaticModel::Catenary,
+        }
+    }
+
+    /// Adds its values at a point.
+    pub(super) fn values(&self, row: &mut Row<'_>, out: &mut Vec<Value>) {
+        (self.definition.values)(row, self.parameter, out);
+    }
+}
+
+impl PartialEq for Quantity {
+    fn eq(&self, other: &Self) -> bool {
+        self.definition.name == other.definition.name && self.parameter == other.parameter
+    }
+}
+
+impl fmt::Debug for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Quantity({})", self.name())
+    }
+}
+
+impl Definition {
+    /// The name without its parameter.
+    fn head(&self) -> &'static str {
+        self.name.split(':').next().unwrap_or(self.name)
+    }
+
+    /// The parameter that a name has after its colon; `None` if it is none of this quantity.
+    fn parameter(&self, text: Option<&str>) -> Option<Parameter> {
+        match (&self.takes, text) {
+            (Takes::Nothing, None) => Some(Parameter::None),
+            (Takes::Count, Some(text)) => {
+                let count = text.parse().ok().filter(|count| (1..=MOST_FREQUENCIES).contains(count));
+                count.map(Parameter::Count)
+            }
+            (Takes::Model(default), None) => Some(Parameter::Model(*default)),
+            (Takes::Model(_), Some(text)) => simpler_models().find(|model| model.name() == text).map(Parameter::Model),
+            (Takes::Nothing, Some(_)) | (Takes::Count, None) => None,
+        }
+    }
+}
+
+impl Parameter {
+    fn count(self) -> usize {
+        match self {
+            Self::Count(count) => count,
+            Self::None | Self::Model(_) => 0,
+        }
+    }
+
+    fn model(self) -> Option<CableModel> {
+        match self {
+            Self::Model(model) => Some(model),
+            Self::None | Self::Count(_) => None,
+        }
+    }
+
+    /// The name of the model as a part of a column's.
+    fn underscored(self) -> String {
+        self.model().map_or_else(String::new, |model| model.name().replace('-', "_"))
+    }
+}
+
+/// Cable models that are compared with the exact one.
+fn simpler_models() -> impl Iterator<Item = CableModel> {
+    CableModel::ALL.into_iter().filter(|model| *model != CableModel::Exact)
+}
+
+impl std::str::FromStr for Quantity {
+    type Err = UnknownQuantity;
+
+    fn from_str(text: &str) -> Result<Self, UnknownQuantity> {
+        let text = text.trim();
+        let (head, parameter) = match text.split_once(':') {
+            Some((head, parameter)) => (head, Some(parameter)),
+            None => (text, None),
+        };
+        TABLE
+            .iter()
+            .find(|definition| definition.head() == head)
+            .and_then(|definition| Some(Self { definition, parameter: definition.parameter(parameter)? }))
+            .ok_or_else(|| UnknownQuantity { name: text.to_owned(), hint: hint(text) })
+    }
+}
+
+fn hint(text: &str) -> String {
+    let head = text.split(':').next().unwrap_or(text);
+    match TABLE.iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
+        Some(Takes::Count) => {
+            return format!(": how many is a whole number from 1 to {MOST_FREQUENCIES}, as in {head}:3");
+        }
+        Some(Takes::Model(_)) if text.contains(':') => {
+            let models: Vec<&str> = simpler_models().map(CableModel::name).collect();
+            return format!(": the model after the colon is one of {}", models.join(", "));
+        }
+        _ => {}
+    }
+    let near = nearest(head, TABLE.iter().map(Definition::head));
+    match near.and_then(|near| TABLE.iter().find(|definition| definition.head() == near)) {
+        Some(definition) => format!("; did you mean `{}`?", definition.name),
+        None => format!("; there are {}", Quantity::names().collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// A column of numbers.
+fn column(name: String, unit: &'static str, about: &str) -> Column {
+    Column { name, unit: unit.into(), about: about.to_owned(), kind: Kind::Real }
+}
+
+/// One column of numbers.
+fn one(name: &str, unit: &'static str, about: &str) -> Vec<Column> {
+    vec![column(name.to_owned(), unit, about)]
+}
+
+/// A column of numbers per cable.
+fn each_cable(robot: &Robot, prefix: &str, suffix: &str, unit: &'static str, about: &str) -> Vec<Column> {
+    robot.cables.iter().map(|cable| column(format!("{prefix}_{}_{suffix}", cable.name), unit, about)).collect()
+}
+
+fn stiffness_columns(robot: &Robot) -> Vec<Column> {
+    let freedoms = &robot.platform.freedoms;
+    let about = "load along this coordinate over the motion along it, all others free";
+    let names = freedoms.coordinate_names().iter().enumerate();
+    names
+        .map(|(k, name)| {
+            let (suffix, unit) = if freedoms.is_rotation(k) { ("n_m_per_rad", "N m/rad") } else { ("n_per_m", "N/m") };
+            column(format!("stiffness_{name}_{suffix}"), unit, about)
+        })
+        .collect()
+}
+
+/// Rigid cables of given lengths close only where there are as many as degrees of freedom.
+pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
+    robot.cables.len() == robot.platform.freedoms.count()
+}
+
+fn pose_error_columns(robot: &Robot) -> Vec<Column> {
+    let pairs: &[&str] = if has_ideal_pose(robot) {
+        &["spring_from_ideal", "catenary_from_ideal", "spring_from_catenary"]
+    } else {
+        &["spring_from_catenary"]
+    };
+    let about = "distance of the platform origin between two static models at the same lengths";
+    pairs.iter().map(|pair| column(format!("{pair}_distance_m"), "m", about)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_quantity_of_the_table_is_read_and_named_back() {
+        for name in Quantity::names() {
+            let name = name.replace(":N", ":7").replace(":MODEL", ":static-sag");
+            let quantity: Quantity = name.parse().unwrap();
+            assert_eq!(quantity.name(), name);
+            assert!(!quantity.about().is_empty());
+        }
+        for (short, full) in [("model-error", "model-error:closed-form"), ("stiffness-error", "stiffness-error:spring")]
+        {
+            assert_eq!(short.parse::<Quantity>().unwrap().name(), full);
+        }
+    }
+
+    #[test]
+    fn the_documentation_has_the_rows_of_the_table() {
+        let page = include_str!("../../../../docs/sweeps.md");
+        let (_, behind) = page.split_once("| `--quantity` | Columns |\n|---|---|\n").unwrap();
+        let (rows, _) = behind.split_once("\n\n").unwrap();
+        assert_eq!(format!("{rows}\n"), Quantity::documentation(), "docs/sweeps.md, Quantities");
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_told_with_what_there_is() {
+        for (name, says) in [
+            ("first-freq", "did you mean `first-frequency`"),
+            ("frequencies:0", "from 1 to 100"),
+            ("frequencies:x", "from 1 to 100"),
+            ("frequencies", "as in frequencies:3"),
+            ("tension-max:3", "did you mean `tension-max`"),
+            ("model-error:exact", "one of spring, static-sag, catenary-tangent, closed-form"),
+            ("", "there are first-frequency"),
+            ("é", "there are"),
+        ] {
+            let error = name.parse::<Quantity>().unwrap_err().to_string();
+            assert!(error.contains(says), "{error}");
+        }
+    }
+}

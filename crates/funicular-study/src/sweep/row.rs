@@ -1,0 +1,223 @@
+//! One point: its equilibrium, and what is requested of it.
+
+use super::columns::Value;
+use super::frequency::{self, Lowest};
+use super::plan::Options;
+use super::points::Point;
+use super::quantity::{Quantity, has_ideal_pose};
+use super::status::Status;
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes::Kind;
+use funicular::pose_error::PoseDifference;
+use funicular::robot::Robot;
+use funicular::statics::{self, Equilibrium, Rest, Stability, StaticModel};
+use std::cell::OnceCell;
+
+/// A robot at rest at a point, and what several quantities share.
+pub(super) struct Row<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) rest: &'a Equilibrium,
+    options: &'a Options,
+    /// Lowest frequencies in the cable model of the options, as many as are needed at most.
+    lowest: OnceCell<Result<Lowest, Status>>,
+    most: usize,
+    /// The first with exact cables, for comparisons.
+    exact: OnceCell<Result<Lowest, Status>>,
+    /// The first reason why something requested is missing.
+    missing: Option<Status>,
+}
+
+/// Adds the cells of a point behind its coordinates: feasible, status, reason, distance from the requested pose if that is
+/// a column, then the quantities; `width` of them.
+pub(super) fn cells(
+    point: &Point,
+    quantities: &[Quantity],
+    options: &Options,
+    with_distance: bool,
+    width: usize,
+    out: &mut Vec<Value>,
+) {
+    let begin = out.len();
+    match feasible(point, options) {
+        Err(status) => {
+            head(false, Some(status), out);
+            out.resize(begin + width, Value::Nothing);
+        }
+        Ok((robot, Rest { equilibrium, instead_of, .. })) => {
+            // The quantities come first: they know what is missing, which the status says.
+            let (values, missing) = quantity_values(robot, &equilibrium, quantities, options);
+            head(true, missing, out);
+            if with_distance {
+                out.push(Value::real(instead_of.map(|(_, distance)| distance)));
+            }
+            out.extend(values);
+        }
+    }
+}
+
+/// The robot of a point and its equilibrium, or why it has none within the limits.
+fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Rest), Status> {
+    let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("bad-robot", reason))?;
+    let rest = statics::solve_at(robot, state, options.static_model, &options.tension_rule)
+        .map_err(|error| Status::of_error(&error))?;
+    match Status::refusing(robot, &rest.equilibrium) {
+        Some(status) => Err(status),
+        None => Ok((robot, rest)),
+    }
+}
+
+/// Values of all quantities, and the first reason why one is missing.
+fn quantity_values(
+    robot: &Robot,
+    rest: &Equilibrium,
+    quantities: &[Quantity],
+    options: &Options,
+) -> (Vec<Value>, Option<Status>) {
+    let most = quantities.iter().map(Quantity::frequencies).max().unwrap_or(0);
+    let missing = Status::remarking(robot, rest);
+    let (lowest, exact) = (OnceCell::new(), OnceCell::new());
+    let mut row = Row { robot, rest, options, lowest, most, exact, missing };
+    let mut values = Vec::new();
+    for quantity in quantities {
+        quantity.values(&mut row, &mut values);
+    }
+    (values, row.missing)
+}
+
+fn head(feasible: bool, status: Option<Status>, out: &mut Vec<Value>) {
+    let (code, reason) = Status::of(status);
+    out.extend([Value::Flag(feasible), Value::Text(code), reason.map_or(Value::Nothing, Value::Text)]);
+}
+
+impl Row<'_> {
+    /// A value, or nothing with the reason in the row's status unless there is one already.
+    pub(super) fn push(&mut self, value: Option<Result<f64, Status>>, out: &mut Vec<Value>) {
+        match value {
+            None => out.push(Value::Nothing),
+            Some(Ok(value)) => out.push(Value::real(Some(value))),
+            Some(Err(status)) => {
+                out.push(Value::Nothing);
+                self.missing.get_or_insert(status);
+            }
+        }
+    }
+
+    /// Least and greatest tension anywhere in each cable.
+    pub(super) fn tensions(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.rest.cables.iter().map(|cable| match &cable.hanging {
+            Some(hanging) => (hanging.catenary.least_tension(), hanging.catenary.greatest_tension()),
+            None => (cable.tension_platform, cable.tension_platform),
+        })
+    }
+
+    /// The lowest modes in the cable model asked for.
+    pub(super) fn modes(&mut self) -> Option<&[(f64, Kind)]> {
+        let found = self.lowest.get_or_init(|| {
+            frequency::lowest(self.robot, self.rest, self.options.linearisation, self.most, self.options.highest_hz)
+        });
+        match found {
+            Ok(lowest) => {
+                if !lowest.certified {
+                    self.missing.get_or_insert_with(not_certified);
+                }
+                Some(&lowest.modes)
+            }
+            Err(status) => {
+                self.missing.get_or_insert_with(|| status.clone());
+                None
+            }
+        }
+    }
+
+    pub(super) fn frequencies(&mut self, count: usize, out: &mut Vec<Value>) {
+        let end = out.len() + count;
+        if let Some(modes) = self.modes() {
+            out.extend(modes.iter().take(count).map(|mode| Value::real(Some(mode.0))));
+        }
+        out.resize(end, Value::Nothing);
+    }
+
+    /// Poses of springs and of rigid cables of the same unstrained lengths, each against the others. An equilibrium that
+    /// does not hold the platform, as one of springs that are all slack, is no pose to compare with.
+    pub(super) fn pose_error(&mut self, out: &mut Vec<Value>) {
+        let lengths: Vec<f64> = self.rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let with = |model: StaticModel| {
+            let none = |reason: &str| {
+                let reason = format!("with {} cables of the same lengths: {reason}", model.name());
+                Status::new("no-comparison", &reason)
+            };
+            let found = statics::forward(self.robot, &lengths, model, Some(&self.rest.pose));
+            let found = found.map_err(|error| none(&error.to_string()))?;
+            match found.stability {
+                Stability::Unstable { .. } => Err(none("the equilibrium does not hold the platform")),
+                Stability::Stable { .. } | Stability::Rigid => Ok(found.pose),
+            }
+        };
+        let spring = with(StaticModel::Spring);
+        let distance = |from: &_, to: &_| PoseDifference::between(from, to).distance;
+        let catenary = &self.rest.pose;
+        let of_spring = spring.as_ref().map(|spring| distance(catenary, spring)).map_err(Clone::clone);
+        if has_ideal_pose(self.robot) {
+            let ideal = with(StaticModel::Ideal);
+            let both = ideal.as_ref().and_then(|ideal| spring.as_ref().map(|spring| distance(ideal, spring)));
+            let of_ideal = ideal.as_ref().map(|ideal| distance(ideal, catenary)).map_err(Clone::clone);
+            let both = both.map_err(Clone::clone);
+            self.push(Some(both), out);
+            self.push(Some(of_ideal), out);
+        }
+        self.push(Some(of_spring), out);
+    }
+
+    /// First frequency with another cable model over the exact one, less one.
+    pub(super) fn model_error(&mut self, model: CableModel) -> Result<f64, Status> {
+        let Options { linearisation, highest_hz, .. } = *self.options;
+        let (robot, rest) = (self.robot, self.rest);
+        let first = |cable_model| {
+            let asked = Linearisation { cable_model, ..linearisation };
+            frequency::lowest(robot, rest, asked, 1, highest_hz)
+        };
+        let mut certified = true;
+        let mut of = |found: &Result<Lowest, Status>| match found {
+            Ok(lowest) => {
+                certified &= lowest.certified;
+                lowest.modes.first().map(|mode| mode.0).ok_or_else(not_certified)
+            }
+            Err(status) => Err(status.clone()),
+        };
+        let exact = if linearisation.cable_model == CableModel::Exact && self.most > 0 {
+            of(self
+                .lowest
+                .get_or_init(|| frequency::lowest(self.robot, self.rest, linearisation, self.most, highest_hz)))?
+        } else {
+            of(self.exact.get_or_init(|| first(CableModel::Exact)))?
+        };
+        let simpler = of(&first(model))?;
+        if !certified {
+            self.missing.get_or_insert_with(not_certified);
+        }
+        Ok(simpler / exact - 1.0)
+    }
+
+    /// Least eigenvalue of the scaled static stiffness with another cable model over that of the catenary, less one.
+    pub(super) fn stiffness_error(&self, model: CableModel) -> Result<f64, Status> {
+        let least = |cable_model| {
+            let asked = Linearisation { cable_model, ..self.options.linearisation };
+            let dynamics = Dynamics::about(self.robot, self.rest, asked, 0.0)
+                .map_err(|error| Status::new("no-comparison", &error))?;
+            Ok::<f64, Status>(dynamics.least_static_stiffness())
+        };
+        let exact = least(CableModel::CatenaryTangent)?;
+        if exact <= 0.0 {
+            return Err(Status::new(
+                "unstable",
+                "the least stiffness is not positive: nothing can be compared with it",
+            ));
+        }
+        Ok(least(model)? / exact - 1.0)
+    }
+}
+
+fn not_certified() -> Status {
+    Status::new("not-certified", "the count does not confirm the lowest natural frequencies")
+}

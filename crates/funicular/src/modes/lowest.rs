@@ -1,0 +1,85 @@
+//! The lowest natural frequencies, as many as are requested, without a limit that has to be known beforehand.
+
+use super::{Modes, below};
+use crate::cable::{CableModel, Sag};
+use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
+use crate::robot::Robot;
+use crate::statics::Equilibrium;
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Why there are not as many natural frequencies as requested.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LowestError {
+    /// The robot cannot be linearised.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+    /// The count at the highest frequency says that there are fewer.
+    #[error("fewer than {requested} natural frequencies are below {highest_hz} Hz: raise the limit of the search")]
+    TooFew {
+        /// Number requested.
+        requested: usize,
+        /// Number there are below the limit.
+        found: usize,
+        /// Limit of the search [Hz].
+        highest_hz: f64,
+        /// Directions in which the linearised robot is unstable; they are counted, and have no frequency.
+        unstable_directions: usize,
+    },
+}
+
+/// All natural modes below a limit that the search chooses: low, and with at least `count` modes below it. The limit is at
+/// most `highest_hz`.
+///
+/// The first limit lies where the first frequency is likely. It is doubled until the count confirms enough modes below it.
+///
+/// # Errors
+/// [`LowestError`]: a cable that the linearisation has no stiffness for, or fewer modes than requested below `highest_hz`.
+///
+/// # Example
+/// ```
+/// # use funicular::{dynamics::Linearisation, modes, robot::{Pose, Robot}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+/// let rest = statics::inverse(&robot, &Pose::new([0.5, 0.1, 0.6], [0.0, 1.0, 0.0]), StaticModel::Catenary)?;
+/// let (_, found) = modes::lowest(&robot, &rest, Linearisation::default(), 3, 1000.0)?;
+/// assert!(found.certified && found.modes.len() >= 3 && found.below_hz < 10.0);
+/// assert!((found.modes[0].frequency_hz - 1.145_088).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn lowest(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    linearisation: Linearisation,
+    count: usize,
+    highest_hz: f64,
+) -> Result<(Dynamics, Modes), LowestError> {
+    let mut limit = first_limit(robot, equilibrium, linearisation.cable_model).min(highest_hz);
+    loop {
+        let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
+        let counted = dynamics.modes_below(limit * TAU);
+
+        // The count includes unstable directions, which only the list tells apart.
+        if counted >= count || limit >= highest_hz {
+            let list = below(&dynamics, limit);
+            let unstable_directions = list.unstable_directions;
+            if counted >= count + unstable_directions {
+                return Ok((dynamics, list));
+            }
+            if limit >= highest_hz {
+                let found = list.modes.len();
+                return Err(LowestError::TooFew { requested: count, found, highest_hz, unstable_directions });
+            }
+        }
+        limit = (2.0 * limit).min(highest_hz);
+    }
+}
+
+/// A little above the lowest frequency of a cable between fixed ends, which is above the first frequency of the robot [Hz].
+fn first_limit(robot: &Robot, equilibrium: &Equilibrium, model: CableModel) -> f64 {
+    /// The first frequency of a cable out of plane is that of a string, to the second order of the sag.
+    const ABOVE: f64 = 1.05;
+    let cables = equilibrium.cables.iter().enumerate();
+    let strings = cables.map(|(i, state)| Sag::of(robot, i, state).string_frequency_hz());
+    let lowest = strings.filter(|hz| hz.is_finite() && *hz > 0.0).fold(f64::INFINITY, f64::min);
+    if model.is_dynamic() && lowest.is_finite() { ABOVE * lowest } else { 1.0 }
+}

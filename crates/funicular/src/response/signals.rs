@@ -1,0 +1,152 @@
+//! Signals: where a force acts or a motion is measured, as data ([`Signal`]) and on a linearised robot ([`Port`]).
+
+use crate::cable_motion::{CableMotionError, CableStations};
+use crate::dynamics::Dynamics;
+use crate::math::{CVec6, Complex, Vec3, Vec6};
+use crate::modes::Mode;
+use crate::robot::{Pose, Robot};
+use crate::statics::Equilibrium;
+use std::sync::Arc;
+
+/// Place and direction in which a force acts or a motion is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Signal {
+    /// A force on, or a translation of, a platform point along a direction in world axes (normalised on use).
+    Along {
+        /// Direction, world axes.
+        direction_w: Vec3,
+        /// The point, platform frame [m].
+        point_p: Vec3,
+    },
+    /// A moment on, or a rotation of, the platform about a direction in world axes (normalised on use).
+    About {
+        /// Axis, world axes.
+        axis_w: Vec3,
+    },
+    /// A force on, or a translation of, a point of a cable along a direction in world axes (normalised on use).
+    OnCable {
+        /// Which cable, file order.
+        cable: usize,
+        /// Fraction of its unstrained length from the platform, 0 to 1.
+        fraction: f64,
+        /// Direction, world axes.
+        direction_w: Vec3,
+    },
+}
+
+impl Signal {
+    /// The 6-vector u of a signal on the platform at a pose: a force f there is the wrench `u f` about the platform origin,
+    /// and the motion there is `uᵀ x`. `None` on a cable, whose vector depends on frequency.
+    pub fn platform_vector(&self, pose: &Pose) -> Option<Vec6> {
+        match self {
+            Self::Along { direction_w, point_p } => Some(along(direction_w, point_p, pose)),
+            Self::About { axis_w } => Some(about(axis_w)),
+            Self::OnCable { .. } => None,
+        }
+    }
+}
+
+/// The 6-vector u of a platform point along a direction, as [`Signal::Along`] has them, at a pose: a force f there is
+/// the wrench `u f` about the platform origin, and the motion there is `uᵀ x`.
+pub fn along(direction_w: &Vec3, point_p: &Vec3, pose: &Pose) -> Vec6 {
+    let u = direction_w.normalize();
+    let moment = (pose.rot_wp * point_p).cross(&u);
+    Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
+}
+
+/// The 6-vector u of a moment on, or a rotation of, the platform about an axis in world axes; see [`along`].
+pub fn about(axis_w: &Vec3) -> Vec6 {
+    let u = axis_w.normalize();
+    Vec6::new(0.0, 0.0, 0.0, u.x, u.y, u.z)
+}
+
+/// A signal on a robot that is linearised about an equilibrium.
+#[derive(Debug, Clone)]
+pub enum Port {
+    /// On the platform; a vector of [`along`] or [`about`].
+    Platform(Vec6),
+    /// At a station of a cable. Ports on the same cable share its stations.
+    Cable {
+        /// Stations of the cable.
+        stations: Arc<CableStations>,
+        /// Which of them.
+        station: usize,
+        /// Direction in world axes, a unit vector.
+        direction_w: Vec3,
+    },
+}
+
+impl Port {
+    /// Ports of signals, in their order. All points of one cable become stations of one [`CableStations`], since a force
+    /// at one of them moves the others; forces may act on them if they are `loaded`.
+    ///
+    /// # Errors
+    /// [`CableMotionError`]: a model without motion along the cables, or a cable that cannot be discretised.
+    pub fn all(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        dynamics: &Dynamics,
+        signals: &[Signal],
+        loaded: bool,
+    ) -> Result<Vec<Self>, CableMotionError> {
+        // The points of each cable, cables in the order in which they first appear.
+        let mut points: Vec<(usize, Vec<f64>)> = Vec::new();
+        for signal in signals {
+            if let Signal::OnCable { cable, fraction, .. } = signal {
+                match points.iter_mut().find(|(of, _)| of == cable) {
+                    Some((_, fractions)) => fractions.push(*fraction),
+                    None => points.push((*cable, vec![*fraction])),
+                }
+            }
+        }
+        let stations = (points.iter())
+            .map(|(cable, fractions)| {
+                CableStations::new(robot, equilibrium, dynamics, *cable, fractions, loaded).map(Arc::new)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+
+        // The stations of a cable have the order in which its signals come.
+        let mut next = vec![0; stations.len()];
+        let port = |signal: &Signal| match signal {
+            Signal::Along { direction_w, point_p } => Self::Platform(along(direction_w, point_p, &equilibrium.pose)),
+            Signal::About { axis_w } => Self::Platform(about(axis_w)),
+            Signal::OnCable { cable, direction_w, .. } => {
+                let at = points.iter().position(|(of, _)| of == cable).expect("every cable has stations");
+                let station = next[at];
+                next[at] += 1;
+                Self::Cable { stations: Arc::clone(&stations[at]), station, direction_w: direction_w.normalize() }
+            }
+        };
+        Ok(signals.iter().map(port).collect())
+    }
+
+    /// Position of a port on a cable at rest [m, world axes]; `None` on the platform.
+    pub fn cable_point_w(&self) -> Option<Vec3> {
+        match self {
+            Self::Platform(_) => None,
+            Self::Cable { stations, station, .. } => Some(stations.points_w[*station]),
+        }
+    }
+
+    /// Motion of the port in a mode, or how a force there drives the mode [m, as `Mode::shape`]; with two ports the
+    /// residue of the mode is their product over its modal mass.
+    pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
+        match self {
+            Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
+            Self::Cable { stations, station, direction_w } => {
+                let [e, n, b] = stations.in_mode(dynamics, mode)[*station];
+                (stations.axes.e * e + stations.axes.n * n + stations.axes.b * b).dot(direction_w)
+            }
+        }
+    }
+
+    /// The vector about the platform origin at ω [rad/s].
+    pub(super) fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
+        match self {
+            Self::Platform(vector) => vector.map(Complex::from),
+            Self::Cable { stations, station, direction_w } => {
+                stations.transmission(dynamics, *station, direction_w, omega)
+            }
+        }
+    }
+}
