@@ -6,6 +6,7 @@
 
 mod checks;
 pub mod damped;
+pub mod derivatives;
 mod fundamental;
 mod mac;
 pub mod track;

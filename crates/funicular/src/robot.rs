@@ -4,11 +4,14 @@
 //! coordinates, `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
 
 mod anchor;
+mod change;
 mod freedoms;
+pub mod parameters;
 pub mod spec;
 mod wind;
 
 pub use anchor::Anchor;
+pub use change::{CableChange, RobotChange};
 pub use freedoms::{Freedoms, OutOfPlane, Plane};
 pub use wind::{LineLoad, Wind};
 

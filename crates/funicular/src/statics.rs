@@ -9,6 +9,7 @@
 //! | lengths from a pose, more cables than freedoms | [`distribute`] by a [`TensionRule`] |
 //! | the nearest pose that fewer cables hold | [`nearest`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
+//! | how an equilibrium follows a number of the robot | [`derivatives`] |
 //! | balance at any pose, energy, nearness to a singular pose | [`wrench`], [`energy`], [`tension_gain`] |
 //!
 //! Every answer is an [`Equilibrium`], every refusal a [`StaticsError`].
@@ -36,6 +37,7 @@ mod rest; // the choice between the solvers, by the robot's state
 mod tension; // pose to lengths, more cables than freedoms
 
 // Questions to an equilibrium.
+pub mod derivatives; // how it follows a number of the robot
 mod drag; // what the turn of the wind's drag adds to the stiffness
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose

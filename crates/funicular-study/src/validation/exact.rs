@@ -123,10 +123,10 @@ fn end_matrix(hanging: &HangingCable, exact: &Exact, square: Complex) -> [[Compl
         std::array::from_fn(|column| {
             // Ends and world components.
             let ((end, i), (other, j)) = ((row / 3, row % 3), (column / 3, column % 3));
-            let [across] = exact.out_of_plane.damped([(end, other)], square);
+            let across = exact.out_of_plane.entry(end, other, square);
             let in_plane = (0..4).map(|n| {
                 let (p, q) = (n / 2, n % 2);
-                let [entry] = exact.in_plane.damped([(2 * end + p, 2 * other + q)], square);
+                let entry = exact.in_plane.entry(2 * end + p, 2 * other + q, square);
                 entry * pair[p][i] * pair[q][j]
             });
             across * b[i] * b[j] + in_plane.sum::<Complex>()

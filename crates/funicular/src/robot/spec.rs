@@ -56,11 +56,13 @@ mod materials;
 mod platform;
 mod read;
 
+use super::parameters::Range;
 use super::{Cable, Freedoms, Load, Pose, Robot, State, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
-use read::{Key, Reader, Section, Sign, TOP, is_zero};
+pub(super) use read::{Component, Key, Numbers, Numeric, Shape, TOP, parsed};
+use read::{Reader, Section, is_zero};
 use toml::de::DeTable;
 
 /// Gravity where the file gives none [m/s²]: the rounded standard value that the publications compared with use.
@@ -68,38 +70,74 @@ const DEFAULT_GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
 /// Keys at the top of the file.
 const ROOT: &[Key] = &[
-    Key { name: "name", example: r#"name = "my robot""# },
-    Key { name: "source", example: r#"source = "author, year, table""# },
-    Key { name: "gravity_m_s2", example: "gravity_m_s2 = [0.0, 0.0, -9.81]" },
-    Key { name: "platform", example: "[platform]" },
-    Key { name: "materials", example: "[materials.rope]" },
-    Key { name: "cables", example: "[[cables]]" },
-    Key { name: "loads", example: "[loads]" },
-    Key { name: "wind", example: "[wind]" },
-    Key { name: "state", example: "[state]" },
+    Key::other("name", r#"name = "my robot""#),
+    Key::other("source", r#"source = "author, year, table""#),
+    Key::vector(
+        "gravity_m_s2",
+        "gravity_m_s2 = [0.0, 0.0, -9.81]",
+        "m/s²",
+        Range::Any,
+        "acceleration of gravity, world axes",
+    )
+    .or(DEFAULT_GRAVITY),
+    Key::other("platform", "[platform]"),
+    Key::other("materials", "[materials.rope]"),
+    Key::other("cables", "[[cables]]"),
+    Key::other("loads", "[loads]"),
+    Key::other("wind", "[wind]"),
+    Key::other("state", "[state]"),
 ];
 
 /// Keys of `[loads]`.
 const LOADS: &[Key] = &[
-    Key { name: "force_n", example: "force_n = [0.0, 0.0, -50.0]" },
-    Key { name: "moment_n_m", example: "moment_n_m = [0.0, 0.0, 2.0]" },
-    Key { name: "point_m", example: "point_m = [0.0, 0.0, -0.1]" },
+    Key::vector("force_n", "force_n = [0.0, 0.0, -50.0]", "N", Range::Any, "force on the platform, world axes")
+        .or([0.0; 3]),
+    Key::vector("moment_n_m", "moment_n_m = [0.0, 0.0, 2.0]", "N m", Range::Any, "moment on the platform, world axes")
+        .or([0.0; 3]),
+    Key::vector(
+        "point_m",
+        "point_m = [0.0, 0.0, -0.1]",
+        "m",
+        Range::Any,
+        "point at which the force acts, platform frame",
+    )
+    .or([0.0; 3]),
 ];
 
 /// Keys of `[wind]`.
 const WIND: &[Key] = &[
-    Key { name: "velocity_m_s", example: "velocity_m_s = [8.0, 0.0, 0.0]" },
-    Key { name: "air_density_kg_m3", example: "air_density_kg_m3 = 1.225" },
+    Key::vector(
+        "velocity_m_s",
+        "velocity_m_s = [8.0, 0.0, 0.0]",
+        "m/s",
+        Range::Magnitude(Wind::FASTEST),
+        "velocity of the air, world axes",
+    ),
+    Key::number("air_density_kg_m3", "air_density_kg_m3 = 1.225", "kg/m³", Range::Positive, "density of the air")
+        .or([Wind::AIR_DENSITY; 3]),
 ];
 
 /// Keys of `[state]`.
 const STATE: &[Key] = &[
-    Key { name: "position_m", example: "position_m = [0.0, 0.0, 1.0]" },
-    Key { name: "roll_pitch_yaw_deg", example: "roll_pitch_yaw_deg = [0.0, 0.0, 0.0]" },
+    Key::vector(
+        "position_m",
+        "position_m = [0.0, 0.0, 1.0]",
+        "m",
+        Range::Any,
+        "origin of the platform frame in the world frame",
+    ),
+    Key::angles(
+        "roll_pitch_yaw_deg",
+        "roll_pitch_yaw_deg = [0.0, 0.0, 0.0]",
+        "degrees",
+        Range::Any,
+        "orientation of the platform, R = Rz(yaw) Ry(pitch) Rx(roll)",
+    )
+    .or([0.0; 3]),
 ];
 
 /// Every table of the file, to tell a key that sits in the wrong one.
-const TABLES: &[(&str, &[Key])] = &[
+pub(super) const TABLES: &[(&str, &[Key])] = &[
     (TOP, ROOT),
     ("[platform]", platform::KEYS),
     ("[materials.NAME]", materials::KEYS),
@@ -147,16 +185,10 @@ impl Robot {
     /// # Ok::<(), funicular::robot::spec::SpecError>(())
     /// ```
     pub fn from_toml(text: &str) -> Result<Self, SpecError> {
-        let mut reader = Reader::new(text);
-        let robot = match DeTable::parse(text) {
-            Ok(root) if root.get_ref().is_empty() => {
-                reader
-                    .issue(0..0, "the file describes no robot: it has no keys")
-                    .help("a robot file has a `name` and the tables [platform], [materials.NAME] and [[cables]]");
-                None
-            }
-            Ok(root) => read_robot(&mut reader, root.get_ref()),
+        match DeTable::parse(text) {
+            Ok(root) => from_tree(text, root.get_ref(), Numbers::default()),
             Err(error) => {
+                let mut reader = Reader::new(text);
                 // Only the first: after a syntax error the parser guesses, and what it reports next misleads.
                 let message = format!("the file is not valid TOML: {}", error.message());
                 let issue = reader.issue(error.span().unwrap_or(0..0), message);
@@ -164,13 +196,27 @@ impl Robot {
                 if error.message().contains("must be quoted") {
                     issue.help("a value is one number without its unit, text in quotes, or an array in brackets");
                 }
-                None
+                Err(SpecError::new(text, reader.issues))
             }
-        };
-        match robot {
-            Some(robot) if reader.issues.is_empty() => Ok(robot),
-            _ => Err(SpecError::new(text, reader.issues)),
         }
+    }
+}
+
+/// The robot of a text that was parsed, with numbers beside its tree.
+///
+/// # Errors
+/// [`SpecError`], as [`Robot::from_toml`]; it points into the text, its messages hold the numbers in place of its own.
+pub(super) fn from_tree(text: &str, root: &DeTable, numbers: Numbers) -> Result<Robot, SpecError> {
+    let mut reader = Reader::with(text, numbers);
+    if root.is_empty() {
+        reader
+            .issue(0..0, "the file describes no robot: it has no keys")
+            .help("a robot file has a `name` and the tables [platform], [materials.NAME] and [[cables]]");
+    }
+    let robot = if root.is_empty() { None } else { read_robot(&mut reader, root) };
+    match robot {
+        Some(robot) if reader.issues.is_empty() => Ok(robot),
+        _ => Err(SpecError::new(text, reader.issues)),
     }
 }
 
@@ -183,7 +229,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         None => Some(String::new()),
     };
     let gravity = match root.get("gravity_m_s2") {
-        Some(value) => reader.vector("gravity_m_s2", "m/s²", value),
+        Some(value) => reader.vector(&root, "gravity_m_s2", value),
         None => Some(DEFAULT_GRAVITY),
     };
     let freedoms = platform::freedoms(reader, &root);
@@ -211,9 +257,9 @@ fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) ->
     let Some(value) = root.get("loads") else { return Some(Load::default()) };
     let table = reader.table("loads", "[loads]", value)?;
     let section = reader.open("[loads]", value.span(), table, LOADS);
-    let mut vector = |key: &str, unit: &str| match section.get(key) {
+    let mut vector = |key: &str| match section.get(key) {
         Some(value) => {
-            let vector = reader.vector(key, unit, value)?;
+            let vector = reader.vector(&section, key, value)?;
             if key != "force_n" && freedoms == Some(Freedoms::PointMass) && !is_zero(&vector) {
                 reader
                     .issue(
@@ -227,7 +273,7 @@ fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) ->
         }
         None => Some(Vec3::zeros()),
     };
-    let (force, moment, point) = (vector("force_n", "N"), vector("moment_n_m", "N m"), vector("point_m", "m"));
+    let (force, moment, point) = (vector("force_n"), vector("moment_n_m"), vector("point_m"));
     Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
 }
 
@@ -236,7 +282,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     let Some(value) = root.get("wind") else { return Some(Wind::default()) };
     let table = reader.table("wind", "[wind]", value)?;
     let section = reader.open("[wind]", value.span(), table, WIND);
-    let velocity = reader.required(&section, "velocity_m_s").and_then(|v| reader.vector("velocity_m_s", "m/s", v));
+    let velocity = reader.required(&section, "velocity_m_s").and_then(|v| reader.vector(&section, "velocity_m_s", v));
     if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
         let speed = Vec3::from(velocity).norm();
         if speed > Wind::FASTEST {
@@ -250,7 +296,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
         }
     }
     let air_density = match section.get("air_density_kg_m3") {
-        Some(value) => reader.number("`air_density_kg_m3`", Sign::Positive, value),
+        Some(value) => reader.number_of(&section, "air_density_kg_m3", value),
         None => Some(Wind::AIR_DENSITY),
     };
     Some(Wind { velocity_w: Vec3::from(velocity?), air_density: air_density? })
@@ -273,10 +319,10 @@ fn read_state(
     };
     let table = reader.table("state", "[state]", value)?;
     let section = reader.open("[state]", value.span(), table, STATE);
-    let position = reader.required(&section, "position_m").and_then(|v| reader.vector("position_m", "m", v));
+    let position = reader.required(&section, "position_m").and_then(|v| reader.vector(&section, "position_m", v));
     let angles = match section.get("roll_pitch_yaw_deg") {
         Some(value) => {
-            let angles = reader.vector("roll_pitch_yaw_deg", "degrees", value);
+            let angles = reader.vector(&section, "roll_pitch_yaw_deg", value);
             if freedoms == Some(Freedoms::PointMass) && angles.is_some_and(|angles| !is_zero(&angles)) {
                 reader
                     .issue(value.span(), "a point mass has no orientation, `roll_pitch_yaw_deg` must be zero or absent")

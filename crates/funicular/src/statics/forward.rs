@@ -417,7 +417,7 @@ impl<'a, 's> Descent<'a, 's> {
 
 /// Limit of tries for a shift. Those of [`SHIFT_GROWTH`] pass from the first shift to more than 1e30 times the stiffness:
 /// only entries that are not finite need more.
-const MOST_SHIFTS: usize = 60;
+const MAX_SHIFT_TRIES: usize = 60;
 
 /// Factor from one try for a shift to the next. Below 2 tries cost more than the step; a factor of 100 would shorten
 /// steps for nothing.
@@ -428,7 +428,7 @@ const MIN_SHIFT: f64 = 1e-12;
 
 /// Solves `(K + shift) step = wrench` with the least shift that makes the matrix positive definite.
 fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64) -> Option<Vec6> {
-    for _ in 0..MOST_SHIFTS {
+    for _ in 0..MAX_SHIFT_TRIES {
         if let Some(factor) = (stiffness + Mat6::identity() * *shift).cholesky() {
             return Some(factor.solve(wrench));
         }

@@ -87,8 +87,8 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
 /// has no weight. A cable that straight statics finds pushing starts with it as a deeply sagging one. At a
 /// quarter of the weight a level cable is 1.8 chords long; with less its forces hardly follow its length, and with much
 /// more the start is a taut cable, which pushing ones are far from.
-pub(super) const LEAST_GUESS: f64 = 0.25;
-pub(super) const LEAST_STRAIN: f64 = 1e-9;
+pub(super) const MIN_GUESS: f64 = 0.25;
+pub(super) const MIN_STRAIN: f64 = 1e-9;
 
 /// Rounding of what weights can make up for, over the sizes that are added: some 1e-16 times the condition of the
 /// straight balance, which may be 1e10 ([`straight_tensions`]). A pose is called out of reach only beyond it.
@@ -147,7 +147,7 @@ fn sagging(
     let start: Vec<HangingCable> = (loaded.iter().zip(straight))
         .map(|(cable, tension)| {
             let chord = cable.chord_w(pose).norm();
-            let least = (LEAST_GUESS * cable.load.size * chord).max(LEAST_STRAIN * cable.axial_stiffness());
+            let least = (MIN_GUESS * cable.load.size * chord).max(MIN_STRAIN * cable.axial_stiffness());
             cable.hang_with_tension(pose, tension.max(least))
         })
         .collect();

@@ -63,11 +63,11 @@ const PARALLEL: f64 = 1e-9;
 
 /// Least tension of a first guess over the weight of a cable as long as its chord. At a quarter a level
 /// cable is 1.8 chords long; with less the guess is all sag, and well above it light platforms are lifted by their cables.
-const LEAST_GUESS: f64 = 0.25;
+const MIN_GUESS: f64 = 0.25;
 
 /// Least cosine between a step and the change of slope that goes with it, from which the surface's bend is learnt: below,
 /// the quotient is rounding, or the surface is bent the other way.
-const LEAST_CURVATURE: f64 = 1e-3;
+const MIN_CURVATURE: f64 = 1e-3;
 
 /// Singular values over the largest that are zero.
 const ZERO: f64 = 1e-12;
@@ -219,7 +219,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         let (line, chord_w) = &lines[i];
         let chord = chord_w.norm();
         // Not so slack that its length would be all sag.
-        let least = TensionRange::of(robot, i, chord_w).minimum.max(LEAST_GUESS * line.load.size * chord);
+        let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * line.load.size * chord);
         line.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
     });
     Ok(lengths.collect())
@@ -229,7 +229,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
 fn update(bend: &mut Mat6, moved: &Vec6, slope: &Vec6) {
     let (by, bent) = (moved.dot(slope), *bend * moved);
     let along = moved.dot(&bent);
-    if by > LEAST_CURVATURE * moved.norm() * slope.norm() && along > 0.0 {
+    if by > MIN_CURVATURE * moved.norm() * slope.norm() && along > 0.0 {
         *bend += slope * slope.transpose() / by - bent * bent.transpose() / along;
     }
 }

@@ -8,6 +8,7 @@ mod cable;
 mod cable_motion;
 mod catenary;
 mod compare;
+mod derivatives;
 mod dynamics;
 mod library;
 mod modes;

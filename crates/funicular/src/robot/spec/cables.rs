@@ -2,8 +2,9 @@
 
 use super::limits;
 use super::materials::Materials;
-use super::read::{Key, Reader, Section, Sign, Value, is_zero, shortened};
+use super::read::{Key, Reader, Section, Value, is_zero, shortened};
 use crate::math::Vec3;
+use crate::robot::parameters::Range as Limits;
 use crate::robot::{Anchor, Cable, Freedoms, Pose};
 use crate::suggest::nearest;
 use std::collections::BTreeMap;
@@ -16,14 +17,44 @@ const COINCIDENT: f64 = 1e-9;
 
 /// Keys of `[[cables]]`.
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "name", example: r#"name = "1""# },
-    Key { name: "material", example: r#"material = "rope""# },
-    Key { name: "anchor_m", example: "anchor_m = [5.0, 2.0, 4.0]" },
-    Key { name: "attachment_m", example: "attachment_m = [0.1, 0.1, 0.0]" },
-    Key { name: "minimum_tension_n", example: "minimum_tension_n = 50" },
-    Key { name: "maximum_tension_n", example: "maximum_tension_n = 5000" },
-    Key { name: "load_n_per_m", example: "load_n_per_m = [0.0, 0.5, 0.0]" },
-    Key { name: "unstrained_length_m", example: "unstrained_length_m = 6.5" },
+    Key::other("name", r#"name = "1""#),
+    Key::other("material", r#"material = "rope""#),
+    Key::vector("anchor_m", "anchor_m = [5.0, 2.0, 4.0]", "m", Limits::Any, "exit point of the cable, world frame"),
+    Key::vector(
+        "attachment_m",
+        "attachment_m = [0.1, 0.1, 0.0]",
+        "m",
+        Limits::Any,
+        "attachment of the cable, platform frame",
+    ),
+    Key::number(
+        "minimum_tension_n",
+        "minimum_tension_n = 50",
+        "N",
+        Limits::NotNegative,
+        "minimum tension of the cable, before that of its rope",
+    ),
+    Key::number(
+        "maximum_tension_n",
+        "maximum_tension_n = 5000",
+        "N",
+        Limits::Positive,
+        "maximum tension of the cable, before that of its rope",
+    ),
+    Key::vector(
+        "load_n_per_m",
+        "load_n_per_m = [0.0, 0.5, 0.0]",
+        "N/m",
+        Limits::Any,
+        "dead load per unstrained length, in place of that of its rope, world axes",
+    ),
+    Key::number(
+        "unstrained_length_m",
+        "unstrained_length_m = 6.5",
+        "m",
+        Limits::Positive,
+        "unstrained length of the cable",
+    ),
 ];
 
 /// A cable and the places of its values.
@@ -106,16 +137,16 @@ fn read_one(
         };
         known.clone()
     });
-    let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector("anchor_m", "m", value));
+    let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector(section, "anchor_m", value));
     let attachment = attachment(reader, section, freedoms);
     let own_limits = limits::read(reader, section);
     if let (Some(own), Some(material)) = (own_limits, &material) {
         // Against what it shares with its rope: each alone may be right and both together not.
         limits::check(reader, section, own.or(material.tension_limits), material.breaking_load);
     }
-    let own_load = section.get("load_n_per_m").map(|value| reader.vector("load_n_per_m", "N/m", value));
+    let own_load = section.get("load_n_per_m").map(|value| reader.vector(section, "load_n_per_m", value));
     let length_value = section.get("unstrained_length_m");
-    let length = length_value.and_then(|value| reader.number("`unstrained_length_m`", Sign::Positive, value));
+    let length = length_value.and_then(|value| reader.number_of(section, "unstrained_length_m", value));
     let load = own_load.map_or_else(|| material.as_ref().map(|m| m.load_per_length_w), |own| own.map(Vec3::from));
     let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits.zip(load)).map(
         |(((name, material), (anchor, attachment)), (tension_limits, load_per_length_w))| Cable {
@@ -157,7 +188,7 @@ fn attachment(reader: &mut Reader, section: &Section, freedoms: Option<Freedoms>
             None => return Some([0.0; 3]),
         },
     };
-    let attachment = reader.vector("attachment_m", "m", value)?;
+    let attachment = reader.vector(section, "attachment_m", value)?;
     if freedoms == Some(Freedoms::PointMass) && !is_zero(&attachment) {
         reader
             .issue(value.span(), "all cables of a point mass end in one point, `attachment_m` must be zero or absent")

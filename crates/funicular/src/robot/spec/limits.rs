@@ -1,25 +1,25 @@
 //! Limits of tension, which a rope and a cable may both have.
 
-use super::read::{Reader, Section, Sign};
+use super::read::{Reader, Section};
 use crate::robot::TensionLimits;
 
 /// The limits of a table; either may be absent.
 pub(super) fn read(reader: &mut Reader, section: &Section) -> Option<TensionLimits> {
-    let minimum = optional(reader, section, "minimum_tension_n", Sign::NotNegative);
-    let maximum = optional(reader, section, "maximum_tension_n", Sign::Positive);
+    let minimum = optional(reader, section, "minimum_tension_n");
+    let maximum = optional(reader, section, "maximum_tension_n");
     Some(TensionLimits { minimum: minimum?, maximum: maximum? })
 }
 
 /// The breaking load, which may be absent.
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
 pub(super) fn breaking_load(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
-    optional(reader, section, "breaking_load_n", Sign::Positive)
+    optional(reader, section, "breaking_load_n")
 }
 
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
-fn optional(reader: &mut Reader, section: &Section, key: &str, sign: Sign) -> Option<Option<f64>> {
+fn optional(reader: &mut Reader, section: &Section, key: &str) -> Option<Option<f64>> {
     match section.get(key) {
-        Some(value) => reader.number(&format!("`{key}`"), sign, value).map(Some),
+        Some(value) => reader.number_of(section, key, value).map(Some),
         None => Some(None),
     }
 }

@@ -1,8 +1,9 @@
 //! `[materials.NAME]`: what a rope is made of. Unused ones are welcome: a file may offer several ropes to choose from.
 
 use super::limits;
-use super::read::{Key, LARGEST, Reader, SMALLEST, Section, Sign};
+use super::read::{Key, LARGEST, Reader, SMALLEST, Section};
 use crate::math::Vec3;
+use crate::robot::parameters::Range;
 use crate::robot::{Damping, Material};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -12,19 +13,75 @@ const RATIO_LIMIT: f64 = 0.5;
 
 /// Keys of `[materials.NAME]`.
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "youngs_modulus_pa", example: "youngs_modulus_pa = 100e9" },
-    Key { name: "diameter_m", example: "diameter_m = 0.004" },
-    Key { name: "area_m2", example: "area_m2 = 8e-6" },
-    Key { name: "axial_stiffness_n", example: "axial_stiffness_n = 250e3" },
-    Key { name: "mass_kg_per_m", example: "mass_kg_per_m = 0.06" },
-    Key { name: "damping_ratio", example: "damping_ratio = 0.003" },
-    Key { name: "viscous_damping_n_s_m2", example: "viscous_damping_n_s_m2 = 0.01" },
-    Key { name: "minimum_tension_n", example: "minimum_tension_n = 50" },
-    Key { name: "maximum_tension_n", example: "maximum_tension_n = 5000" },
-    Key { name: "breaking_load_n", example: "breaking_load_n = 12e3" },
-    Key { name: "drag_coefficient", example: "drag_coefficient = 1.2" },
-    Key { name: "drag_diameter_m", example: "drag_diameter_m = 0.005" },
-    Key { name: "load_n_per_m", example: "load_n_per_m = [0.0, 0.0, -0.5]" },
+    Key::number(
+        "youngs_modulus_pa",
+        "youngs_modulus_pa = 100e9",
+        "Pa",
+        Range::Positive,
+        "modulus E of the rope; EA is E times the area",
+    ),
+    Key::number("diameter_m", "diameter_m = 0.004", "m", Range::Positive, "diameter of the rope"),
+    Key::number("area_m2", "area_m2 = 8e-6", "m²", Range::Positive, "cross-section of the rope"),
+    Key::number(
+        "axial_stiffness_n",
+        "axial_stiffness_n = 250e3",
+        "N",
+        Range::Positive,
+        "axial stiffness EA of the rope",
+    ),
+    Key::number(
+        "mass_kg_per_m",
+        "mass_kg_per_m = 0.06",
+        "kg/m",
+        Range::NotNegative,
+        "mass of the rope per unstrained length",
+    ),
+    Key::number(
+        "damping_ratio",
+        "damping_ratio = 0.003",
+        "1",
+        Range::Below(RATIO_LIMIT),
+        "damping ratio of the rope, the same at every frequency",
+    )
+    .or([0.0; 3]),
+    Key::number(
+        "viscous_damping_n_s_m2",
+        "viscous_damping_n_s_m2 = 0.01",
+        "N s/m²",
+        Range::NotNegative,
+        "viscous damping of the rope per length",
+    ),
+    Key::number(
+        "minimum_tension_n",
+        "minimum_tension_n = 50",
+        "N",
+        Range::NotNegative,
+        "minimum tension of the cables of this rope",
+    ),
+    Key::number(
+        "maximum_tension_n",
+        "maximum_tension_n = 5000",
+        "N",
+        Range::Positive,
+        "maximum tension of the cables of this rope",
+    ),
+    Key::number("breaking_load_n", "breaking_load_n = 12e3", "N", Range::Positive, "tension at which the rope breaks"),
+    Key::number(
+        "drag_coefficient",
+        "drag_coefficient = 1.2",
+        "1",
+        Range::NotNegative,
+        "drag coefficient of the rope in a wind across it",
+    ),
+    Key::number("drag_diameter_m", "drag_diameter_m = 0.005", "m", Range::Positive, "diameter that the wind meets"),
+    Key::vector(
+        "load_n_per_m",
+        "load_n_per_m = [0.0, 0.0, -0.5]",
+        "N/m",
+        Range::Any,
+        "dead load per unstrained length besides the weight, world axes",
+    )
+    .or([0.0; 3]),
 ];
 
 const TWO_WAYS: &str = "give `youngs_modulus_pa` with one of `diameter_m` and `area_m2`, or `axial_stiffness_n` alone";
@@ -58,9 +115,8 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
 fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Material> {
     let stiffness = StiffnessKeys::read(reader, section);
     let axial_stiffness = stiffness.axial_stiffness(reader, section);
-    let mass_per_length = reader
-        .required(section, "mass_kg_per_m")
-        .and_then(|value| reader.number("`mass_kg_per_m`", Sign::NotNegative, value));
+    let mass_per_length =
+        reader.required(section, "mass_kg_per_m").and_then(|value| reader.number_of(section, "mass_kg_per_m", value));
     let damping = damping(reader, section);
     let breaking_load = limits::breaking_load(reader, section);
     let tension_limits = limits::read(reader, section);
@@ -69,7 +125,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     }
     let drag_width = drag_width(reader, section, stiffness.diameter());
     let load_per_length = match section.get("load_n_per_m") {
-        Some(value) => reader.vector("load_n_per_m", "N/m", value),
+        Some(value) => reader.vector(section, "load_n_per_m", value),
         None => Some([0.0; 3]),
     };
     Some(Material {
@@ -90,7 +146,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
     let own = section.get("drag_diameter_m");
     // What is wrong with the rope's own diameter has been said where its stiffness was read.
     let of_rope = section.get("diameter_m").map(|_| rope_diameter);
-    let diameter = own.map(|value| reader.number("`drag_diameter_m`", Sign::Positive, value)).or(of_rope);
+    let diameter = own.map(|value| reader.number_of(section, "drag_diameter_m", value)).or(of_rope);
     let Some(value) = section.get("drag_coefficient") else {
         if let Some(own) = own {
             reader
@@ -100,7 +156,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
         }
         return Some(None);
     };
-    let coefficient = reader.number("`drag_coefficient`", Sign::NotNegative, value);
+    let coefficient = reader.number_of(section, "drag_coefficient", value);
     let Some(diameter) = diameter else {
         reader
             .issue(value.span(), format!("{} has `drag_coefficient`, but no diameter", section.label()))
@@ -125,7 +181,7 @@ impl StiffnessKeys {
         let mut wrong = section.mistyped(&Self::NAMES);
         let numbers = Self::NAMES.map(|key| {
             let value = section.get(key)?;
-            let number = reader.number(&format!("`{key}`"), Sign::Positive, value);
+            let number = reader.number_of(section, key, value);
             wrong |= number.is_none();
             number
         });
@@ -208,7 +264,7 @@ fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
             None
         }
         (Some(value), None) => {
-            let ratio = reader.number("`damping_ratio`", Sign::NotNegative, value)?;
+            let ratio = reader.number_of(section, "damping_ratio", value)?;
             if ratio >= RATIO_LIMIT {
                 let written = reader.written(value.span());
                 reader
@@ -218,9 +274,7 @@ fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
             }
             Some(Damping::Ratio(ratio))
         }
-        (None, Some(value)) => {
-            reader.number("`viscous_damping_n_s_m2`", Sign::NotNegative, value).map(Damping::Viscous)
-        }
+        (None, Some(value)) => reader.number_of(section, "viscous_damping_n_s_m2", value).map(Damping::Viscous),
         (None, None) => Some(Damping::Ratio(0.0)),
     }
 }

@@ -1,7 +1,8 @@
 //! `[platform]`: mass, freedoms, and an inertia tensor that a body can have.
 
-use super::read::{Key, Reader, SMALLEST, Section, Sign, Value, is_zero, shortened};
+use super::read::{Key, Reader, SMALLEST, Section, Value, is_zero, known, shortened};
 use crate::math::{Mat3, Vec3, symmetric_part};
+use crate::robot::parameters::Range;
 use crate::robot::{Freedoms, Plane, Platform};
 use crate::suggest::nearest;
 use toml::de::DeValue;
@@ -16,15 +17,62 @@ const FLAT: f64 = 1e-6;
 
 /// Keys of `[platform]`.
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "mass_kg", example: "mass_kg = 10.0" },
-    Key { name: "freedoms", example: r#"freedoms = "rigid""# },
-    Key { name: "plane_normal", example: "plane_normal = [0.0, 1.0, 0.0]" },
-    Key { name: "plane_offset_m", example: "plane_offset_m = 0.0" },
-    Key { name: "inertia_kg_m2", example: "inertia_kg_m2 = [0.1, 0.1, 0.2]" },
-    Key { name: "center_of_mass_m", example: "center_of_mass_m = [0.0, 0.0, 0.0]" },
-    Key { name: "drag_area_m2", example: "drag_area_m2 = 0.5" },
-    Key { name: "translational_damping_n_s_m", example: "translational_damping_n_s_m = [10.0, 10.0, 10.0]" },
-    Key { name: "rotational_damping_n_m_s", example: "rotational_damping_n_m_s = [0.1, 0.1, 0.1]" },
+    Key::number("mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
+    Key::other("freedoms", r#"freedoms = "rigid""#),
+    Key::vector(
+        "plane_normal",
+        "plane_normal = [0.0, 1.0, 0.0]",
+        "any unit",
+        Range::Any,
+        "normal of the plane in which the platform moves, world axes",
+    ),
+    Key::number(
+        "plane_offset_m",
+        "plane_offset_m = 0.0",
+        "m",
+        Range::Any,
+        "distance of that plane from the world's origin along the normal",
+    )
+    .or([0.0; 3]),
+    Key::tensor(
+        "inertia_kg_m2",
+        "inertia_kg_m2 = [0.1, 0.1, 0.2]",
+        "kg m²",
+        Range::Any,
+        "inertia tensor about the centre of mass, platform axes; the tensor has to be one that a body can have",
+    ),
+    Key::vector(
+        "center_of_mass_m",
+        "center_of_mass_m = [0.0, 0.0, 0.0]",
+        "m",
+        Range::Any,
+        "centre of mass, platform frame",
+    )
+    .or([0.0; 3]),
+    Key::number(
+        "drag_area_m2",
+        "drag_area_m2 = 0.5",
+        "m²",
+        Range::NotNegative,
+        "drag coefficient times area of the platform",
+    )
+    .or([0.0; 3]),
+    Key::vector(
+        "translational_damping_n_s_m",
+        "translational_damping_n_s_m = [10.0, 10.0, 10.0]",
+        "N s/m",
+        Range::NotNegative,
+        "viscous damping of the platform's translation, platform axes",
+    )
+    .or([0.0; 3]),
+    Key::vector(
+        "rotational_damping_n_m_s",
+        "rotational_damping_n_m_s = [0.1, 0.1, 0.1]",
+        "N m s",
+        Range::NotNegative,
+        "viscous damping of the platform's rotation, platform axes",
+    )
+    .or([0.0; 3]),
 ];
 
 /// What `freedoms` may be.
@@ -65,7 +113,7 @@ pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> 
     let normal_w = match (axis, normal) {
         (Some(axis), _) => axis,
         (None, Some(value)) => {
-            let three = Vec3::from(reader.vector("plane_normal", "any unit", value)?);
+            let three = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
             if three.norm() < SMALLEST {
                 reader
                     .issue(value.span(), "`plane_normal` has no direction")
@@ -83,7 +131,7 @@ pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> 
         }
     };
     let offset = match offset {
-        Some(value) => reader.number("`plane_offset_m`", Sign::Any, value)?,
+        Some(value) => reader.number_as(known(KEYS, "plane_offset_m"), value)?,
         None => 0.0,
     };
     Plane::new(normal_w, offset).map(Freedoms::Planar)
@@ -107,7 +155,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
     let value = reader.required(root, "platform")?;
     let table = reader.table("platform", "[platform]", value)?;
     let section = reader.open("[platform]", value.span(), table, KEYS);
-    let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number("`mass_kg`", Sign::Positive, v));
+    let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
     let inertia = match freedoms {
         Some(Freedoms::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
         Some(Freedoms::Planar(plane)) => {
@@ -125,7 +173,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
     };
     let center_of_mass = match section.get("center_of_mass_m") {
         Some(value) => {
-            let center = reader.vector("center_of_mass_m", "m", value);
+            let center = reader.vector(&section, "center_of_mass_m", value);
             if freedoms == Some(Freedoms::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
                 reader
                     .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
@@ -136,11 +184,11 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
         None => Some([0.0; 3]),
     };
     let drag_area = match section.get("drag_area_m2") {
-        Some(value) => reader.number("`drag_area_m2`", Sign::NotNegative, value),
+        Some(value) => reader.number_of(&section, "drag_area_m2", value),
         None => Some(0.0),
     };
-    let translational = damping(reader, &section, "translational_damping_n_s_m", "N s/m");
-    let rotational = damping(reader, &section, "rotational_damping_n_m_s", "N m s");
+    let translational = damping(reader, &section, "translational_damping_n_s_m");
+    let rotational = damping(reader, &section, "rotational_damping_n_m_s");
     if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| freedoms == Some(Freedoms::PointMass)) {
         reader
             .issue(value.span(), "a point mass does not turn, `rotational_damping_n_m_s` must be absent")
@@ -158,11 +206,11 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
 }
 
 /// Viscous damping along the platform's three axes, none where the key is absent.
-fn damping(reader: &mut Reader, section: &Section, key: &str, unit: &str) -> Option<Vec3> {
+fn damping(reader: &mut Reader, section: &Section, key: &str) -> Option<Vec3> {
     let Some(value) = section.get(key) else { return Some(Vec3::zeros()) };
     let label = format!("`{key}`");
-    let three = reader.three(&label, &format!("three numbers in {unit}"), value)?;
-    reader.three_numbers(&label, Sign::NotNegative, three).map(Vec3::from)
+    let three = reader.three(&label, &format!("three numbers in {}", section.number(key).unit), value)?;
+    reader.three_numbers(&label, section.number(key).range, three).map(Vec3::from)
 }
 
 /// One number is the moment about the normal, all that counts; a tensor is read as that of a rigid body.
@@ -170,7 +218,7 @@ fn planar_inertia(reader: &mut Reader, value: &Value, plane: &Plane) -> Option<M
     if matches!(value.get_ref(), DeValue::Array(_)) {
         return inertia(reader, value);
     }
-    let moment = reader.number("`inertia_kg_m2`", Sign::Positive, value)?;
+    let moment = reader.number("`inertia_kg_m2`", Range::Positive, value)?;
     Some(plane.normal_w() * plane.normal_w().transpose() * moment)
 }
 
@@ -190,7 +238,7 @@ fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
                 continue;
             };
             elements[i] = three;
-            match reader.three_numbers(&row_label, Sign::Any, three) {
+            match reader.three_numbers(&row_label, Range::Any, three) {
                 Some(numbers) => (0..3).for_each(|j| tensor[(i, j)] = numbers[j]),
                 None => complete = false,
             }
@@ -200,7 +248,7 @@ fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
         }
         symmetric(reader, &tensor, &elements)?
     } else {
-        Mat3::from_diagonal(&Vec3::from(reader.three_numbers(label, Sign::Positive, rows)?))
+        Mat3::from_diagonal(&Vec3::from(reader.three_numbers(label, Range::Positive, rows)?))
     };
     possible(reader, &tensor, value)?;
     Some(tensor)

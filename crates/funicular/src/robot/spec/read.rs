@@ -1,42 +1,157 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every refusal points at the value.
 
 use super::{Issue, TABLES};
+use crate::robot::parameters::Range as Limits;
 use crate::suggest::nearest;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Largest magnitude of any number: products of four of them stay far inside `f64`.
-pub(super) const LARGEST: f64 = 1e12;
-/// Smallest quantity that has to be positive: the same, for quotients.
-pub(super) const SMALLEST: f64 = 1e-12;
+pub(super) use crate::robot::parameters::{LARGEST, SMALLEST};
 
 /// Characters of a user's text that a message repeats.
 const QUOTED: usize = 40;
 
 /// What messages call the keys outside any table.
-pub(super) const TOP: &str = "the top of the file";
+pub(in crate::robot) const TOP: &str = "the top of the file";
 
 /// A value and its place.
 pub(super) type Value<'t> = Spanned<DeValue<'t>>;
 
 /// A known key.
-pub(super) struct Key {
+pub(in crate::robot) struct Key {
     /// As the file writes it.
     pub name: &'static str,
     /// A line for the help of "missing".
     pub example: &'static str,
+    /// Unit, range and meaning of a key whose value is a number or numbers.
+    pub number: Option<Numeric>,
 }
 
-/// What a number may be.
+/// Unit, range and meaning of the numbers of a key: the reader checks by them, and [`crate::robot::parameters`] lists them.
+#[derive(Clone, Copy)]
+pub(in crate::robot) struct Numeric {
+    pub unit: &'static str,
+    pub range: Limits,
+    pub about: &'static str,
+    /// Values where the key is absent; a single number is the first of them.
+    pub default: Option<[f64; 3]>,
+    pub shape: Shape,
+}
+
+/// How the numbers of a key are arranged.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Sign {
-    /// At least [`SMALLEST`].
-    Positive,
-    /// Zero, or at least [`SMALLEST`].
-    NotNegative,
-    /// Anything finite.
-    Any,
+pub(in crate::robot) enum Shape {
+    /// One number.
+    Number,
+    /// Three numbers x, y, z.
+    Vector,
+    /// Three numbers roll, pitch, yaw.
+    Angles,
+    /// One moment, three principal moments, or three rows of three numbers.
+    Tensor,
+}
+
+/// Place of one number in the array of its key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::robot) enum Component {
+    /// Element of an array of three.
+    Element(usize),
+    /// Entry of a symmetric tensor; off the diagonal it has a mirror.
+    Entry(usize, usize),
+}
+
+impl Shape {
+    /// Names of the components, with their places.
+    pub(in crate::robot) fn components(self) -> &'static [(&'static str, Component)] {
+        use Component::{Element, Entry};
+        match self {
+            Self::Number => &[],
+            Self::Vector => &[("x", Element(0)), ("y", Element(1)), ("z", Element(2))],
+            Self::Angles => &[("roll", Element(0)), ("pitch", Element(1)), ("yaw", Element(2))],
+            Self::Tensor => &[
+                ("xx", Entry(0, 0)),
+                ("yy", Entry(1, 1)),
+                ("zz", Entry(2, 2)),
+                ("xy", Entry(0, 1)),
+                ("xz", Entry(0, 2)),
+                ("yz", Entry(1, 2)),
+            ],
+        }
+    }
+}
+
+impl Key {
+    /// A key whose value is no number.
+    pub(super) const fn other(name: &'static str, example: &'static str) -> Self {
+        Self { name, example, number: None }
+    }
+
+    /// A key with one number.
+    pub(super) const fn number(
+        name: &'static str,
+        example: &'static str,
+        unit: &'static str,
+        range: Limits,
+        about: &'static str,
+    ) -> Self {
+        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Number })
+    }
+
+    /// A key with a vector.
+    pub(super) const fn vector(
+        name: &'static str,
+        example: &'static str,
+        unit: &'static str,
+        range: Limits,
+        about: &'static str,
+    ) -> Self {
+        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Vector })
+    }
+
+    /// A key with roll, pitch and yaw.
+    pub(super) const fn angles(
+        name: &'static str,
+        example: &'static str,
+        unit: &'static str,
+        range: Limits,
+        about: &'static str,
+    ) -> Self {
+        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Angles })
+    }
+
+    /// A key with a symmetric tensor.
+    pub(super) const fn tensor(
+        name: &'static str,
+        example: &'static str,
+        unit: &'static str,
+        range: Limits,
+        about: &'static str,
+    ) -> Self {
+        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Tensor })
+    }
+
+    const fn numeric(name: &'static str, example: &'static str, number: Numeric) -> Self {
+        Self { name, example, number: Some(number) }
+    }
+
+    /// Unit, range and meaning of a key that holds numbers.
+    pub(super) fn numbers(&self) -> &Numeric {
+        self.number.as_ref().expect("the reader asks for numbers of keys that have some")
+    }
+
+    /// The key with the value that it has where the file leaves it out.
+    pub(super) const fn or(mut self, default: [f64; 3]) -> Self {
+        if let Some(number) = &mut self.number {
+            number.default = Some(default);
+        }
+        self
+    }
+}
+
+/// Key of this name in a table of keys that has it.
+pub(super) fn known(keys: &'static [Key], name: &str) -> &'static Key {
+    keys.iter().find(|key| key.name == name).expect("the reader asks for keys of its tables only")
 }
 
 /// A table whose keys have been checked.
@@ -61,10 +176,24 @@ impl<'t> Section<'t> {
         self.mistyped.iter().any(|key| keys.contains(key))
     }
 
+    /// Unit, range and meaning of a key that holds numbers.
+    pub(super) fn number(&self, key: &str) -> &'static Numeric {
+        known(self.keys, key).numbers()
+    }
+
     /// What messages call it.
     pub(super) fn label(&self) -> &str {
         &self.label
     }
+}
+
+/// Numbers of a text that stand beside its tree, so that they can be others.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::robot) struct Numbers<'t> {
+    /// First byte of each number in the text, ascending, and the number. Empty where the tree itself holds them.
+    pub values: &'t [(usize, f64)],
+    /// First bytes of those that are not the text's.
+    pub changed: &'t [usize],
 }
 
 /// Collects the issues of one reading.
@@ -72,13 +201,26 @@ impl<'t> Section<'t> {
 /// Its methods return `None` when, and only when, they have reported an issue.
 pub(super) struct Reader<'t> {
     text: &'t str,
+    /// Numbers in place of those of the text.
+    numbers: Numbers<'t>,
     /// What was found so far.
     pub issues: Vec<Issue>,
 }
 
 impl<'t> Reader<'t> {
     pub(super) fn new(text: &'t str) -> Self {
-        Self { text, issues: Vec::new() }
+        Self::with(text, Numbers::default())
+    }
+
+    /// A reading with the numbers beside the tree.
+    pub(super) fn with(text: &'t str, numbers: Numbers<'t>) -> Self {
+        Self { text, numbers, issues: Vec::new() }
+    }
+
+    /// The number beside the tree that stands at a place of the text.
+    fn beside(&self, span: &Range<usize>) -> Option<f64> {
+        let values = self.numbers.values;
+        values.binary_search_by_key(&span.start, |(start, _)| *start).ok().map(|at| values[at].1)
     }
 
     /// Reports an issue; help and context can be added to what it returns.
@@ -90,6 +232,11 @@ impl<'t> Reader<'t> {
 
     /// What the user wrote there, short enough for a message.
     pub(super) fn written(&self, span: Range<usize>) -> String {
+        if let Some(number) = self.beside(&span).filter(|_| self.numbers.changed.contains(&span.start)) {
+            // As a TOML file has it.
+            let whole = if number % 1.0 == 0.0 { ".0" } else { "" };
+            return shortened(&format!("{number}{whole}"));
+        }
         shortened(self.text.get(span).unwrap_or("?").trim())
     }
 
@@ -143,15 +290,20 @@ impl<'t> Reader<'t> {
         self.issue(value.span(), format!("{label} is {given}, it must be {needed}"))
     }
 
+    /// The number of a key, within the range that the table of keys has for it.
+    pub(super) fn number_of(&mut self, section: &Section, key: &str, value: &Value) -> Option<f64> {
+        self.number_as(known(section.keys, key), value)
+    }
+
+    /// The number of a key, within its range.
+    pub(super) fn number_as(&mut self, key: &Key, value: &Value) -> Option<f64> {
+        self.number(&format!("`{}`", key.name), key.numbers().range, value)
+    }
+
     /// A number within the limits. `label` is the key in backticks, or says which element.
-    pub(super) fn number(&mut self, label: &str, sign: Sign, value: &Value) -> Option<f64> {
+    pub(super) fn number(&mut self, label: &str, range: Limits, value: &Value) -> Option<f64> {
         let number = match value.get_ref() {
-            DeValue::Float(float) => float.as_str().parse().ok(),
-            // Through text, so that any length is read; a hexadecimal mass is odd but legal.
-            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
-            DeValue::Integer(integer) => {
-                i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64)
-            }
+            DeValue::Float(_) | DeValue::Integer(_) => self.beside(&value.span()).or_else(|| parsed(value.get_ref())),
             other => {
                 let quoted_number = matches!(other, DeValue::String(s) if s.trim().parse::<f64>().is_ok());
                 let issue = self.wrong_type(label, "a number", value);
@@ -167,12 +319,12 @@ impl<'t> Reader<'t> {
             Some("it must be finite".to_owned())
         } else if number.abs() > LARGEST {
             Some(format!("the limit is {LARGEST:e} in magnitude"))
-        } else if sign == Sign::Positive && number <= 0.0 {
+        } else if range == Limits::Positive && number <= 0.0 {
             Some("it must be positive".to_owned())
-        } else if sign == Sign::NotNegative && number < 0.0 {
+        } else if range.is_not_negative() && number < 0.0 {
             Some("it must not be negative".to_owned())
-        } else if sign != Sign::Any && number != 0.0 && number < SMALLEST {
-            let or_zero = if sign == Sign::NotNegative { "zero or " } else { "" };
+        } else if range.is_one_sided() && number != 0.0 && number < SMALLEST {
+            let or_zero = if range == Limits::Positive { "" } else { "zero or " };
             Some(format!("it must be {or_zero}at least {SMALLEST:e}"))
         } else {
             None
@@ -202,17 +354,22 @@ impl<'t> Reader<'t> {
     }
 
     /// Three numbers. Every wrong element is reported.
-    pub(super) fn three_numbers(&mut self, label: &str, sign: Sign, values: [&Value; 3]) -> Option<[f64; 3]> {
-        let mut number = |i: usize| self.number(&format!("number {} of {label}", i + 1), sign, values[i]);
+    pub(super) fn three_numbers(&mut self, label: &str, range: Limits, values: [&Value; 3]) -> Option<[f64; 3]> {
+        let mut number = |i: usize| self.number(&format!("number {} of {label}", i + 1), range, values[i]);
         let [x, y, z] = [number(0), number(1), number(2)];
         Some([x?, y?, z?])
     }
 
-    /// A vector in space.
-    pub(super) fn vector(&mut self, key: &str, unit: &str, value: &Value) -> Option<[f64; 3]> {
-        let label = format!("`{key}`");
-        let three = self.three(&label, &format!("three numbers [x, y, z] in {unit}"), value)?;
-        self.three_numbers(&label, Sign::Any, three)
+    /// The vector of a key.
+    pub(super) fn vector(&mut self, section: &Section, key: &str, value: &Value) -> Option<[f64; 3]> {
+        self.vector_as(known(section.keys, key), value)
+    }
+
+    /// The vector of a key.
+    pub(super) fn vector_as(&mut self, key: &Key, value: &Value) -> Option<[f64; 3]> {
+        let (label, numbers) = (format!("`{}`", key.name), key.numbers());
+        let three = self.three(&label, &format!("three numbers [x, y, z] in {}", numbers.unit), value)?;
+        self.three_numbers(&label, numbers.range, three)
     }
 
     /// Text.
@@ -267,6 +424,19 @@ impl<'t> Reader<'t> {
     }
 }
 
+/// A number of the file; `None` for digits beyond `i128` in another base than ten, and for what is no number.
+pub(in crate::robot) fn parsed(value: &DeValue) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        // Through text, so that any length is read; a hexadecimal mass is odd but legal.
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        DeValue::Integer(integer) => {
+            i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64)
+        }
+        _ => None,
+    }
+}
+
 /// A table's label, as the place of a key.
 fn inside(label: &str) -> String {
     format!("{} {label}", if label == TOP { "at" } else { "in" })
@@ -314,7 +484,7 @@ mod tests {
         let root = DeTable::parse(text).unwrap();
         let DeValue::Array(array) = root.get_ref()["a"].get_ref() else { panic!() };
         let mut reader = Reader::new(text);
-        let numbers: Vec<_> = array.iter().map(|v| reader.number("`a`", Sign::Any, v).unwrap()).collect();
+        let numbers: Vec<_> = array.iter().map(|v| reader.number("`a`", Limits::Any, v).unwrap()).collect();
         assert_eq!(numbers, [1000.0, 2.5, 31.0, 1e-3, 0.0]);
     }
 

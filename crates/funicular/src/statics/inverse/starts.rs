@@ -3,7 +3,7 @@
 //! Next to a pose that straight cables cannot hold, or hold only with enormous tensions, slack ones may rest stably. Their
 //! forces bend away from the chord, so that neither the straight tensions nor their derivatives point to the solution.
 
-use super::{Balanced, LEAST_STRAIN, at_tension, balanced, lengthened, tightened, unbalanced};
+use super::{Balanced, MIN_STRAIN, at_tension, balanced, lengthened, tightened, unbalanced};
 use crate::catenary::space::HangingCable;
 use crate::math::Mat6;
 use crate::platform::{Coordinates, load_size};
@@ -122,7 +122,7 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
     let cables = loaded.iter().zip(SPREAD);
     let hung = cables.map(|(cable, spread)| {
         let chord = cable.chord_w(pose).norm();
-        let weight = (cable.load.size * chord).max(LEAST_STRAIN * cable.axial_stiffness());
+        let weight = (cable.load.size * chord).max(MIN_STRAIN * cable.axial_stiffness());
         let (low, high) = (DEEPEST * weight, load_size(robot).max(TAUTEST * weight));
         let part = ((k as f64 + 1.0) * spread).fract();
         cable.hang_with_tension(pose, low * (high / low).powf(part))

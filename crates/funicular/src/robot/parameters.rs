@@ -1,0 +1,536 @@
+//! Every number of a robot file as a parameter: where it stands, its unit, its range, its meaning, its value; and the robot
+//! that has other values there.
+//!
+//! The keys, units and ranges are the table that the reader of robot files checks by. A robot with other values is read
+//! from the same parsed file with numbers in place of those of the text, so every check of the reader holds, and no number
+//! passes through text.
+
+use super::spec::{Component, Key, Numbers, Numeric, Shape, SpecError, TABLES, TOP, from_tree, parsed};
+use super::{Freedoms, Robot, RobotChange};
+use crate::math::Vec3;
+use std::borrow::Cow;
+use std::fmt;
+use thiserror::Error;
+use toml::Spanned;
+use toml::de::{DeArray, DeFloat, DeTable, DeValue};
+
+/// Maximum magnitude of any number of a robot file: products of four of them stay far inside `f64`.
+pub(super) const LARGEST: f64 = 1e12;
+/// Minimum of a quantity that has to be positive, so that quotients stay inside `f64`, too.
+pub(super) const SMALLEST: f64 = 1e-12;
+
+/// Numbers that a parameter may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Range {
+    /// Any number, up to 1e12 in magnitude.
+    Any,
+    /// Zero, or from 1e-12 to 1e12.
+    NotNegative,
+    /// From 1e-12 to 1e12.
+    Positive,
+    /// Zero, or from 1e-12 to below a limit.
+    Below(f64),
+    /// Components of a vector whose magnitude is at most this.
+    Magnitude(f64),
+}
+
+impl Range {
+    /// Minimum; of a component of a vector whose magnitude is limited that of the component alone.
+    pub fn minimum(self) -> f64 {
+        match self {
+            Self::Any => -LARGEST,
+            Self::NotNegative | Self::Below(_) => 0.0,
+            Self::Positive => SMALLEST,
+            Self::Magnitude(limit) => -limit,
+        }
+    }
+
+    /// Maximum, or the limit below which a number has to be.
+    pub fn maximum(self) -> f64 {
+        match self {
+            Self::Any | Self::NotNegative | Self::Positive => LARGEST,
+            Self::Below(limit) | Self::Magnitude(limit) => limit,
+        }
+    }
+
+    /// Zero is the minimum.
+    pub(super) fn is_not_negative(self) -> bool {
+        matches!(self, Self::NotNegative | Self::Below(_))
+    }
+
+    /// Negative numbers are outside, and so are positive ones below 1e-12.
+    pub(super) fn is_one_sided(self) -> bool {
+        self == Self::Positive || self.is_not_negative()
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Any => f.write_str("any"),
+            Self::NotNegative => f.write_str("not negative"),
+            Self::Positive => f.write_str("positive"),
+            Self::Below(limit) => write!(f, "from 0 to below {limit}"),
+            Self::Magnitude(limit) => write!(f, "magnitude of the vector up to {limit}"),
+        }
+    }
+}
+
+/// Part of the robot that a parameter belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The robot as a whole: gravity.
+    Robot,
+    /// The platform.
+    Platform,
+    /// A rope; its name is the second key of the path.
+    Material,
+    /// The cable at this place of the file, from 0.
+    Cable(usize),
+    /// The load on the platform.
+    Load,
+    /// The wind.
+    Wind,
+    /// The pose.
+    State,
+}
+
+/// One number of a robot file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Keys from the top of the file to the number, the name of the component last: `cables`, `3`, `anchor_m`, `z`.
+    pub keys: Vec<String>,
+    /// Part of the robot.
+    pub part: Part,
+    /// Key in the table of that part.
+    pub key: &'static str,
+    /// Component of a vector or tensor: `x`, `y`, `z`; `roll`, `pitch`, `yaw`; `xx`, `yy`, `zz`, `xy`, `xz`, `yz`.
+    pub component: Option<&'static str>,
+    /// Value, in the unit of the file.
+    pub value: f64,
+    /// Unit, SI but for degrees; `1` for a ratio.
+    pub unit: &'static str,
+    /// Numbers that it may be. Others may be refused beside the robot's other values, as a minimum above a maximum.
+    pub range: Range,
+    /// Meaning.
+    pub about: &'static str,
+    /// Whether the file gives it; else the value is the default.
+    pub given: bool,
+    /// First byte of the number in the text, once per place where it stands.
+    places: Vec<usize>,
+}
+
+impl Parameter {
+    /// Path as `--set` takes it: keys with dots between them, in quotes where they hold more than letters, digits, _ and -.
+    pub fn path(&self) -> String {
+        let bare =
+            |key: &str| !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+        let quoted = |key: &String| match key {
+            key if bare(key) => key.clone(),
+            key if !key.contains('\'') => format!("'{key}'"),
+            key => format!("\"{}\"", key.replace('\\', "\\\\").replace('"', "\\\"")),
+        };
+        self.keys.iter().map(quoted).collect::<Vec<_>>().join(".")
+    }
+}
+
+/// Why a robot cannot have other values.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ParameterError {
+    /// A place beyond the list of parameters.
+    #[error("there is no parameter number {index}, the robot has {count}")]
+    Unknown {
+        /// Place that was asked for.
+        index: usize,
+        /// Number of parameters.
+        count: usize,
+    },
+    /// The value is a default, the file has no place for another.
+    #[error("the robot file does not give {path}: write it there first")]
+    NotGiven {
+        /// Path of the parameter.
+        path: String,
+    },
+    /// The reader refuses the robot that results.
+    #[error("with {}: {}", changes.join(" and "), first_message(reason))]
+    Refused {
+        /// Each change, as `path=value`.
+        changes: Vec<String>,
+        /// Issues. They point into the text that was read, at the values that were replaced.
+        reason: SpecError,
+    },
+}
+
+/// First issue without its line, since the text there holds another value.
+fn first_message(reason: &SpecError) -> String {
+    reason.issues().first().map_or_else(String::new, |issue| match &issue.help {
+        Some(help) => format!("{}; {help}", issue.message),
+        None => issue.message.clone(),
+    })
+}
+
+/// Numbers of a robot file, and robots that differ in them.
+///
+/// # Example
+/// ```
+/// use funicular::robot::parameters::Parameters;
+///
+/// let parameters = Parameters::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+/// let mass = parameters.find(&["platform", "mass_kg"]).unwrap();
+/// assert_eq!(parameters.list()[mass].unit, "kg");
+///
+/// let heavier = parameters.robot_with(&[(mass, 300.0)])?;
+/// assert_eq!(heavier.platform.mass, 300.0); // kg
+/// let refused = parameters.robot_with(&[(mass, -1.0)]).unwrap_err();
+/// assert_eq!(refused.to_string(), "with platform.mass_kg=-1: `mass_kg` is -1.0, it must be positive");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Parameters {
+    text: String,
+    /// Values of the file by key, with their places in the text; its numbers are placeholders.
+    root: DeTable<'static>,
+    /// First byte of every number in the text, ascending, and the number.
+    numbers: Vec<(usize, f64)>,
+    robot: Robot,
+    list: Vec<Parameter>,
+}
+
+impl Parameters {
+    /// Reads a robot file and lists its numbers.
+    ///
+    /// # Errors
+    /// [`SpecError`], as [`Robot::from_toml`].
+    pub fn from_toml(text: &str) -> Result<Self, SpecError> {
+        let robot = Robot::from_toml(text)?;
+        // It was parsed a moment ago.
+        let borrowed = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
+        let list = list_of(&borrowed, &robot);
+
+        let mut numbers = Vec::new();
+        let root = owned_table(&borrowed, &mut numbers);
+        numbers.sort_unstable_by_key(|(place, _)| *place);
+        Ok(Self { text: text.to_owned(), root, numbers, robot, list })
+    }
+
+    /// The robot as the file has it.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// All numbers: those of the robot as a whole, its platform, its ropes by name, its cables in file order, load, wind,
+    /// pose.
+    pub fn list(&self) -> &[Parameter] {
+        &self.list
+    }
+
+    /// Place in the list of the parameter with these keys.
+    pub fn find<K: AsRef<str>>(&self, keys: &[K]) -> Option<usize> {
+        self.list.iter().position(|parameter| {
+            parameter.keys.len() == keys.len() && parameter.keys.iter().zip(keys).all(|(own, key)| own == key.as_ref())
+        })
+    }
+
+    /// The robot with other values: pairs of the place in [`Self::list`] and the number, in the unit of the file. It is
+    /// the one that [`Robot::from_toml`] reads from the text with these numbers written in it.
+    ///
+    /// # Errors
+    /// [`ParameterError`].
+    pub fn robot_with(&self, values: &[(usize, f64)]) -> Result<Robot, ParameterError> {
+        let (mut numbers, mut changed) = (self.numbers.clone(), Vec::with_capacity(values.len()));
+        for &(index, value) in values {
+            let count = self.list.len();
+            let parameter = self.list.get(index).ok_or(ParameterError::Unknown { index, count })?;
+            if parameter.places.is_empty() {
+                return Err(ParameterError::NotGiven { path: parameter.path() });
+            }
+            for &place in &parameter.places {
+                if let Ok(at) = numbers.binary_search_by_key(&place, |(start, _)| *start) {
+                    numbers[at].1 = value;
+                    changed.push(place);
+                }
+            }
+        }
+
+        let numbers = Numbers { values: &numbers, changed: &changed };
+        from_tree(&self.text, &self.root, numbers).map_err(|reason| {
+            let changes = values.iter().map(|&(index, value)| format!("{}={value}", self.list[index].path())).collect();
+            ParameterError::Refused { changes, reason }
+        })
+    }
+}
+
+impl Parameters {
+    /// Change of the robot per unit of a parameter, in the unit of the file: what derivatives of results by the parameter
+    /// are taken along. A value of a rope changes all its cables. `None` for numbers that derivatives do not know: those
+    /// of the pose, the wind, the plane, damping and limits.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::robot::parameters::Parameters;
+    ///
+    /// let parameters = Parameters::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+    /// let height = parameters.find(&["cables", "1", "anchor_m", "z"]).unwrap();
+    /// assert_eq!(parameters.change(height).unwrap().cables[0].anchor_w.z, 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn change(&self, index: usize) -> Option<RobotChange> {
+        let parameter = self.list.get(index)?;
+        let robot = &self.robot;
+        let mut change = RobotChange::none(robot.cables.len());
+        let unit = || -> Option<Vec3> {
+            let axis = ["x", "y", "z"].iter().position(|name| Some(*name) == parameter.component)?;
+            let mut unit = Vec3::zeros();
+            unit[axis] = 1.0;
+            Some(unit)
+        };
+        match (parameter.part, parameter.key) {
+            (Part::Robot, "gravity_m_s2") => change.gravity_w = unit()?,
+            (Part::Platform, "mass_kg") => change.mass = 1.0,
+            (Part::Platform, "center_of_mass_m") => change.center_of_mass_p = unit()?,
+            (Part::Platform, "drag_area_m2") => change.drag_area = 1.0,
+            (Part::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.freedoms) {
+                // One number is the moment about the normal.
+                (None, Freedoms::Planar(plane)) => change.inertia_p = plane.normal_w() * plane.normal_w().transpose(),
+                (component, _) => {
+                    let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;
+                    let Component::Entry(i, j) = entry else { return None };
+                    change.inertia_p[(i, j)] = 1.0;
+                    change.inertia_p[(j, i)] = 1.0;
+                }
+            },
+            (Part::Load, "force_n") => change.force_w = unit()?,
+            (Part::Load, "moment_n_m") => change.moment_w = unit()?,
+            (Part::Load, "point_m") => change.point_p = unit()?,
+            (Part::Cable(i), key) => {
+                let cable = change.cables.get_mut(i)?;
+                match key {
+                    "anchor_m" => cable.anchor_w = unit()?,
+                    "attachment_m" => cable.attachment_p = unit()?,
+                    "load_n_per_m" => cable.load_per_length_w = unit()?,
+                    "unstrained_length_m" => cable.unstrained_length = 1.0,
+                    _ => return None,
+                }
+            }
+            (Part::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
+            _ => return None,
+        }
+        Some(change)
+    }
+
+    /// Change of all cables of a rope.
+    fn material_change(
+        &self,
+        parameter: &Parameter,
+        key: &str,
+        unit: Option<Vec3>,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let in_wind = self.robot.wind.velocity_w != Vec3::zeros();
+        for (i, (cable, change)) in self.robot.cables.iter().zip(&mut change.cables).enumerate() {
+            let material = &cable.material;
+            if material.name != *name {
+                continue;
+            }
+            let relative = material.axial_stiffness / parameter.value;
+            match key {
+                "axial_stiffness_n" => change.axial_stiffness = 1.0,
+                "youngs_modulus_pa" | "area_m2" => change.axial_stiffness = relative,
+                // The wind meets the diameter, too.
+                "diameter_m" if in_wind && material.drag_width.is_some() => return None,
+                "diameter_m" => change.axial_stiffness = 2.0 * relative,
+                "mass_kg_per_m" => change.mass_per_length = 1.0,
+                "load_n_per_m" => {
+                    let own = |other: &Parameter| other.part == Part::Cable(i) && other.key == "load_n_per_m";
+                    if !self.list.iter().any(own) {
+                        change.load_per_length_w = unit?;
+                    }
+                }
+                _ => return None,
+            }
+        }
+        Some(())
+    }
+}
+
+/// Component that the last key of a path names, and the default of the whole where the file has none; `None` for a path
+/// that ends at a key of the file.
+///
+/// # Example
+/// ```
+/// use funicular::robot::parameters::component;
+///
+/// let z = component(&["cables", "3", "anchor_m", "z"]).unwrap();
+/// assert_eq!((z.row, z.column), (2, None));
+/// assert!(component(&["cables", "3", "anchor_m"]).is_none());
+/// ```
+pub fn component<K: AsRef<str>>(path: &[K]) -> Option<ComponentOfKey> {
+    let (name, keys) = path.split_last()?;
+    let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
+    let (header, key) = match keys[..] {
+        [key] => (TOP.to_owned(), key),
+        ["materials", _, key] => ("[materials.NAME]".to_owned(), key),
+        ["cables", _, key] => ("[[cables]]".to_owned(), key),
+        [table, key] => (format!("[{table}]"), key),
+        _ => return None,
+    };
+    let keys = TABLES.iter().find(|(table, _)| *table == header)?.1;
+    let numbers = keys.iter().find(|known| known.name == key)?.number.as_ref()?;
+    let (_, place) = numbers.shape.components().iter().find(|(known, _)| *known == name.as_ref())?;
+    let (row, column) = match place {
+        Component::Element(i) => (*i, None),
+        Component::Entry(i, j) => (*i, Some(*j)),
+    };
+    Some(ComponentOfKey { row, column, default: numbers.default })
+}
+
+/// Place of a component in the array of its key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComponentOfKey {
+    /// Element of the vector, or row of the tensor.
+    pub row: usize,
+    /// Column of a tensor; its mirror has the same value.
+    pub column: Option<usize>,
+    /// Vector where the file has none.
+    pub default: Option<[f64; 3]>,
+}
+
+/// A value without borrowed text, its numbers in a list beside it (first byte, number) and placeholders in their place.
+fn owned(value: &Spanned<DeValue<'_>>, numbers: &mut Vec<(usize, f64)>) -> Spanned<DeValue<'static>> {
+    let place = value.span();
+    let inner = match value.get_ref() {
+        DeValue::String(text) => DeValue::String(Cow::Owned(text.to_string())),
+        DeValue::Integer(_) | DeValue::Float(_) => {
+            // Only digits beyond `i128` are none; they were refused.
+            numbers.push((place.start, parsed(value.get_ref()).unwrap_or(f64::INFINITY)));
+            DeValue::Float(DeFloat::default())
+        }
+        DeValue::Boolean(truth) => DeValue::Boolean(*truth),
+        DeValue::Datetime(date) => DeValue::Datetime(*date),
+        DeValue::Array(array) => {
+            let mut copy = DeArray::new();
+            array.iter().for_each(|element| copy.push(owned(element, numbers)));
+            DeValue::Array(copy)
+        }
+        DeValue::Table(table) => DeValue::Table(owned_table(table, numbers)),
+    };
+    Spanned::new(place, inner)
+}
+
+/// A table without borrowed text, as [`owned`].
+fn owned_table(table: &DeTable<'_>, numbers: &mut Vec<(usize, f64)>) -> DeTable<'static> {
+    let mut copy = DeTable::new();
+    for (key, value) in table {
+        let name = Cow::Owned(key.get_ref().to_string());
+        copy.insert(Spanned::new(key.span(), name), owned(value, numbers));
+    }
+    copy
+}
+
+/// All numbers of a file whose robot was read.
+fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
+    let mut list = Vec::new();
+    let mut table = |part: Part, header: &str, path: &[&str], table: &DeTable| {
+        let keys = TABLES.iter().find(|(name, _)| *name == header).map_or(&[][..], |(_, keys)| keys);
+        for key in keys {
+            let Some(numbers) = &key.number else { continue };
+            let found = match table.get(key.name) {
+                Some(value) => numbers_at(value.get_ref(), &value.span(), numbers.shape),
+                None => defaults(key, numbers, table, robot),
+            };
+            for (component, value, places) in found {
+                let names = path.iter().copied().chain([key.name]).chain(component);
+                list.push(Parameter {
+                    keys: names.map(str::to_owned).collect(),
+                    part,
+                    key: key.name,
+                    component,
+                    value,
+                    unit: numbers.unit,
+                    range: numbers.range,
+                    about: numbers.about,
+                    given: !places.is_empty(),
+                    places,
+                });
+            }
+        }
+    };
+
+    table(Part::Robot, TOP, &[], root);
+    if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
+        table(Part::Platform, "[platform]", &["platform"], platform);
+    }
+    if let Some(DeValue::Table(materials)) = root.get("materials").map(Spanned::get_ref) {
+        for (name, material) in materials {
+            if let DeValue::Table(material) = material.get_ref() {
+                table(Part::Material, "[materials.NAME]", &["materials", name.get_ref()], material);
+            }
+        }
+    }
+    if let Some(DeValue::Array(cables)) = root.get("cables").map(Spanned::get_ref) {
+        for (i, (entry, cable)) in cables.iter().zip(&robot.cables).enumerate() {
+            if let DeValue::Table(entry) = entry.get_ref() {
+                table(Part::Cable(i), "[[cables]]", &["cables", &cable.name], entry);
+            }
+        }
+    }
+    for (part, name) in [(Part::Load, "loads"), (Part::Wind, "wind"), (Part::State, "state")] {
+        if let Some(DeValue::Table(entry)) = root.get(name).map(Spanned::get_ref) {
+            table(part, &format!("[{name}]"), &[name], entry);
+        }
+    }
+    list
+}
+
+/// A number of a key: name of its component, value, first byte at each place where it stands.
+type Found = (Option<&'static str>, f64, Vec<usize>);
+
+/// The numbers that the file has at a key.
+fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> Vec<Found> {
+    if let Some(number) = parsed(value) {
+        return vec![(None, number, vec![span.start])];
+    }
+    let DeValue::Array(rows) = value else { return Vec::new() };
+    let element = |row: usize, column: Option<usize>| {
+        let value = rows.get(row)?;
+        let value = match (value.get_ref(), column) {
+            (DeValue::Array(columns), Some(column)) => columns.get(column)?,
+            // Three principal moments: nothing off the diagonal.
+            (_, Some(column)) if column != row => return None,
+            _ => value,
+        };
+        Some((parsed(value.get_ref())?, value.span().start))
+    };
+    let components = shape.components().iter();
+    components
+        .filter_map(|(name, component)| match *component {
+            Component::Element(i) => element(i, None).map(|(value, at)| (Some(*name), value, vec![at])),
+            Component::Entry(i, j) => {
+                let (value, at) = element(i, Some(j))?;
+                let (_, mirror) = element(j, Some(i))?;
+                Some((Some(*name), value, if mirror == at { vec![at] } else { vec![at, mirror] }))
+            }
+        })
+        .collect()
+}
+
+/// The numbers of a key that the file leaves out, where they mean something on this robot.
+fn defaults(key: &Key, numbers: &Numeric, table: &DeTable, robot: &Robot) -> Vec<Found> {
+    let freedoms = &robot.platform.freedoms;
+    let means_something = match key.name {
+        "plane_offset_m" => matches!(freedoms, Freedoms::Planar(_)),
+        "center_of_mass_m" | "rotational_damping_n_m_s" | "moment_n_m" | "point_m" | "roll_pitch_yaw_deg" => {
+            *freedoms != Freedoms::PointMass
+        }
+        "damping_ratio" => !table.contains_key("viscous_damping_n_s_m2"),
+        _ => true,
+    };
+    let Some(default) = numbers.default.filter(|_| means_something) else { return Vec::new() };
+    match numbers.shape.components() {
+        [] => vec![(None, default[0], Vec::new())],
+        components => {
+            components.iter().zip(default).map(|((name, _), value)| (Some(*name), value, Vec::new())).collect()
+        }
+    }
+}

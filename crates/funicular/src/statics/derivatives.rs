@@ -1,0 +1,297 @@
+//! How an equilibrium follows a number of the robot: derivatives of pose, forces and lengths, by implicit
+//! differentiation of the balance after it was solved.
+//!
+//! The wrench Φ on the platform depends on its pose x, the unstrained lengths L and a parameter p. At an equilibrium
+//! Φ = 0, so that with lengths held `𝒥 dx/dp = ∂Φ/∂p`, `𝒥 = −∂Φ/∂x`, and with the pose held `(∂Φ/∂L) dL/dp = −∂Φ/∂p`:
+//! one linear system, whatever the parameter.
+
+use super::drag::tangent_with_drag;
+use super::equilibrium::{CableState, Equilibrium};
+use super::model::StaticModel;
+use crate::math::{Mat3, Mat6, Vec3, Vec6, skew};
+use crate::platform::{Coordinates, wrench_of};
+use crate::robot::{CableChange, Load, Robot, RobotChange};
+use thiserror::Error;
+
+/// Part of the largest singular value up to which the least one counts as zero: beyond it a derivative has no digits.
+const SINGULAR: f64 = 1e-12;
+
+/// Why an equilibrium has no derivative.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StaticDerivativeError {
+    /// Ideal cables have no finite stiffness.
+    #[error("ideal cables are rigid: derivatives of an equilibrium need elastic cables")]
+    Ideal,
+    /// A slack cable without weight pulls or not, depending on the direction of the change.
+    #[error("cable \"{cable}\" has no tension: at the edge of being slack an equilibrium has no derivative")]
+    Slack {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// Some motion is not opposed, or no change of the lengths balances some wrench.
+    #[error("the equilibrium is indifferent: some small change of the robot moves it without limit")]
+    Singular,
+    /// Held pose, and not as many cables as degrees of freedom.
+    #[error(
+        "{cables} cables hold {degrees_of_freedom} degrees of freedom: with the pose held the lengths follow from a \
+         change of the robot only if both numbers are equal"
+    )]
+    CableCount {
+        /// Number of cables.
+        cables: usize,
+        /// Degrees of freedom of the platform.
+        degrees_of_freedom: usize,
+    },
+}
+
+/// Derivative of an equilibrium by a parameter. Units are over that of the parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EquilibriumDerivative {
+    /// Motion of the platform origin, world axes [m].
+    pub translation_w: Vec3,
+    /// Rotation vector of the platform, world axes [rad].
+    pub rotation_w: Vec3,
+    /// The cables, in file order.
+    pub cables: Vec<CableDerivative>,
+}
+
+/// Derivative of the state of one cable by a parameter. Units are over that of the parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CableDerivative {
+    /// Force on the platform, world axes [N].
+    pub force_on_platform_w: Vec3,
+    /// Tension at the platform end [N].
+    pub tension_platform: f64,
+    /// Tension at the anchor [N].
+    pub tension_anchor: f64,
+    /// Unstrained length [m].
+    pub unstrained_length: f64,
+    /// Lever arm from the platform origin to the attachment, world axes [m].
+    pub lever_w: Vec3,
+    /// Load per unstrained length, world axes [N/m].
+    pub load_w: Vec3,
+}
+
+/// Derivative of an equilibrium with the unstrained lengths held (but for what the change itself does to them): how the
+/// platform moves and the forces change.
+///
+/// # Errors
+/// [`StaticDerivativeError`].
+///
+/// # Example
+/// ```
+/// use funicular::robot::{Robot, RobotChange};
+/// use funicular::statics::{self, StaticModel, derivatives};
+///
+/// let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+/// let by_mass = derivatives::at_held_lengths(&robot, &rest, &RobotChange::of_mass(&robot))?;
+///
+/// let heavier = statics::forward(&robot.with_mass(robot.platform.mass + 1e-3), &lengths, StaticModel::Catenary, None)?;
+/// let moved = (heavier.pose.position_w - rest.pose.position_w) / 1e-3; // m/kg
+/// assert!((moved - by_mass.translation_w).norm() < 1e-3 * moved.norm());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equations (52) to (54).
+pub fn at_held_lengths(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    change: &RobotChange,
+) -> Result<EquilibriumDerivative, StaticDerivativeError> {
+    let direct = Direct::new(robot, equilibrium, change)?;
+    let coordinates = Coordinates::of(robot);
+
+    // The tangent counts half of a moment that is fixed in the world, so that it is symmetric; the balance has none of it.
+    let mut jacobian = tangent_with_drag(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+    let mut turns = jacobian.fixed_view_mut::<3, 3>(3, 3);
+    turns -= skew(&robot.load.moment_w) * 0.5;
+
+    let motion = solve(coordinates.reduce_matrix(&jacobian), &coordinates, &direct.wrench)?;
+    let motion = coordinates.expand(&motion);
+    let translation_w = Vec3::new(motion[0], motion[1], motion[2]);
+    let rotation_w = Vec3::new(motion[3], motion[4], motion[5]) / coordinates.ell();
+    Ok(direct.moved(equilibrium, translation_w, rotation_w))
+}
+
+/// Derivative of an equilibrium with the pose held: how the unstrained lengths have to change. They replace what the
+/// change itself does to them. For robots with as many cables as degrees of freedom.
+///
+/// # Errors
+/// [`StaticDerivativeError`].
+///
+/// # References
+/// docs/theory.md, equation (55).
+pub fn at_held_pose(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    change: &RobotChange,
+) -> Result<EquilibriumDerivative, StaticDerivativeError> {
+    let coordinates = Coordinates::of(robot);
+    let (cables, degrees_of_freedom) = (robot.cables.len(), coordinates.count());
+    if cables != degrees_of_freedom {
+        return Err(StaticDerivativeError::CableCount { cables, degrees_of_freedom });
+    }
+    let mut change = change.clone();
+    change.cables.iter_mut().for_each(|cable| cable.unstrained_length = 0.0);
+    let mut direct = Direct::new(robot, equilibrium, &change)?;
+
+    let mut by_lengths = Mat6::zeros();
+    for (i, (cable, state)) in direct.cables.iter().zip(&equilibrium.cables).enumerate() {
+        by_lengths.set_column(i, &coordinates.reduce_force(&cable.force_by_length_w, &state.lever_w));
+    }
+    // A step of the solution is a length, not a coordinate of the platform: its number is the same.
+    let lengths = solve(by_lengths, &coordinates, &-direct.wrench)?;
+    for (cable, length) in direct.cables.iter_mut().zip(lengths.iter()) {
+        cable.force_w += cable.force_by_length_w * *length;
+        cable.unstrained_length = *length;
+    }
+    Ok(direct.moved(equilibrium, Vec3::zeros(), Vec3::zeros()))
+}
+
+/// Solves for the reduced unknowns; `wrench` is not reduced yet.
+fn solve(mut matrix: Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<Vec6, StaticDerivativeError> {
+    let scale = matrix.amax();
+    (coordinates.count()..6).for_each(|k| matrix[(k, k)] = scale);
+    let singular = matrix.singular_values();
+    if singular.min().is_nan() || singular.min() <= SINGULAR * singular.max() {
+        return Err(StaticDerivativeError::Singular);
+    }
+    matrix.lu().solve(&coordinates.reduce(wrench)).ok_or(StaticDerivativeError::Singular)
+}
+
+/// What a change does while the platform stays where it is.
+struct Direct {
+    /// Wrench on the platform.
+    wrench: Vec6,
+    cables: Vec<DirectCable>,
+}
+
+/// What a change does to one cable while the platform stays where it is, and what its platform end's motion does.
+struct DirectCable {
+    force_w: Vec3,
+    lever_w: Vec3,
+    load_w: Vec3,
+    unstrained_length: f64,
+    force_by_length_w: Vec3,
+    /// Of the force, by the chord: stiffness, and the turn of the wind's drag.
+    force_by_chord_w: Mat3,
+    /// Of the load per length, by the chord.
+    load_by_chord_w: Mat3,
+}
+
+impl Direct {
+    fn new(robot: &Robot, equilibrium: &Equilibrium, change: &RobotChange) -> Result<Self, StaticDerivativeError> {
+        let rot = &equilibrium.pose.rot_wp;
+        let platform = &robot.platform;
+
+        // Weight and wind in the centre of mass, then the load.
+        let centre_w = rot * platform.center_of_mass_p;
+        let at_centre_w = robot.force_at_mass_centre_w();
+        let weight_w = robot.gravity_w * change.mass
+            + change.gravity_w * platform.mass
+            + robot.wind.pressure_w() * change.drag_area;
+        let mut wrench = wrench_of(&weight_w, &centre_w) + moment(&at_centre_w, &(rot * change.center_of_mass_p));
+        let Load { force_w, point_p, .. } = &robot.load;
+        wrench += wrench_of(&change.force_w, &(rot * point_p)) + moment(force_w, &(rot * change.point_p));
+        wrench += Vec6::new(0.0, 0.0, 0.0, change.moment_w.x, change.moment_w.y, change.moment_w.z);
+
+        let mut cables = Vec::with_capacity(robot.cables.len());
+        for (i, (state, of_cable)) in equilibrium.cables.iter().zip(&change.cables).enumerate() {
+            let lever_w = rot * of_cable.attachment_p;
+            let cable = DirectCable::new(robot, equilibrium.model, i, state, of_cable, lever_w, &change.gravity_w)?;
+            wrench += wrench_of(&cable.force_w, &state.lever_w) + moment(&state.force_on_platform_w, &lever_w);
+            cables.push(cable);
+        }
+        Ok(Self { wrench, cables })
+    }
+
+    /// The derivative, with the platform's motion.
+    fn moved(self, equilibrium: &Equilibrium, translation_w: Vec3, rotation_w: Vec3) -> EquilibriumDerivative {
+        let cables = self.cables.into_iter().zip(&equilibrium.cables).map(|(cable, state)| {
+            let chord_w = -(translation_w + rotation_w.cross(&state.lever_w));
+            let force_w = cable.force_w + cable.force_by_chord_w * chord_w;
+            let load_w = cable.load_w + cable.load_by_chord_w * chord_w;
+
+            // The tension at the anchor is that of N = f − L q, q being the load per length.
+            let at_anchor_w = state.force_on_platform_w - load_of(state) * state.unstrained_length;
+            let change_at_anchor_w =
+                force_w - load_w * state.unstrained_length - load_of(state) * cable.unstrained_length;
+            let along = |force_w: &Vec3, change_w: &Vec3| force_w.normalize().dot(change_w);
+            CableDerivative {
+                force_on_platform_w: force_w,
+                tension_platform: along(&state.force_on_platform_w, &force_w),
+                tension_anchor: along(&at_anchor_w, &change_at_anchor_w),
+                unstrained_length: cable.unstrained_length,
+                lever_w: cable.lever_w + rotation_w.cross(&state.lever_w),
+                load_w,
+            }
+        });
+        EquilibriumDerivative { translation_w, rotation_w, cables: cables.collect() }
+    }
+}
+
+impl DirectCable {
+    fn new(
+        robot: &Robot,
+        model: StaticModel,
+        i: usize,
+        state: &CableState,
+        change: &CableChange,
+        lever_w: Vec3,
+        gravity_w: &Vec3,
+    ) -> Result<Self, StaticDerivativeError> {
+        let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
+        let material = &robot.cables[i].material;
+        if state.is_slack() {
+            return Err(StaticDerivativeError::Slack { cable: robot.cables[i].name.clone() });
+        }
+        let (stiffness, force_by_length_w) = (hanging.tangent_w(), hanging.force_by_length_w());
+
+        // Straight cables carry no load along them.
+        let counts = model == StaticModel::Catenary;
+        let turn = if counts { robot.line_load_by_chord(i, &state.chord_w()) } else { None };
+        let load_by_chord_w = turn.unwrap_or_else(Mat3::zeros);
+        let force_by_load_w = if counts { hanging.force_by_load_w() } else { Mat3::zeros() };
+
+        let chord_w = change.anchor_w - lever_w;
+        let own_w =
+            robot.gravity_w * change.mass_per_length + gravity_w * material.mass_per_length + change.load_per_length_w;
+        let load_w = if counts { own_w + load_by_chord_w * chord_w } else { Vec3::zeros() };
+
+        // A stiffer rope is strained less: its mean tension is f − ½ L q.
+        let length = state.unstrained_length;
+        let mean_w = state.force_on_platform_w - load_of(state) * (0.5 * length);
+        let by_stiffness_w = stiffness * mean_w * (length / material.axial_stiffness.powi(2));
+
+        let force_w = stiffness * chord_w
+            + force_by_load_w * load_w
+            + force_by_length_w * change.unstrained_length
+            + by_stiffness_w * change.axial_stiffness;
+        Ok(Self {
+            force_w,
+            lever_w,
+            load_w,
+            unstrained_length: change.unstrained_length,
+            force_by_length_w,
+            force_by_chord_w: stiffness + force_by_load_w * load_by_chord_w,
+            load_by_chord_w,
+        })
+    }
+}
+
+/// Load per unstrained length that a cable hangs with, world axes [N/m]; zero for a straight one.
+pub(crate) fn load_of(state: &CableState) -> Vec3 {
+    state.hanging.as_ref().map_or_else(Vec3::zeros, |hanging| {
+        let (_, up_w) = hanging.axes_w();
+        up_w * -hanging.catenary.rope().weight_per_length
+    })
+}
+
+/// Wrench of the moment of a force at a lever arm, without the force.
+fn moment(force: &Vec3, lever: &Vec3) -> Vec6 {
+    let moment = lever.cross(force);
+    Vec6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)
+}
