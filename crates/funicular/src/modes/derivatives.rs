@@ -64,7 +64,7 @@ pub enum FrequencyDerivativeError {
 /// use funicular::robot::{Robot, RobotChange};
 /// use funicular::statics::{self, StaticModel, derivatives::at_held_lengths};
 ///
-/// let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let first = |robot: &Robot| -> Result<_, Box<dyn std::error::Error>> {
 ///     let rest = statics::forward(robot, &lengths, StaticModel::Catenary, None)?;
@@ -344,11 +344,7 @@ mod tests {
 
     #[test]
     fn the_integrals_are_those_of_half_as_many_pieces() {
-        for text in [
-            include_str!("../../../../robots/yuan2014-4mm.toml"),
-            include_str!("../../../../robots/fast.toml"),
-            include_str!("../../../../robots/stadium-camera.toml"),
-        ] {
+        for text in [funicular_robots::YUAN2014_4MM, funicular_robots::FAST, funicular_robots::STADIUM_CAMERA] {
             let robot = Robot::from_toml(text).unwrap();
             let rest = rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
             let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };

@@ -10,7 +10,7 @@ use crate::math::{Mat3, Vec3};
 /// ```
 /// use funicular::robot::{Robot, RobotChange};
 ///
-/// let robot = Robot::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+/// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
 /// let heavier = robot.changed(&RobotChange::of_mass(&robot), 2.0);
 /// assert_eq!(heavier.platform.mass, robot.platform.mass + 2.0); // kg
 /// # Ok::<(), funicular::robot::spec::SpecError>(())

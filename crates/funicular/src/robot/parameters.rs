@@ -175,7 +175,7 @@ fn first_message(reason: &SpecError) -> String {
 /// ```
 /// use funicular::robot::parameters::Parameters;
 ///
-/// let parameters = Parameters::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+/// let parameters = Parameters::from_toml(funicular_robots::COGIRO)?;
 /// let mass = parameters.find(&["platform", "mass_kg"]).unwrap();
 /// assert_eq!(parameters.list()[mass].unit, "kg");
 ///
@@ -269,7 +269,7 @@ impl Parameters {
     /// ```
     /// use funicular::robot::parameters::Parameters;
     ///
-    /// let parameters = Parameters::from_toml(include_str!("../../../../robots/cogiro.toml"))?;
+    /// let parameters = Parameters::from_toml(funicular_robots::COGIRO)?;
     /// let height = parameters.find(&["cables", "1", "anchor_m", "z"]).unwrap();
     /// assert_eq!(parameters.change(height).unwrap().cables[0].anchor_w.z, 1.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

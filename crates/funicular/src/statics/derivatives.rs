@@ -83,7 +83,7 @@ pub struct CableDerivative {
 /// use funicular::robot::{Robot, RobotChange};
 /// use funicular::statics::{self, StaticModel, derivatives};
 ///
-/// let robot = Robot::from_toml(include_str!("../../../../robots/yuan2014-4mm.toml"))?;
+/// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let by_mass = derivatives::at_held_lengths(&robot, &rest, &RobotChange::of_mass(&robot))?;

@@ -51,7 +51,7 @@ fn lengths_of(rest: &Equilibrium) -> Vec<f64> {
 
 /// The robot with a load that has all its parts, and in wind.
 fn loaded() -> Robot {
-    let text = include_str!("../../../../robots/yuan2014-4mm.toml")
+    let text = funicular_robots::YUAN2014_4MM
         .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2");
     let mut robot = Robot::from_toml(&text).unwrap();
     robot.load.force_w = Vec3::new(5.0, -3.0, -8.0);
