@@ -344,11 +344,7 @@ mod tests {
 
     #[test]
     fn the_integrals_are_those_of_half_as_many_pieces() {
-        for text in [
-            funicular_robots::YUAN2014_4MM,
-            funicular_robots::FAST,
-            funicular_robots::STADIUM_CAMERA,
-        ] {
+        for text in [funicular_robots::YUAN2014_4MM, funicular_robots::FAST, funicular_robots::STADIUM_CAMERA] {
             let robot = Robot::from_toml(text).unwrap();
             let rest = rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
             let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
