@@ -103,6 +103,7 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
         let results = run(&request, &mut watch).map_err(|error| watch.or(&error.into()))?;
         match &results {
             Results::Check(found) => json_of(found, analyses::check::Checked::COMMAND),
+            Results::Parameters(found) => json_of(found, analyses::parameters::ParameterList::COMMAND),
             Results::Statics(found) => json_of(found, analyses::statics::Statics::COMMAND),
             Results::Stiffness(found) => json_of(found, analyses::stiffness::Stiffness::COMMAND),
             Results::Modes(found) => json_of(found, analyses::modes::Modes::COMMAND),

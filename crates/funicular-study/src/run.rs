@@ -6,6 +6,7 @@ use crate::analyses::{
     compare::{self, Compared},
     frf,
     modes::{self, Modes},
+    parameters::{self, ParameterList},
     pose_error::{self, PoseErrors},
     reduce::{self, Reduced},
     statics::{self, Statics},
@@ -25,6 +26,7 @@ use serde::Serialize;
 #[expect(missing_docs, reason = "each variant is named after its command and holds its results")]
 pub enum Results {
     Check(Checked),
+    Parameters(ParameterList),
     Statics(Statics),
     Stiffness(Stiffness),
     Modes(Modes),
@@ -54,6 +56,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
     let robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
     Ok(match request {
         Request::Check(_) => Results::Check(check::run(robot()?)),
+        Request::Parameters(of) => Results::Parameters(parameters::run(&of.robot)?),
         Request::Statics(of) => Results::Statics(statics::run(robot()?, of)?),
         Request::Stiffness(of) => Results::Stiffness(stiffness::run(robot()?, of)?),
         Request::Modes(of) => Results::Modes(modes::run(robot()?, of)?),
