@@ -61,10 +61,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Import(args) => import(args),
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
-        Command::Check(args) => {
-            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
-        }
-        Command::Parameters(args) => {
+        Command::Check(args) | Command::Parameters(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
         Command::Statics(args) => {

@@ -51,11 +51,8 @@ pub struct Path {
 impl Path {
     /// The key of the value, whose ending is the unit; of one number of an array that of the array.
     pub fn key(&self) -> &str {
-        let keys = match (&self.keys[..], parameters::component(&self.keys)) {
-            ([keys @ .., _], Some(_)) => keys,
-            (keys, _) => keys,
-        };
-        keys.last().map_or("", String::as_str)
+        let beyond = usize::from(parameters::component(&self.keys).is_some());
+        self.keys.iter().rev().nth(beyond).map_or("", String::as_str)
     }
 
     /// Keys from the root of the file to the value.
