@@ -40,6 +40,12 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular check robots/yuan2014-4mm.toml\n  \
         funicular check robots/cogiro.toml --set platform.mass_kg=300 --format json")]
     Check(CheckArgs),
+    /// Every number of a robot file: path, value, unit, range, meaning
+    ///
+    /// The paths are those of `--set` and of `sweep --vary`. A number that the file leaves out stands there with its default.
+    #[command(after_help = "Examples:\n  funicular parameters robots/yuan2014-4mm.toml\n  \
+        funicular parameters robots/cogiro.toml --set cables.1.anchor_m.z=5.5 --format csv")]
+    Parameters(CheckArgs),
     /// Equilibrium: pose, tensions, sag
     #[command(after_help = "Examples:\n  funicular statics robots/yuan2014-4mm.toml\n  \
         funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \

@@ -7,6 +7,7 @@ mod compare;
 mod frf;
 mod modes;
 mod page;
+mod parameters;
 mod pose_error;
 mod reduce;
 mod request;
@@ -60,7 +61,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Import(args) => import(args),
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
-        Command::Check(args) => {
+        Command::Check(args) | Command::Parameters(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
         Command::Statics(args) => {
@@ -93,6 +94,7 @@ fn request_of(command: &Command) -> Result<Request> {
     let robot = |args: &RobotArgs| robot_file::read(Some(&args.robot), &args.changes);
     Ok(match command {
         Command::Check(args) => Request::Check(requests::CheckRequest { robot: robot(&args.robot)? }),
+        Command::Parameters(args) => Request::Parameters(requests::ParametersRequest { robot: robot(&args.robot)? }),
         Command::Statics(args) => Request::Statics(args.request(robot(&args.robot)?)),
         Command::Stiffness(args) => Request::Stiffness(args.request(robot(&args.robot)?)),
         Command::Modes(args) => Request::Modes(args.request(robot(&args.robot)?)),
@@ -136,6 +138,7 @@ fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<(
 
     match &results {
         Results::Check(found) => sink.write(found),
+        Results::Parameters(found) => sink.write(found),
         Results::Statics(found) => sink.write(found),
         Results::Stiffness(found) => sink.write(found),
         Results::Modes(found) => sink.write(found),

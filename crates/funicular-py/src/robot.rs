@@ -520,6 +520,12 @@ impl PyRobot {
         answers::with_arrays(py, &analyses::check::run((*self.robot).clone()))
     }
 
+    /// Every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`, `range`,
+    /// `minimum`, `maximum`, `meaning` and `given`. The paths are those of `Robot.with_` and of `vary=`.
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Keyed<'py>> {
+        answers::plain(py, &analyses::parameters::run(&self.source).map_err(|error| errors::study(&error))?)
+    }
+
     /// How far the poses of spring and catenary cables are from those of ideal ones, over the mass of the platform.
     ///
     /// Parameters

@@ -17,6 +17,7 @@ DOCUMENT = ROOT / "docs/python.md"
 # What stands for a command, and the callables whose keywords are its options.
 COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "check": ("`robot.check()`", [Robot.check]),
+    "parameters": ("`robot.parameters()`", [Robot.parameters]),
     "statics": ("`robot.equilibrium(…)`", [Robot.equilibrium]),
     "stiffness": ("`robot.equilibrium(…).stiffness(…)`", [Robot.equilibrium, Equilibrium.stiffness]),
     "modes": ("`robot.equilibrium(…).modes(…)`", [Robot.equilibrium, Equilibrium.modes]),

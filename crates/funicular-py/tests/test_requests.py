@@ -116,7 +116,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 
 # Results of these are compared; the others make pages and files, or rows, which have tests of their own.
-COMPUTED = ("check", "statics", "stiffness", "modes", "frf", "compare", "pose-error", "cable", "reduce")
+COMPUTED = ("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "pose-error", "cable", "reduce")
 
 
 def plain(found: Any) -> Any:

@@ -8,6 +8,7 @@ pub mod check;
 pub mod compare;
 pub mod frf;
 pub mod modes;
+pub mod parameters;
 pub mod pose_error;
 pub mod reduce;
 pub mod shared;

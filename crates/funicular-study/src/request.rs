@@ -32,6 +32,8 @@ pub const SCHEMA: &str = "funicular-request/1";
 pub enum Request {
     /// The robot file, checked.
     Check(CheckRequest),
+    /// Every number of the robot file.
+    Parameters(ParametersRequest),
     /// Equilibrium: pose, tensions, sag.
     Statics(StaticsRequest),
     /// The 6×6 stiffness at one frequency.
@@ -71,6 +73,13 @@ pub enum Request {
 /// Request of `check`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CheckRequest {
+    /// The robot file.
+    pub robot: RobotText,
+}
+
+/// Request of `parameters`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ParametersRequest {
     /// The robot file.
     pub robot: RobotText,
 }
@@ -382,6 +391,7 @@ impl Request {
     pub fn command(&self) -> &'static str {
         match self {
             Self::Check(_) => "check",
+            Self::Parameters(_) => "parameters",
             Self::Statics(_) => "statics",
             Self::Stiffness(_) => "stiffness",
             Self::Modes(_) => "modes",
@@ -406,6 +416,7 @@ impl Request {
     pub fn robot(&self) -> Option<&RobotText> {
         match self {
             Self::Check(request) => Some(&request.robot),
+            Self::Parameters(request) => Some(&request.robot),
             Self::Statics(request) => Some(&request.robot),
             Self::Stiffness(request) => Some(&request.robot),
             Self::Modes(request) => Some(&request.robot),

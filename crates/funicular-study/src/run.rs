@@ -6,6 +6,7 @@ use crate::analyses::{
     compare::{self, Compared},
     frf,
     modes::{self, Modes},
+    parameters::{self, ParameterList},
     pose_error::{self, PoseErrors},
     reduce::{self, Reduced},
     statics::{self, Statics},
@@ -27,6 +28,7 @@ use serde::Serialize;
 #[expect(missing_docs, reason = "each variant is named after its command and holds its results")]
 pub enum Results {
     Check(Checked),
+    Parameters(ParameterList),
     Statics(Statics),
     Stiffness(Stiffness),
     Modes(Modes),
@@ -46,6 +48,7 @@ impl Results {
     pub fn to_json(&self, words: Words) -> Result<Vec<u8>, Error> {
         match self {
             Self::Check(found) => json::of_results(found, words),
+            Self::Parameters(found) => json::of_results(found, words),
             Self::Statics(found) => json::of_results(found, words),
             Self::Stiffness(found) => json::of_results(found, words),
             Self::Modes(found) => json::of_results(found, words),
@@ -77,6 +80,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
     let robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
     Ok(match request {
         Request::Check(_) => Results::Check(check::run(robot()?)),
+        Request::Parameters(of) => Results::Parameters(parameters::run(&of.robot)?),
         Request::Statics(of) => Results::Statics(statics::run(robot()?, of)?),
         Request::Stiffness(of) => Results::Stiffness(stiffness::run(robot()?, of)?),
         Request::Modes(of) => Results::Modes(modes::run(robot()?, of)?),

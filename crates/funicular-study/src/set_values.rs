@@ -1,8 +1,9 @@
 //! `PATH=VALUE`: changes the text of a robot file before it is read, so that every check of the reader holds and its
-//! errors point at the changed line.
+//! errors point at the changed line. A path may end at one number of an array: `cables.1.anchor_m.z`.
 
 use crate::names::{listed, suggestion};
 use crate::request::Change;
+use funicular::robot::parameters::{self, ComponentOfKey};
 use std::str::FromStr;
 use thiserror::Error;
 use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
@@ -48,9 +49,15 @@ pub struct Path {
 }
 
 impl Path {
-    /// The last key, whose ending is the unit.
-    pub fn last(&self) -> &str {
-        self.keys.last().map_or("", String::as_str)
+    /// The key of the value, whose ending is the unit; of one number of an array that of the array.
+    pub fn key(&self) -> &str {
+        let beyond = usize::from(parameters::component(&self.keys).is_some());
+        self.keys.iter().rev().nth(beyond).map_or("", String::as_str)
+    }
+
+    /// Keys from the root of the file to the value.
+    pub(crate) fn keys(&self) -> &[String] {
+        &self.keys
     }
 
     /// Whether another leads to the same value, however it is quoted.
@@ -196,7 +203,13 @@ pub fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
 }
 
 fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
-    let Some((key, parents)) = assignment.path.split_last() else { bail!("the path is empty") };
+    let Some((mut key, mut parents)) = assignment.path.split_last() else { bail!("the path is empty") };
+    let component = parameters::component(&assignment.path).map(|component| (component, key));
+    if component.is_some()
+        && let Some(of_array) = parents.split_last()
+    {
+        (key, parents) = of_array;
+    }
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parents = parents.iter();
     let mut walked: Vec<&str> = Vec::new();
@@ -220,7 +233,53 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
             }
         };
     }
-    put(table, key, in_lines, assignment)
+    match component {
+        None => put(table, key, in_lines, assignment, assignment.value.clone()),
+        Some((component, name)) => {
+            let value = with_component(table.get(key), &component, key, name, &assignment.value)?;
+            put(table, key, in_lines, assignment, value)
+        }
+    }
+}
+
+/// The array of a key with another number in it.
+fn with_component(
+    item: Option<&Item>,
+    component: &ComponentOfKey,
+    key: &str,
+    name: &str,
+    number: &Value,
+) -> Result<Value> {
+    let mut array = match (item.map(Item::as_value), component.default) {
+        (Some(Some(Value::Array(array))), _) => array.clone(),
+        (None, Some(default)) => default.into_iter().collect(),
+        (None, None) => bail!("the robot file has no `{key}` there: give the whole of it"),
+        (Some(_), _) => bail!("`{key}` is no array in the robot file, it has no `{name}`"),
+    };
+    let ComponentOfKey { row, column, .. } = *component;
+    let count = array.len();
+    let Some(element) = array.get_mut(row) else { bail!("`{key}` has {count} elements, it has no `{name}`") };
+    match (element.is_array(), column) {
+        (true, Some(column)) => {
+            for (row, column) in [(row, column), (column, row)] {
+                let entry = array.get_mut(row).and_then(Value::as_array_mut).and_then(|row| row.get_mut(column));
+                let Some(entry) = entry else { bail!("`{key}` has no `{name}` in the robot file") };
+                replace(entry, number);
+            }
+        }
+        (false, Some(column)) if column != row => {
+            bail!("`{key}` has the principal moments only, no `{name}`: give three rows of three numbers")
+        }
+        _ => replace(element, number),
+    }
+    Ok(Value::Array(array))
+}
+
+/// Puts a number in the place of another, with the space around it.
+fn replace(element: &mut Value, number: &Value) {
+    let decor = element.decor().clone();
+    *element = number.clone();
+    *element.decor_mut() = decor;
 }
 
 /// The cable of that name, in `[[cables]]` or `cables = [{ … }]`.
@@ -244,8 +303,7 @@ fn cable<'d>(item: &'d mut Item, name: &str) -> Result<&'d mut dyn TableLike> {
     bail!("the robot file has no cable \"{name}\"{}", suggestion(name, &names))
 }
 
-fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assignment) -> Result<()> {
-    let mut value = assignment.value.clone();
+fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assignment, mut value: Value) -> Result<()> {
     if in_lines {
         // An error shows the line, and so where it comes from.
         let origin: String = assignment.text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
@@ -299,6 +357,31 @@ mod tests {
     #[test]
     fn a_bare_word_is_text_and_a_new_key_is_left_to_the_reader() {
         assert!(set("platform.freedoms=point-mass").unwrap().contains("freedoms = \"point-mass\""));
+    }
+
+    #[test]
+    fn one_number_of_an_array_is_set_and_the_others_stay() {
+        let file =
+            "gravity_m_s2 = [0, 0, -10]\n[platform]\ninertia_kg_m2 = [[1, 2, 3], [2, 4, 5], [3, 5, 6]]\n[wind]\n";
+        let set = |file: &str, text: &str| apply(file, &[assignment(text).unwrap()]).map_err(|error| error.to_string());
+        assert!(
+            set(file, "gravity_m_s2.z=-1.6")
+                .unwrap()
+                .contains("gravity_m_s2 = [0, 0, -1.6] # set: gravity_m_s2.z=-1.6\n")
+        );
+        assert!(set(file, "platform.inertia_kg_m2.xz=9").unwrap().contains("[[1, 2, 9], [2, 4, 5], [9, 5, 6]]"));
+        // A vector that the file leaves out begins with its default.
+        assert!(set(file, "platform.center_of_mass_m.x=0.1").unwrap().contains("center_of_mass_m = [0.1, 0.0, 0.0]"));
+        assert!(set("", "gravity_m_s2.x=1").unwrap().contains("gravity_m_s2 = [1, 0.0, -9.81]"));
+
+        assert!(set(file, "wind.velocity_m_s.x=3").unwrap_err().contains("give the whole of it"));
+        assert!(
+            set("[platform]\ninertia_kg_m2 = [1, 2, 3]", "platform.inertia_kg_m2.xy=1")
+                .unwrap_err()
+                .contains("principal")
+        );
+        assert!(set("gravity_m_s2 = 3", "gravity_m_s2.x=3").unwrap_err().contains("no array"));
+        assert!(set("gravity_m_s2 = []", "gravity_m_s2.x=3").unwrap_err().contains("0 elements"));
     }
 
     #[test]

@@ -137,8 +137,9 @@ fn the_robot_file_is_never_overwritten() {
 }
 
 /// Every command that writes, with `OUT` for the file that it writes to.
-const WRITERS: [&str; 17] = [
+const WRITERS: [&str; 18] = [
     "check ROBOT -o OUT",
+    "parameters ROBOT -o OUT",
     "statics ROBOT -o OUT",
     "stiffness ROBOT -o OUT",
     "modes ROBOT --below-hz 1 -o OUT",

@@ -5,8 +5,9 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 13] = [
+    let lines: [&[&str]; 14] = [
         &["check", &cogiro],
+        &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
         &["statics", "ROBOT", "--set", "platform.mass_kg=20", "--force-n", "1,-2,0", "--load-point-m", "0.1,0,0"],
         &["statics", "ROBOT", "--all"],
@@ -69,7 +70,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
         (String::new(), "the request is no JSON"),
         ("[]".to_owned(), "a request is a JSON object"),
         (r#"{"robot": {"text": ""}}"#.to_owned(), "it has no `command`"),
-        (r#"{"command": "static"}"#.to_owned(), "expected one of `check`, `statics`"),
+        (r#"{"command": "static"}"#.to_owned(), "expected one of `check`, `parameters`, `statics`"),
         (r#"{"command": "statics"}"#.to_owned(), "missing field `robot`"),
         (
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "poze": [0, 0, 1]}}"#),

@@ -7,6 +7,7 @@ use serde_json::Value;
 fn every_json_names_schema_command_and_robot_and_holds_no_null() {
     for line in [
         "check ROBOT",
+        "parameters ROBOT",
         "statics ROBOT",
         "statics ROBOT --static-model ideal",
         "stiffness ROBOT --at-hz 2",
@@ -102,4 +103,21 @@ fn a_list_without_modes_says_so_without_an_empty_table() {
     let compared = succeed(&["compare", "ROBOT", "--below-hz", "0.5"]);
     assert!(compared.contains("no modes, as the reference") && !compared.contains("[Hz]"), "{compared}");
     assert!(text.contains("0 peaks") && !text.contains("peak [Hz]"), "{text}");
+}
+
+#[test]
+fn every_listed_parameter_is_one_that_set_takes_and_its_value_changes_nothing() {
+    for robot in [robot("cogiro.toml"), robot("kntu-planar.toml"), "ROBOT".to_owned()] {
+        let listed = json(&["parameters", &robot]);
+        let rows = listed["parameters"].as_array().unwrap();
+        assert!(rows.len() > 40, "{robot}: {}", rows.len());
+        let changes: Vec<String> =
+            rows.iter().map(|row| format!("--set={}={}", row["path"].as_str().unwrap(), row["value"])).collect();
+        let set: Vec<&str> = ["check", robot.as_str()].into_iter().chain(changes.iter().map(String::as_str)).collect();
+        assert_eq!(json(&set), json(&["check", &robot]));
+        for row in rows {
+            let [value, minimum, maximum] = ["value", "minimum", "maximum"].map(|key| row[key].as_f64().unwrap());
+            assert!((minimum..=maximum).contains(&value), "{row}");
+        }
+    }
 }

@@ -627,6 +627,11 @@ class Robot:
         """
         What the robot is called.
         """
+    def parameters(self, /) -> dict[str, Any]:
+        """
+        Every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`, `range`,
+        `minimum`, `maximum`, `meaning` and `given`. The paths are those of `Robot.with_` and of `vary=`.
+        """
     def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> dict[str, Any]:
         """
         How far the poses of spring and catenary cables are from those of ideal ones, over the mass of the platform.

@@ -3,6 +3,7 @@
 use crate::set_values::{self, Assignment};
 use crate::sweep::{Column, Kind, Point, Points, Steps, digits};
 use funicular::robot::Robot;
+use funicular::robot::parameters::Parameters;
 use std::borrow::Cow;
 
 /// One value of the robot file that varies.
@@ -34,6 +35,9 @@ type Adjust = Box<dyn Fn(Robot) -> Result<Robot, String> + Send + Sync>;
 pub struct RobotValues {
     text: String,
     axes: Vec<ValueAxis>,
+    /// The file with the values of the first point, and the place of each axis among its numbers. `None` where an axis is
+    /// no number there; then every robot is read from a text of its own.
+    numbers: Option<(Parameters, Vec<usize>)>,
     adjust: Adjust,
 }
 
@@ -52,7 +56,7 @@ impl RobotValues {
                 return Err(format!("{OPTION} {} has the value {value} twice: leave one out", axis.path.text));
             }
         }
-        let variations = Self { text, axes, adjust };
+        let mut variations = Self { text, axes, numbers: None, adjust };
         for axis in &variations.axes {
             let tried = match &axis.steps {
                 Steps::Range { from, to, .. } => vec![*from, *to],
@@ -74,7 +78,16 @@ impl RobotValues {
                 ));
             }
         }
+        variations.numbers = variations.find_numbers();
         Ok(variations)
+    }
+
+    /// The numbers that vary, in a text that has all of them: the one of the first point.
+    fn find_numbers(&self) -> Option<(Parameters, Vec<usize>)> {
+        let text = set_values::apply(&self.text, &self.assignments(&self.values(0))).ok()?;
+        let parameters = Parameters::from_toml(&text).ok()?;
+        let places = self.axes.iter().map(|axis| parameters.find(axis.path.keys())).collect::<Option<Vec<_>>>()?;
+        Some((parameters, places))
     }
 
     /// The values that vary.
@@ -87,9 +100,22 @@ impl RobotValues {
     /// # Errors
     /// What is wrong with it.
     pub fn first(&self) -> Result<Robot, String> {
-        self.robot(&self.at(0).1)
+        self.robot_at(&self.values(0))
     }
 
+    /// The robot with these values, one per axis. By numbers where that succeeds; a robot that cannot be is read from its
+    /// text, whose error names line and column.
+    fn robot_at(&self, values: &[f64]) -> Result<Robot, String> {
+        if let Some((parameters, places)) = &self.numbers {
+            let changes: Vec<(usize, f64)> = places.iter().copied().zip(values.iter().copied()).collect();
+            if let Ok(robot) = parameters.robot_with(&changes) {
+                return (self.adjust)(robot);
+            }
+        }
+        self.robot(&self.assignments(values))
+    }
+
+    /// The robot of a text with these values.
     fn robot(&self, assignments: &[Assignment]) -> Result<Robot, String> {
         let text = set_values::apply(&self.text, assignments).map_err(|error| error.to_string())?;
         let robot = Robot::from_toml(&text).map_err(|error| {
@@ -101,15 +127,14 @@ impl RobotValues {
         (self.adjust)(robot)
     }
 
-    fn at(&self, i: usize) -> (Vec<f64>, Vec<Assignment>) {
+    /// The values of a point, one per axis.
+    fn values(&self, i: usize) -> Vec<f64> {
         let digits = digits(i, self.axes.iter().map(|axis| axis.steps.count()));
-        digits
-            .zip(&self.axes)
-            .map(|(digit, axis)| {
-                let value = axis.steps.at(digit);
-                (value, axis.path.with(OPTION, value))
-            })
-            .unzip()
+        digits.zip(&self.axes).map(|(digit, axis)| axis.steps.at(digit)).collect()
+    }
+
+    fn assignments(&self, values: &[f64]) -> Vec<Assignment> {
+        self.axes.iter().zip(values).map(|(axis, value)| axis.path.with(OPTION, *value)).collect()
     }
 }
 
@@ -123,7 +148,7 @@ impl Points for RobotValues {
             .iter()
             .map(|axis| Column {
                 name: axis.path.text.clone(),
-                unit: unit(axis.path.last()).into(),
+                unit: unit(axis.path.key()).into(),
                 about: "value of the robot file".to_owned(),
                 kind: Kind::Real,
             })
@@ -131,8 +156,8 @@ impl Points for RobotValues {
     }
 
     fn point(&self, i: usize) -> Point<'_> {
-        let (coordinates, assignments) = self.at(i);
-        let robot = self.robot(&assignments).map(|robot| {
+        let coordinates = self.values(i);
+        let robot = self.robot_at(&coordinates).map(|robot| {
             let state = robot.state.clone();
             (Cow::Owned(robot), Cow::Owned(state))
         });
@@ -166,6 +191,8 @@ fn unit(key: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use funicular::robot::parameters::ParameterError;
+    use funicular::robot::spec::SpecError;
 
     #[test]
     fn the_unit_is_the_one_that_ends_the_key() {
@@ -184,6 +211,80 @@ mod tests {
         ] {
             assert_eq!(unit(key), expected, "{key}");
         }
+    }
+
+    /// Every number of every robot of the library, one after the other and in pairs, with values inside and outside its
+    /// range: the robot with the number in its place is the one that is read from the text with the number in it, bit for
+    /// bit, and both ways refuse the same robots with the same words.
+    #[test]
+    fn numbers_in_place_and_numbers_in_the_text_make_the_same_robots() {
+        let (mut equal, mut refused) = (0, 0);
+        for file in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots")).unwrap() {
+            let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
+            let parameters = Parameters::from_toml(&text).unwrap();
+            let list = parameters.list();
+            assert!(list.len() > 20, "{text}");
+            let mut random = 20_140_531_u64;
+            let mut next = |count: u64| {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (random >> 33) % count
+            };
+            for (i, parameter) in list.iter().enumerate().filter(|(_, parameter)| parameter.given) {
+                assert_eq!(parameters.robot_with(&[(i, parameter.value)]).as_ref(), Ok(parameters.robot()));
+                let factor = 1.0 + next(1_000_000) as f64 * 1e-6;
+                for value in [parameter.value * factor, parameter.value + 0.1, -factor, 0.0, 1e-13, 0.7, 3e12, f64::NAN]
+                {
+                    let other = next(list.len() as u64) as usize;
+                    let mut changes = vec![(i, value)];
+                    if other != i && list[other].given {
+                        changes.push((other, list[other].value * factor));
+                    }
+                    let path = |at: usize| set_values::path(&list[at].path()).unwrap();
+                    let assignments: Vec<_> =
+                        changes.iter().map(|(at, value)| path(*at).with(OPTION, *value)).collect();
+                    let edited = Robot::from_toml(&set_values::apply(&text, &assignments).unwrap());
+                    match (parameters.robot_with(&changes), edited) {
+                        // Equal as text, too: zeros of both signs are equal, and their texts are not.
+                        (Ok(one), Ok(other)) => {
+                            assert_eq!(format!("{one:?}"), format!("{other:?}"));
+                            equal += 1;
+                        }
+                        (Err(ParameterError::Refused { reason, .. }), Err(other)) => {
+                            let words = |error: &SpecError| -> Vec<_> {
+                                error.issues().iter().map(|issue| (issue.message.clone(), issue.help.clone())).collect()
+                            };
+                            assert_eq!(words(&reason), words(&other));
+                            refused += 1;
+                        }
+                        (one, other) => panic!("{changes:?}: {one:?} and {other:?}"),
+                    }
+                }
+            }
+        }
+        assert!(equal > 1000 && refused > 1000, "{equal} {refused}");
+    }
+
+    /// The robots of a sweep are those of the text way, which a value that is no number of the file still takes.
+    #[test]
+    fn a_sweep_over_numbers_has_the_robots_of_the_edited_texts() {
+        let text = funicular_robots::COGIRO;
+        // The second is not in the file, and neither are the limits of a cable, which exclude each other in some rows.
+        let axes = [
+            ("cables.1.anchor_m.z", Steps::range(5.0, 6.0, 3)),
+            ("platform.translational_damping_n_s_m.x", Steps::range(0.0, 0.2, 2)),
+            ("cables.2.minimum_tension_n", Steps::range(10.0, 400.0, 3)),
+            ("cables.2.maximum_tension_n", Steps::range(300.0, 1000.0, 3)),
+        ];
+        let axes = axes.map(|(path, steps)| ValueAxis::new(path, steps.unwrap()).unwrap()).to_vec();
+        let sweep = RobotValues::new(text.to_owned(), axes, Box::new(Ok)).unwrap();
+        assert!(sweep.numbers.is_some());
+        let (mut robots, mut refusals) = (0, 0);
+        for i in 0..sweep.count() {
+            let by_text = sweep.robot(&sweep.assignments(&sweep.values(i)));
+            assert_eq!(sweep.robot_at(&sweep.values(i)), by_text);
+            if by_text.is_ok() { robots += 1 } else { refusals += 1 }
+        }
+        assert!(robots > 0 && refusals > 0, "{robots} {refusals}");
     }
 
     #[test]

@@ -235,7 +235,7 @@ impl<'t> Reader<'t> {
         if let Some(number) = self.beside(&span).filter(|_| self.numbers.changed.contains(&span.start)) {
             // As a TOML file has it.
             let whole = if number % 1.0 == 0.0 { ".0" } else { "" };
-            return shortened(&format!("{number}{whole}"));
+            return shortened(&format!("{number}{whole}").to_lowercase());
         }
         shortened(self.text.get(span).unwrap_or("?").trim())
     }
