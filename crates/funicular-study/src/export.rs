@@ -109,8 +109,10 @@ fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>)
         modes::lowest(robot, equilibrium, Linearisation::default(), count, HIGHEST_HZ)
     };
     let (_, list) = match lowest(count) {
+        // A cable without tension keeps its own error, which says that there is no solution.
+        Err(LowestError::Dynamics(error)) => return Err(error.into()),
         Err(LowestError::TooFew { found, .. }) => lowest(found)?,
-        other => other?,
+        Ok(found) => found,
     };
     warnings.extend(list.doubt());
     Ok(list.modes.iter().take(count).map(|mode| mode.frequency_hz).collect())

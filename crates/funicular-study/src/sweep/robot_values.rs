@@ -219,9 +219,8 @@ mod tests {
     #[test]
     fn numbers_in_place_and_numbers_in_the_text_make_the_same_robots() {
         let (mut equal, mut refused) = (0, 0);
-        for file in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots")).unwrap() {
-            let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
-            let parameters = Parameters::from_toml(&text).unwrap();
+        for (_, text) in funicular_robots::ALL {
+            let parameters = Parameters::from_toml(text).unwrap();
             let list = parameters.list();
             assert!(list.len() > 20, "{text}");
             let mut random = 20_140_531_u64;
@@ -242,7 +241,7 @@ mod tests {
                     let path = |at: usize| set_values::path(&list[at].path()).unwrap();
                     let assignments: Vec<_> =
                         changes.iter().map(|(at, value)| path(*at).with(OPTION, *value)).collect();
-                    let edited = Robot::from_toml(&set_values::apply(&text, &assignments).unwrap());
+                    let edited = Robot::from_toml(&set_values::apply(text, &assignments).unwrap());
                     match (parameters.robot_with(&changes), edited) {
                         // Equal as text, too: zeros of both signs are equal, and their texts are not.
                         (Ok(one), Ok(other)) => {

@@ -121,7 +121,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Path as `--set` takes it: keys with dots between them, in quotes where they hold more than letters, digits, _ and -.
+    /// Path as changes of a robot file take it: keys with dots between them, in quotes where they hold more than letters, digits, _ and -.
     pub fn path(&self) -> String {
         let bare =
             |key: &str| !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');

@@ -215,9 +215,8 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
 #[test]
 fn a_parameter_changes_the_robot_as_its_number_in_the_file_does() {
     let mut compared = 0;
-    for file in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots")).unwrap() {
-        let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
-        let parameters = Parameters::from_toml(&text).unwrap();
+    for (_, text) in funicular_robots::ALL {
+        let parameters = Parameters::from_toml(text).unwrap();
         for (i, parameter) in parameters.list().iter().enumerate().filter(|(_, parameter)| parameter.given) {
             let Some(change) = parameters.change(i) else { continue };
             let step = if parameter.value == 0.0 { 1e-6 } else { 1e-6 * parameter.value.abs() };
