@@ -82,12 +82,12 @@ class Robot:
             self.file = tomllib.loads(self.path.read_text())
         self.statics = json.loads(self.run("statics", "--format", "json"))
         platform = self.file["platform"]
-        freedoms = platform.get("freedoms", "rigid")
-        self.is_point = freedoms == "point-mass"
+        motion = platform.get("motion", "rigid")
+        self.is_point = degrees of freedom == "point-mass"
         # Components that MoorPy's platform has; it knows no other plane.
         self.components = {
             "rigid": [0, 1, 2, 3, 4, 5], "point-mass": [0, 1, 2], "planar-xy": [0, 1, 5], "planar-xz": [0, 2, 4], "planar-yz": [1, 2, 3],
-        }.get(freedoms)  # fmt: skip
+        }.get(degrees of freedom)  # fmt: skip
         self.mass = platform["mass_kg"]
         self.center = np.array(platform.get("center_of_mass_m", [0.0, 0.0, 0.0]))
         self.position = np.array(self.statics["pose"]["position_m"])
@@ -141,8 +141,8 @@ def tilted(file):
     def table(values):
         return "".join(f"{key} = {json.dumps(value)}\n" for key, value in values.items())
 
-    assert file["platform"]["freedoms"] == "planar-xy" and not any(file["platform"]["center_of_mass_m"])
-    platform = file["platform"] | {"freedoms": "planar", "plane_normal": turned([0, 0, 1])}
+    assert file["platform"]["motion"] == "planar-xy" and not any(file["platform"]["center_of_mass_m"])
+    platform = file["platform"] | {"motion": "planar", "plane_normal": turned([0, 0, 1])}
     text = f'name = "tilted"\n[platform]\n{table(platform)}'
     text += "".join(f"[materials.{name}]\n{table(rope)}" for name, rope in file["materials"].items())
     for cable in file["cables"]:

@@ -233,7 +233,7 @@ pub(crate) struct LoadArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct ModelArgs {
-    /// How cables answer motion of the platform [default: exact; closed-form for static models other than catenary]
+    /// How cables answer motion of the platform [default: catenary-dynamic; shallow-dynamic for static models other than catenary]
     #[arg(long, value_name = "MODEL", value_enum)]
     pub(crate) cable_model: Option<CableModelName>,
     #[command(flatten)]
@@ -310,17 +310,17 @@ pub(crate) struct StaticsArgs {
     pub(crate) output: OutputArgs,
 }
 
-/// Which tensions a robot with more cables than freedoms has at a pose.
+/// Which tensions a robot with more cables than degrees of freedom has at a pose.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Tensions")]
 pub(crate) struct TensionArgs {
-    /// Which of the tensions that hold a pose: more cables than freedoms leave a choice [default: lowest]
+    /// Which of the tensions that hold a pose: more cables than degrees of freedom leave a choice [default: lowest]
     #[arg(long, value_name = "RULE", value_enum)]
     pub(crate) tension_rule: Option<TensionRuleName>,
 
     /// Tension that cables shall be near to [N], one for all or one a cable in file order; the rule is then closest
     #[arg(long, value_name = "T|T1,T2,…", value_parser = values::tensions, allow_hyphen_values = true)]
-    pub(crate) wanted_tension_n: Option<Tensions>,
+    pub(crate) target_tension_n: Option<Tensions>,
 
     /// Least tension anywhere in a cable [N] [default: as the robot file says, or 2.5 times the cable's weight]
     #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
@@ -511,7 +511,7 @@ pub(crate) struct CableArgs {
     #[command(flatten)]
     pub(crate) state: StateArgs,
 
-    /// How the cable answers motion of its platform end [default: exact; closed-form for static models other than catenary]
+    /// How the cable answers motion of its platform end [default: catenary-dynamic; shallow-dynamic for static models other than catenary]
     #[arg(long, value_name = "MODEL", value_enum)]
     pub(crate) cable_model: Option<CableModelName>,
 
@@ -593,7 +593,7 @@ pub(crate) enum Format {
 pub(crate) enum TensionRuleName {
     /// Least sum of squares of the tensions above their minimum
     Lowest,
-    /// Least sum of squares of the differences from --wanted-tension-n
+    /// Least sum of squares of the differences from --target-tension-n
     Closest,
     /// Farthest from the limits, relative to the distance between them
     Middle,
@@ -627,13 +627,13 @@ impl From<StaticModelName> for StaticModel {
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum CableModelName {
     /// Vibration about the elastic catenary: any sag, axial waves included
-    Exact,
+    CatenaryDynamic,
     /// Dynamic stiffness of a shallow sagging cable (Starossek 1991)
-    ClosedForm,
+    ShallowDynamic,
     /// Static stiffness of a shallow sagging cable (Irvine 1981)
-    StaticSag,
+    ShallowStatic,
     /// Exact static stiffness of the elastic catenary
-    CatenaryTangent,
+    CatenaryStatic,
     /// Massless spring along the chord
     Spring,
 }
@@ -641,10 +641,10 @@ pub(crate) enum CableModelName {
 impl From<CableModelName> for CableModel {
     fn from(name: CableModelName) -> Self {
         match name {
-            CableModelName::Exact => Self::Exact,
-            CableModelName::ClosedForm => Self::ClosedForm,
-            CableModelName::StaticSag => Self::StaticSag,
-            CableModelName::CatenaryTangent => Self::CatenaryTangent,
+            CableModelName::CatenaryDynamic => Self::CatenaryDynamic,
+            CableModelName::ShallowDynamic => Self::ShallowDynamic,
+            CableModelName::ShallowStatic => Self::ShallowStatic,
+            CableModelName::CatenaryStatic => Self::CatenaryStatic,
             CableModelName::Spring => Self::Spring,
         }
     }
@@ -657,14 +657,14 @@ pub(crate) enum AssemblyName {
     #[default]
     Consistent,
     /// End stiffness only
-    Paper,
+    WithoutGeometricStiffness,
 }
 
 impl From<AssemblyName> for Assembly {
     fn from(name: AssemblyName) -> Self {
         match name {
             AssemblyName::Consistent => Self::Consistent,
-            AssemblyName::Paper => Self::Paper,
+            AssemblyName::WithoutGeometricStiffness => Self::WithoutGeometricStiffness,
         }
     }
 }

@@ -3,8 +3,8 @@
 use crate::args::{Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_files::Guard;
+use funicular_files::atomic_file::{Temporary, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
-use funicular_files::whole::{Temporary, is_regular_or_new};
 use funicular_study::analyses::Found;
 use funicular_study::{NoSolution, json};
 use std::fs;

@@ -3,7 +3,7 @@
 use crate::args::values::finite;
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::{PlatformMotion, Robot};
 use std::fs;
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
             *value = finite(record.get(place).unwrap_or_default())
                 .map_err(|reason| anyhow!("{shown}, line {}, column `{column}`: {reason}", line()))?;
         }
-        if robot.platform.freedoms == Freedoms::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
+        if robot.platform.motion == PlatformMotion::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
             bail!("{shown}, line {}: a point mass has no orientation; leave out the angles", line());
         }
         poses.push(pose);

@@ -9,10 +9,10 @@
 
 #[cfg(feature = "parquet")]
 pub mod arrow;
+pub mod atomic_file;
 mod csv;
 pub mod endings;
 mod guard;
-mod job;
 mod journal;
 mod merge;
 #[cfg(feature = "parquet")]
@@ -20,19 +20,19 @@ mod parquet;
 #[cfg(not(feature = "parquet"))]
 #[path = "without_parquet.rs"]
 mod parquet;
-mod read;
+mod reader;
+mod resumable_writer;
 #[cfg(feature = "parquet")]
 mod sealed;
 #[cfg(feature = "parquet")]
 pub mod table;
 pub mod threads;
 mod vti;
-pub mod whole;
 
 pub use guard::Guard;
-pub use job::{Begin, Job, Opened};
 pub use merge::merge;
-pub use read::SweepFile;
+pub use reader::SweepFile;
+pub use resumable_writer::{Begin, Job, Opened};
 #[cfg(feature = "parquet")]
 pub use table::Table;
 pub use threads::Outcome;

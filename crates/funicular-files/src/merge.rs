@@ -1,7 +1,7 @@
 //! Parts become the file that one run would have written.
 
 use crate::parquet::ParquetFile;
-use crate::{FilesError, Format, Guard, Rows, behind_link, job, write_whole};
+use crate::{FilesError, Format, Guard, Rows, behind_link, resumable_writer, write_whole};
 use funicular_study::sweep::{Chunk, Column, Kind, Part, Record, SCHEMA};
 use serde_json::Value;
 use std::collections::HashSet;
@@ -27,7 +27,7 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
         return Err(FilesError::Parts("there are no parts to merge".to_owned()));
     };
     let record = record_of(first, first_path)?;
-    job::check_place(to, format, &record)?;
+    resumable_writer::check_place(to, format, &record)?;
     let mut found: Vec<(Part, ParquetFile)> = Vec::with_capacity(files.len());
     for (path, file) in files {
         found.push((checked(&record, path, &file, &found)?, file));

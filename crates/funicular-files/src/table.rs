@@ -141,7 +141,7 @@ impl Table {
     /// [`FilesError`]: a place that cannot be written, or a format that does not fit.
     pub fn write(&self, path: &Path) -> Result<(), FilesError> {
         let format = Format::of(path)?;
-        crate::job::check_place(path, format, &self.record)?;
+        crate::resumable_writer::check_place(path, format, &self.record)?;
         if format == Format::Vti && !self.is_complete() {
             let reason = "an image has no holes, and rows are missing".to_owned();
             return Err(FilesError::NoImage { path: path.to_owned(), reason });

@@ -25,7 +25,7 @@ left.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1))
 
 rest = funicular.Robot.example().equilibrium(pose=[0, 0, 0.5])
 hz = np.linspace(0.3, 12, 3000)
-for label, model in (("exact", "exact"), ("massless springs", "spring")):
+for label, model in (("catenary-dynamic", "catenary-dynamic"), ("massless springs", "spring")):
     right.semilogy(hz, abs(rest.frf(hz, input="fz", output="az", cable_model=model)), label=label, linewidth=0.9)
 right.set(xlabel="frequency [Hz]", ylabel="$|a_z/f_z|$ [1/kg]", xlim=(0.3, 12))
 right.legend(loc="lower right")

@@ -2,7 +2,7 @@
 
 use crate::arrays::Keyed;
 use crate::errors;
-use crate::waiting::{interruptible, look};
+use crate::interrupt::{interruptible, look};
 use funicular_files::whole::{Temporary, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;

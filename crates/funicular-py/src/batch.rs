@@ -1,11 +1,11 @@
 //! Many states of one robot, side by side.
 
 use crate::arrays::{Matrix, Numbers, Vector};
-use crate::equilibrium::least_stiffness;
+use crate::equilibrium::min_stiffness;
 use crate::errors;
+use crate::interrupt::{look, on_threads};
 use crate::pose;
 use crate::threads::Threads;
-use crate::waiting::{look, on_threads};
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
@@ -97,7 +97,7 @@ struct Found {
     cables: Vec<[f64; 4]>,
     residual: f64,
     stable: bool,
-    least_stiffness: f64,
+    min_stiffness: f64,
     distance: f64,
 }
 
@@ -117,7 +117,7 @@ impl Found {
             cables: cables.collect(),
             residual: equilibrium.residual,
             stable: matches!(equilibrium.stability, Stability::Stable { .. }),
-            least_stiffness: least_stiffness(&equilibrium.stability).unwrap_or(f64::NAN),
+            min_stiffness: min_stiffness(&equilibrium.stability).unwrap_or(f64::NAN),
             distance: instead_of.map_or(f64::NAN, |(_, distance)| distance),
         }
     }
@@ -181,7 +181,7 @@ struct Columns {
     of_cables: [Vec<f64>; 4],
     residual: Vec<f64>,
     stable: Vec<bool>,
-    least_stiffness: Vec<f64>,
+    min_stiffness: Vec<f64>,
     distance: Vec<f64>,
     status: Vec<&'static str>,
     reason: Vec<String>,
@@ -199,7 +199,7 @@ impl Columns {
             of_cables: [(); 4].map(|()| nan(cables)),
             residual: nan(1),
             stable: vec![false; count],
-            least_stiffness: nan(1),
+            min_stiffness: nan(1),
             distance: nan(1),
             status: vec!["ok"; count],
             reason: vec![String::new(); count],
@@ -221,7 +221,7 @@ impl Columns {
                     }
                     self.residual[row] = found.residual;
                     self.stable[row] = found.stable;
-                    self.least_stiffness[row] = found.least_stiffness;
+                    self.min_stiffness[row] = found.min_stiffness;
                     self.distance[row] = found.distance;
                 }
             }
@@ -244,7 +244,7 @@ impl Columns {
         fields.set_item("sag_ratio", Matrix::of_rows(sag_ratio, self.cables))?;
         fields.set_item("residual", Vector::<f64>::from_iter(self.residual))?;
         fields.set_item("stable", Vector::<bool>::from_iter(self.stable))?;
-        fields.set_item("least_stiffness_n_per_m", Vector::<f64>::from_iter(self.least_stiffness))?;
+        fields.set_item("stiffness_min_n_per_m", Vector::<f64>::from_iter(self.min_stiffness))?;
         fields.set_item("nearest_pose_distance_m", Vector::<f64>::from_iter(self.distance))?;
         fields.set_item("model", model.name())?;
         Ok(py.import("funicular._results")?.getattr("Equilibria")?.call((), Some(&fields))?.unbind())

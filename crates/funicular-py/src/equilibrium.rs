@@ -134,8 +134,8 @@ impl PyEquilibrium {
 
     /// Least eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; None for ideal cables.
     #[getter]
-    fn least_stiffness_n_per_m(&self) -> Option<f64> {
-        least_stiffness(&self.at_rest.equilibrium.stability)
+    fn stiffness_min_n_per_m(&self) -> Option<f64> {
+        min_stiffness(&self.at_rest.equilibrium.stability)
     }
 
     /// What is left of the wrench on the platform, over the sum of all forces.
@@ -150,7 +150,7 @@ impl PyEquilibrium {
         self.at_rest.equilibrium.iterations
     }
 
-    /// Distance from the pose asked [m], where fewer cables than freedoms hold only the nearest; else None.
+    /// Distance from the pose asked [m], where fewer cables than degrees of freedom hold only the nearest; else None.
     #[getter]
     fn nearest_pose_distance_m(&self) -> Option<f64> {
         self.at_rest.instead_of.map(|(_, distance)| distance)
@@ -197,8 +197,8 @@ impl PyEquilibrium {
     /// at_hz
     ///     Frequency [Hz], or a row of n of them; 0 if not given.
     /// cable_model
-    ///     How cables answer motion: `exact`, `closed-form`, `static-sag`, `catenary-tangent`, `spring`. If not given,
-    ///     `exact` for cables that hang, else `closed-form`; at 0 Hz the exact tangent of the static model, in wind
+    ///     How cables answer motion: `catenary-dynamic`, `shallow-dynamic`, `shallow-static`, `catenary-static`, `spring`. If not given,
+    ///     `catenary-dynamic` for cables that hang, else `shallow-dynamic`; at 0 Hz the exact tangent of the static model, in wind
     ///     with a drag that turns with the cables, which makes it unsymmetric (theory (49d)). A named model has the
     ///     symmetric stiffness with the drag held, as have other frequencies.
     /// assembly
@@ -229,7 +229,7 @@ impl PyEquilibrium {
     /// `distance_m` and `tensions_platform_n`; `search` says what was searched. Lists of numbers are arrays.
     pub(crate) fn all_equilibria<'py>(&self, py: Python<'py>) -> PyResult<Keyed<'py>> {
         let at_rest = Arc::clone(&self.at_rest);
-        let found = crate::waiting::interruptible(py, move || analyses::statics::about(&at_rest, true))?;
+        let found = crate::interrupt::interruptible(py, move || analyses::statics::about(&at_rest, true))?;
         answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
     }
 
@@ -576,9 +576,9 @@ impl PyEquilibrium {
     }
 }
 
-pub(crate) fn least_stiffness(stability: &Stability) -> Option<f64> {
+pub(crate) fn min_stiffness(stability: &Stability) -> Option<f64> {
     match stability {
-        Stability::Stable { least_stiffness } | Stability::Unstable { least_stiffness, .. } => Some(*least_stiffness),
+        Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(*min_stiffness),
         Stability::Rigid => None,
     }
 }

@@ -9,16 +9,16 @@ mod answers;
 mod arrays;
 mod batch;
 mod catenary;
-mod edit;
+mod dict_to_toml;
 mod equilibrium;
 mod errors;
+mod interrupt;
 mod pose;
 mod request;
 mod robot;
 mod sweep;
 mod threads;
 mod vibration;
-mod waiting;
 mod written;
 
 use pyo3::prelude::*;

@@ -54,17 +54,17 @@ impl StateKeywords<'_> {
 /// Rule and limits of the tensions as Python gives them.
 pub(crate) struct TensionKeywords<'a> {
     pub(crate) tension_rule: Option<&'a str>,
-    pub(crate) wanted_tension_n: Option<Numbers>,
+    pub(crate) target_tension_n: Option<Numbers>,
     pub(crate) min_tension_n: Option<Number>,
     pub(crate) max_tension_n: Option<Number>,
 }
 
 impl TensionKeywords<'_> {
     pub(crate) fn request(self) -> PyResult<Tensions> {
-        let wanted = self.wanted_tension_n.map(|wanted| wanted.one_or_row("wanted_tension_n")).transpose()?;
+        let wanted = self.target_tension_n.map(|wanted| wanted.one_or_row("target_tension_n")).transpose()?;
         Ok(Tensions {
             tension_rule: self.tension_rule.map(|name| named("tension_rule", name)).transpose()?,
-            wanted_tension_n: wanted.map(|(wanted, _)| wanted),
+            target_tension_n: wanted.map(|(wanted, _)| wanted),
             min_tension_n: number(self.min_tension_n, "min_tension_n")?,
             max_tension_n: number(self.max_tension_n, "max_tension_n")?,
         })

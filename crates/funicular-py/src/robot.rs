@@ -113,7 +113,7 @@ impl PyRobot {
     ///     The dictionary is no robot; the message shows it as a file.
     #[classmethod]
     fn from_dict(_cls: &Bound<'_, PyType>, robot: Keyed<'_>) -> PyResult<Self> {
-        Self::of_text("<dict>", edit::of_dict(&robot.0)?)
+        Self::of_text("<dict>", dict_to_toml::of_dict(&robot.0)?)
     }
 
     /// The robot that the package carries: six cables of 4 mm (Yuan, Courteille and Deblaise 2014).
@@ -157,7 +157,7 @@ impl PyRobot {
             all.set_item("platform.mass_kg", mass.positive("mass_kg")?)?;
         }
         let mut source = self.source.clone();
-        source.set.extend(edit::changes(&all)?);
+        source.set.extend(dict_to_toml::changes(&all)?);
         Self::read(source)
     }
 
@@ -181,8 +181,8 @@ impl PyRobot {
 
     /// Which motions the platform has: `rigid`, `point-mass` or a plane.
     #[getter]
-    fn freedoms(&self) -> &'static str {
-        self.robot.platform.freedoms.name()
+    fn motion(&self) -> &'static str {
+        self.robot.platform.motion.name()
     }
 
     /// Names of the cables, in file order: the order of every array with one entry a cable.
@@ -221,16 +221,16 @@ impl PyRobot {
     /// ----------
     /// pose
     ///     A `Pose`, or x, y, z, or these and roll, pitch, yaw [m, degrees], or these and a quaternion w, x, y, z. The
-    ///     lengths follow; of fewer cables than freedoms the nearest pose that they hold.
+    ///     lengths follow; of fewer cables than degrees of freedom the nearest pose that they hold.
     /// lengths_m
     ///     Unstrained lengths [m], one a cable, in file order. The pose follows.
     ///     Without pose and lengths: the state of the robot file.
     /// static_model
     ///     How cables carry their load: `ideal`, `spring` or `catenary`.
     /// tension_rule
-    ///     Which of the tensions that hold a pose, where more cables than freedoms leave a choice: `lowest` (the default),
-    ///     `closest` (to `wanted_tension_n`), `middle` or `stiffest`.
-    /// wanted_tension_n
+    ///     Which of the tensions that hold a pose, where more cables than degrees of freedom leave a choice: `lowest` (the default),
+    ///     `closest` (to `target_tension_n`), `middle` or `stiffest`.
+    /// target_tension_n
     ///     Tensions for the rule `closest` [N], one for all or one a cable.
     /// min_tension_n, max_tension_n
     ///     Limits of the tension anywhere in a cable [N], instead of those of the robot file.
@@ -251,7 +251,7 @@ impl PyRobot {
     /// InputError
     ///     An argument means nothing.
     #[pyo3(signature = (
-        pose=None, lengths_m=None, static_model="catenary", tension_rule=None, *, wanted_tension_n=None,
+        pose=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
         wind_m_s=None, cable_load_n_per_m=None
     ))]
@@ -263,7 +263,7 @@ impl PyRobot {
         lengths_m: Option<Numbers>,
         static_model: &str,
         tension_rule: Option<&str>,
-        wanted_tension_n: Option<Numbers>,
+        target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
         max_tension_n: Option<Number>,
         mass_kg: Option<Number>,
@@ -284,7 +284,7 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
-        let tensions = TensionKeywords { tension_rule, wanted_tension_n, min_tension_n, max_tension_n };
+        let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         PyEquilibrium::of(py, slf, state.request()?, tensions.request()?)
     }
 
@@ -304,7 +304,7 @@ impl PyRobot {
     ///
     /// The other parameters are those of `equilibrium`.
     #[pyo3(signature = (
-        poses=None, lengths_m=None, static_model="catenary", tension_rule=None, *, wanted_tension_n=None,
+        poses=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
         wind_m_s=None, cable_load_n_per_m=None, threads=None
     ))]
@@ -316,7 +316,7 @@ impl PyRobot {
         lengths_m: Option<Numbers>,
         static_model: &str,
         tension_rule: Option<&str>,
-        wanted_tension_n: Option<Numbers>,
+        target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
         max_tension_n: Option<Number>,
         mass_kg: Option<Number>,
@@ -339,7 +339,7 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
-        let tensions = TensionKeywords { tension_rule, wanted_tension_n, min_tension_n, max_tension_n };
+        let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         batch::equilibria(py, &self.robot, states, &state.request()?, &tensions.request()?, threads)
     }
 
@@ -391,8 +391,8 @@ impl PyRobot {
     ///     The executor's workers died; its `resume` goes on.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::HIGHEST_HZ), tension_rule=None,
-        wanted_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
+        target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
         threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
@@ -411,7 +411,7 @@ impl PyRobot {
         in_plane_only: bool,
         up_to_hz: Number,
         tension_rule: Option<&str>,
-        wanted_tension_n: Option<Numbers>,
+        target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
         max_tension_n: Option<Number>,
         mass_kg: Option<Number>,
@@ -440,7 +440,7 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
-        let tensions = TensionKeywords { tension_rule, wanted_tension_n, min_tension_n, max_tension_n };
+        let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
@@ -460,8 +460,8 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::HIGHEST_HZ), tension_rule=None,
-        wanted_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
+        target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
         threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
@@ -479,7 +479,7 @@ impl PyRobot {
         in_plane_only: bool,
         up_to_hz: Number,
         tension_rule: Option<&str>,
-        wanted_tension_n: Option<Numbers>,
+        target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
         max_tension_n: Option<Number>,
         mass_kg: Option<Number>,
@@ -508,7 +508,7 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
-        let tensions = TensionKeywords { tension_rule, wanted_tension_n, min_tension_n, max_tension_n };
+        let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
         let plan = PyPlan::of(py, request, part)?;
@@ -786,7 +786,7 @@ impl PyRobot {
 
     fn __repr__(&self) -> String {
         let Robot { name, platform, cables, .. } = &*self.robot;
-        format!("<Robot {name:?}: {} cables, {} kg, {}>", cables.len(), platform.mass, platform.freedoms.name())
+        format!("<Robot {name:?}: {} cables, {} kg, {}>", cables.len(), platform.mass, platform.motion.name())
     }
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

@@ -32,7 +32,7 @@ def rest(robot: funicular.Robot) -> funicular.Equilibrium:
 
 @pytest.fixture(scope="session")
 def cogiro() -> funicular.Robot:
-    """Eight cables for six freedoms."""
+    """Eight cables for six degrees of freedom."""
     return funicular.Robot.from_file(ROBOTS / "cogiro.toml")
 
 

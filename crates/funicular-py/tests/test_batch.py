@@ -28,7 +28,7 @@ def assert_equals_loop(robot: funicular.Robot, rows: NDArray[np.float64], many: 
         assert many.quaternion_wxyz[i].tobytes() == one.pose.quaternion_wxyz.tobytes()
         assert many.roll_pitch_yaw_deg[i].tobytes() == one.pose.roll_pitch_yaw_deg.tobytes()
         assert (many.residual[i], bool(many.stable[i])) == (one.residual, one.stable)
-        assert many.least_stiffness_n_per_m[i] == one.least_stiffness_n_per_m
+        assert many.stiffness_min_n_per_m[i] == one.stiffness_min_n_per_m
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -63,7 +63,7 @@ def test_quaternions_are_the_angles(robot: funicular.Robot) -> None:
 
 def test_what_is_no_state_is_a_row_with_its_reason(robot: funicular.Robot) -> None:
     many = robot.equilibria(poses=[[0, 0, 0.5], [np.nan, 0, 0.5], [0, 0, 1e300], [0, 0, 50]])
-    assert many.status.tolist() == ["ok", "input", "input", "would-push"]
+    assert many.status.tolist() == ["ok", "input", "input", "negative-tension"]
     assert "finite" in many.reason[1] and "tension" in many.reason[3]
     assert robot.equilibria(lengths_m=[[6.8] * 5]).status.tolist() == ["length-count"]
     assert robot.equilibria(lengths_m=[[6.8] * 5 + [-1.0]]).status.tolist() == ["length"]
@@ -91,5 +91,5 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
 def test_a_table_has_a_row_a_state(robot: funicular.Robot) -> None:
     pytest.importorskip("pandas")
     table = robot.equilibria(poses=[[0, 0, 0.5], [0, 0, 50]]).to_pandas()
-    assert set(table.columns) > {"residual", "stable", "least_stiffness_n_per_m", "nearest_pose_distance_m"}
-    assert table["status"].tolist() == ["ok", "would-push"] and table["tension_6_n"].isna().tolist() == [False, True]
+    assert set(table.columns) > {"residual", "stable", "stiffness_min_n_per_m", "nearest_pose_distance_m"}
+    assert table["status"].tolist() == ["ok", "negative-tension"] and table["tension_6_n"].isna().tolist() == [False, True]

@@ -16,11 +16,11 @@ from conftest import ROOT
 # Lines for commands and options that the help texts have no example of.
 STATE = "--mass-kg 20 --force-n 1,0,-5 --moment-n-m 0,0.1,0 --load-point-m 0,0,0.1 --wind-m-s 5,0,0 --cable-load-n-per-m 0,0,-0.1"
 LENGTHS = "--lengths-m 6.9,6.6,6.8,6.7,6.8,6.6"
-MODEL = "--cable-model closed-form --assembly paper --in-plane-only"
+MODEL = "--cable-model shallow-dynamic --assembly without-geometric-stiffness --in-plane-only"
 ROBOT = "robots/yuan2014-4mm.toml"
-WHOLE = "--cable-model exact --assembly consistent"
+WHOLE = "--cable-model catenary-dynamic --assembly consistent"
 RANGE = "--from-hz 0.5 --to-hz 8 --points 7"
-TENSIONS = "--pose 1,2,1.5,0,3,10 --tension-rule closest --wanted-tension-n 900 --min-tension-n 5 --max-tension-n 4000"
+TENSIONS = "--pose 1,2,1.5,0,3,10 --tension-rule closest --target-tension-n 900 --min-tension-n 5 --max-tension-n 4000"
 MORE = [
     f"funicular statics {ROBOT} --all",
     f"funicular statics {ROBOT} {LENGTHS} {STATE}",
@@ -31,9 +31,9 @@ MORE = [
     f"funicular frf {ROBOT} {RANGE} --log --input cable:3@0.5:fz --output vz --prominence-db 3 --pose 0,0,0.5 {STATE}",
     f"funicular frf {ROBOT} {RANGE} {MODEL} --input fz --output rx --input-point-m 0.1,0,0",
     f"funicular compare {ROBOT} --below-hz 2",
-    f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly paper --in-plane-only",
+    f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness --in-plane-only",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
-    f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model closed-form --in-plane-only",
+    f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic --in-plane-only",
     f"funicular pose-error {ROBOT} --mass-kg 10.55:86.35:5 {LENGTHS} --tolerance-mm 5",
     f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --damping-at-hz 1",
     f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
@@ -131,7 +131,7 @@ def plain(found: Any) -> Any:
 
 
 STATE_KEYS = {"pose", "lengths_m", "mass_kg", "static_model", "force_n", "moment_n_m", "load_point_m", "wind_m_s"} | {
-    *("cable_load_n_per_m", "tension_rule", "wanted_tension_n", "min_tension_n", "max_tension_n")
+    *("cable_load_n_per_m", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n")
 }
 
 

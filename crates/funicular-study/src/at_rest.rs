@@ -9,9 +9,9 @@ use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::response::{Port, Signal};
-use funicular::robot::{self, Freedoms, Pose, Robot, State, TensionLimits, Wind};
+use funicular::robot::{self, PlatformMotion, Pose, Robot, State, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
-use funicular::validity;
+use funicular::warnings;
 
 /// A robot at rest.
 #[derive(Debug, Clone)]
@@ -78,10 +78,10 @@ pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
 /// # Errors
 /// A rule without what it needs, or with what it does not.
 pub fn rule(tensions: &Tensions) -> Result<Option<TensionRule>> {
-    Ok(match (tensions.tension_rule, tensions.wanted_tension_n.clone()) {
+    Ok(match (tensions.tension_rule, tensions.target_tension_n.clone()) {
         (None | Some(TensionRuleName::Closest), Some(wanted)) => Some(TensionRule::Closest(wanted)),
-        (Some(TensionRuleName::Closest), None) => bail!("⟪tension_rule⟫ closest needs ⟪wanted_tension_n⟫"),
-        (Some(_), Some(_)) => bail!("⟪wanted_tension_n⟫ goes with ⟪tension_rule⟫ closest only"),
+        (Some(TensionRuleName::Closest), None) => bail!("⟪tension_rule⟫ closest needs ⟪target_tension_n⟫"),
+        (Some(_), Some(_)) => bail!("⟪target_tension_n⟫ goes with ⟪tension_rule⟫ closest only"),
         (Some(TensionRuleName::Lowest), None) => Some(TensionRule::Lowest),
         (Some(TensionRuleName::Middle), None) => Some(TensionRule::Middle),
         (Some(TensionRuleName::Stiffest), None) => Some(TensionRule::Stiffest),
@@ -117,10 +117,10 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
 /// # Errors
 /// An orientation of a point mass, or a pose that a plane excludes.
 pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
-    if robot.platform.freedoms == Freedoms::PointMass && pose.rot_wp.angle() != 0.0 {
+    if robot.platform.motion == PlatformMotion::PointMass && pose.rot_wp.angle() != 0.0 {
         bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
     }
-    Ok(robot.platform.freedoms.check(pose)?)
+    Ok(robot.platform.motion.check(pose)?)
 }
 
 /// The robot with the loads that a request gives; others stay as the robot file has them.
@@ -148,7 +148,7 @@ fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
     if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
         bail!("⟪load_point_m⟫ is where a force acts, and there is none: give ⟪force_n⟫");
     }
-    robot.load.check(&robot.platform.freedoms)?;
+    robot.load.check(&robot.platform.motion)?;
     Ok(robot)
 }
 
@@ -156,8 +156,8 @@ fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
 pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> CableModel {
     match (requested, static_model) {
         (Some(model), _) => model,
-        (None, StaticModel::Catenary) => CableModel::Exact,
-        (None, StaticModel::Ideal | StaticModel::Spring) => CableModel::ClosedForm,
+        (None, StaticModel::Catenary) => CableModel::CatenaryDynamic,
+        (None, StaticModel::Ideal | StaticModel::Spring) => CableModel::ShallowDynamic,
     }
 }
 
@@ -198,13 +198,13 @@ impl AtRest {
 
     /// Warnings about the statics and, if given, about a cable model up to a frequency [Hz].
     pub fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
-        let mut warnings = validity::of_statics(&self.robot, &self.equilibrium);
+        let mut warnings = warnings::of_statics(&self.robot, &self.equilibrium);
         if let Some((model, up_to_hz)) = dynamics {
-            warnings.extend(validity::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
+            warnings.extend(warnings::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }
         let elsewhere = self
             .instead_of
-            .and_then(|(asked, distance)| validity::of_pose(&self.robot, &self.equilibrium, &asked, distance));
+            .and_then(|(asked, distance)| warnings::of_pose(&self.robot, &self.equilibrium, &asked, distance));
         elsewhere.iter().chain(&warnings).map(ToString::to_string).collect()
     }
 }

@@ -90,23 +90,23 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     Ok(())
 }
 
-/// All modes of exact cables below a frequency [Hz].
+/// All modes of catenary-dynamic cables below a frequency [Hz].
 fn modes_below(at_rest: &AtRest, below_hz: f64, warnings: &mut Vec<String>) -> Result<(Dynamics, Modes)> {
-    let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
     let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, below_hz)?;
     modes::check_count(&dynamics, below_hz, MAX_MODES)?;
     let found = modes::below(&dynamics, below_hz);
-    warnings.extend(found.doubt());
+    warnings.extend(found.caveat());
     Ok((dynamics, found))
 }
 
-/// The lowest natural frequencies of exact cables [Hz], and no more of them than there are.
+/// The lowest natural frequencies of catenary-dynamic cables [Hz], and no more of them than there are.
 fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>) -> Result<Vec<f64>> {
     // A robot has fewer modes than requested only if its cables are massless; those that it has are not far up.
-    const HIGHEST_HZ: f64 = 1e4;
+    const MAX_HZ: f64 = 1e4;
     let lowest = |count| {
         let AtRest { robot, equilibrium, .. } = at_rest;
-        modes::lowest(robot, equilibrium, Linearisation::default(), count, HIGHEST_HZ)
+        modes::lowest(robot, equilibrium, Linearisation::default(), count, MAX_HZ)
     };
     let (_, list) = match lowest(count) {
         // A cable without tension keeps its own error, which says that there is no solution.
@@ -114,7 +114,7 @@ fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>)
         Err(LowestError::TooFew { found, .. }) => lowest(found)?,
         Ok(found) => found,
     };
-    warnings.extend(list.doubt());
+    warnings.extend(list.caveat());
     Ok(list.modes.iter().take(count).map(|mode| mode.frequency_hz).collect())
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn read(files: &[SourceFile], wanted: &Wanted) -> Result<Draft> {
         sources.sort_in(file)?;
     }
     let mut draft = sources.read(wanted)?;
-    draft.assumed.splice(0..0, files.iter().filter_map(SourceFile::doubt));
+    draft.assumed.splice(0..0, files.iter().filter_map(SourceFile::caveat));
     Ok(draft)
 }
 

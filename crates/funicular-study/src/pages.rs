@@ -86,7 +86,7 @@ mod tests {
     }
 
     fn page_of(text: &str, model: StaticModel) -> String {
-        page_with(text, model, Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() })
+        page_with(text, model, Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() })
     }
 
     fn page_with(text: &str, model: StaticModel, linearisation: Linearisation) -> String {
@@ -189,7 +189,8 @@ mod tests {
         // The closed form knows cable ends only; the page says what does better.
         let closed_form = own_part(&page_of(YUAN, StaticModel::Catenary));
         assert!(
-            closed_form.contains("Mode shapes are not shown") && closed_form.contains("--cable-model exact</code>")
+            closed_form.contains("Mode shapes are not shown")
+                && closed_form.contains("--cable-model catenary-dynamic</code>")
         );
         assert!(!closed_form.contains("id=\"shapes-data\""));
         // Ideal cables have no stiffness of their own; the model that needs none of statics takes them.

@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn a_bare_word_is_text_and_a_new_key_is_left_to_the_reader() {
-        assert!(set("platform.freedoms=point-mass").unwrap().contains("freedoms = \"point-mass\""));
+        assert!(set("platform.motion=point-mass").unwrap().contains("motion = \"point-mass\""));
     }
 
     #[test]

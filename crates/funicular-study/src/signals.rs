@@ -6,7 +6,7 @@
 use crate::values::{self, MIN_POSITIVE, NumberError};
 use funicular::math::Vec3;
 use funicular::response::{Quantity, Signal};
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::{PlatformMotion, Robot};
 use funicular::suggest::nearest;
 use thiserror::Error;
 
@@ -92,7 +92,7 @@ pub enum SignalError {
     },
     /// What a planar platform cannot do.
     #[error(
-        "the {side} {name} is out of the plane of the platform ({freedoms}, normal {}, {}, {}), in which a guide holds \
+        "the {side} {name} is out of the plane of the platform ({dof}, normal {}, {}, {}), in which a guide holds \
          it: choose a direction in the plane, or the rotation about its normal",
         normal.x,
         normal.y,
@@ -104,7 +104,7 @@ pub enum SignalError {
         /// Its name.
         name: String,
         /// Kind of the platform.
-        freedoms: &'static str,
+        dof: &'static str,
         /// Normal of its plane.
         normal: Vec3,
     },
@@ -310,22 +310,22 @@ impl End<'_> {
         if turns && point_p.is_some() {
             return Err(SignalError::PointOfRotation { side, name });
         }
-        match robot.platform.freedoms {
-            Freedoms::PointMass if turns => return Err(SignalError::PointMassTurns { side, name }),
-            Freedoms::PointMass if point_p.is_some_and(|point| point.norm() > 0.0) => {
+        match robot.platform.motion {
+            PlatformMotion::PointMass if turns => return Err(SignalError::PointMassTurns { side, name }),
+            PlatformMotion::PointMass if point_p.is_some_and(|point| point.norm() > 0.0) => {
                 return Err(SignalError::PointMassPoint { side });
             }
-            Freedoms::Planar(plane) if on_cable.is_none() => {
+            PlatformMotion::Planar(plane) if on_cable.is_none() => {
                 let (normal, u) = (plane.normal_w(), direction_w.normalize());
                 let along = normal.dot(&u);
                 // A planar platform moves along its plane and turns about the normal.
                 let possible = if turns { along.abs() } else { (u - normal * along).norm() };
                 if possible < IN_PLANE {
-                    let freedoms = robot.platform.freedoms.name();
-                    return Err(SignalError::OutOfPlane { side, name, freedoms, normal });
+                    let dof = robot.platform.motion.name();
+                    return Err(SignalError::OutOfPlane { side, name, dof, normal });
                 }
             }
-            Freedoms::Rigid | Freedoms::PointMass | Freedoms::Planar(_) => {}
+            PlatformMotion::Rigid | PlatformMotion::PointMass | PlatformMotion::Planar(_) => {}
         }
         Ok(match on_cable {
             Some((cable, fraction)) => {

@@ -17,9 +17,9 @@ mod steps;
 
 pub use columns::{Chunk, Column, Kind, Values};
 pub use frequency::{PointModes, lowest_modes};
-pub use plan::{HIGHEST_HZ, MOST_POINTS, Options, Plan, SweepError};
+pub use plan::{MAX_HZ, MAX_POINTS, Options, Plan, SweepError};
 pub use points::{AXES, Point, Points, Poses};
-pub use quantity::{MOST_FREQUENCIES, Quantity, UnknownQuantity};
+pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
 pub use record::{Difference, Part, Record, SCHEMA, kind_name};
 pub use robot_values::{RobotValues, ValueAxis};
 pub use status::CODES;
@@ -31,7 +31,7 @@ use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepReque
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
-use funicular::robot::{Freedoms, Pose, Robot, State};
+use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics;
 use serde_json::{Map, Value, json};
 
@@ -236,15 +236,15 @@ fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Optio
     point.quantities = quantities.iter().map(Quantity::name).collect();
 
     let rule = at_rest::rule(&point.tensions)?;
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-    if rule.is_some() && cables <= freedoms {
+    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+    if rule.is_some() && cables <= dof {
         bail!(
-            "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
-             pose; leave out ⟪tension_rule⟫ and ⟪wanted_tension_n⟫"
+            "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions at a \
+             pose; leave out ⟪tension_rule⟫ and ⟪target_tension_n⟫"
         );
     }
     let tension_rule = rule.unwrap_or_default();
-    if cables > freedoms {
+    if cables > dof {
         point.tensions.tension_rule = Some(TensionRuleName::from(&tension_rule));
     }
 
@@ -287,7 +287,7 @@ fn check_poses(poses: &[[f64; 6]], robot: &Robot) -> Result<()> {
         for value in pose {
             crate::values::finite(*value).map_err(|reason| anyhow!("⟪poses⟫, pose {}: {reason}", i + 1))?;
         }
-        if robot.platform.freedoms == Freedoms::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
+        if robot.platform.motion == PlatformMotion::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
             bail!("⟪poses⟫, pose {}: a point mass has no orientation; leave out the angles", i + 1);
         }
     }

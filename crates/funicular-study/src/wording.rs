@@ -54,7 +54,7 @@ pub fn message(error: &anyhow::Error, words: Words) -> String {
 /// The option of a request that helps against an error of the core, which knows no options.
 fn remedy(error: &StaticsError) -> Option<&'static str> {
     match error {
-        StaticsError::Unsettled { .. } => Some(", or give ⟪min_tension_n⟫"),
+        StaticsError::TensionsNotConverged { .. } => Some(", or give ⟪min_tension_n⟫"),
         _ => None,
     }
 }
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn an_error_of_the_core_is_told_with_the_option_that_helps() {
-        let error = StaticsError::Unsettled {
+        let error = StaticsError::TensionsNotConverged {
             iterations: 100,
             change: 1e-3,
             limit: 1e-9,

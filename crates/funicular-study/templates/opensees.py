@@ -36,7 +36,7 @@ CABLES = [
 # funicular's numbers.
 POSITION = {{ position }}  # of the platform's origin [m]
 TENSIONS_N = {{ tensions }}  # at the platform and at the anchor
-FREQUENCIES_HZ = {{ frequencies }}  # of exact cables
+FREQUENCIES_HZ = {{ frequencies }}  # of catenary-dynamic cables
 
 
 def inward(vector):

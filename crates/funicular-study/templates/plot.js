@@ -107,19 +107,19 @@
   function drawSlice(found) {
     const x = axes[found.h].values, y = axes[found.v].values, name = header.quantities[state.quantity];
     const numbers = found.raw.flat().filter(function (value) { return value !== null; });
-    const own = { least: Infinity, greatest: -Infinity };
-    numbers.forEach(function (value) { own.least = Math.min(own.least, value); own.greatest = Math.max(own.greatest, value); });
-    const span = control("whole").checked || numbers.length === 0 || own.least === own.greatest ? name : own;
-    const range = scale(span.least, span.greatest);
+    const own = { min: Infinity, max: -Infinity };
+    numbers.forEach(function (value) { own.min = Math.min(own.min, value); own.max = Math.max(own.max, value); });
+    const span = control("whole").checked || numbers.length === 0 || own.min === own.max ? name : own;
+    const range = scale(span.min, span.max);
     const text = found.z.map(function (line, j) {
       return line.map(function (value, i) { return value === null ? reason(found.codes[j][i]) : short(found.raw[j][i]); });
     });
-    const lines = numbers.length === 0 ? range : scale(own.least, own.greatest), step = (lines.high - lines.low) / 12;
+    const lines = numbers.length === 0 ? range : scale(own.min, own.max), step = (lines.high - lines.low) / 12;
     const traces = [
       { type: "heatmap", x: x, y: y, z: found.z, text: text, colorscale: SCALE, zmin: range.low, zmax: range.high, colorbar: range.bar, hoverongaps: true,
         hovertemplate: plain(axes[found.h].name) + " %{x}, " + plain(axes[found.v].name) + " %{y}<br>%{text}<extra></extra>" },
     ];
-    if (own.greatest > own.least && x.length > 1 && y.length > 1) {
+    if (own.max > own.min && x.length > 1 && y.length > 1) {
       traces.push({ type: "contour", x: x, y: y, z: found.z, zmin: range.low, zmax: range.high, autocontour: false, showlegend: false, connectgaps: false, showscale: false, hoverinfo: "skip",
         contours: Object.assign(nice(lines, step), { coloring: "none", showlabels: !state.log, labelfont: { size: 10, color: INK } }), line: { color: "rgba(20,20,20,0.65)", width: 1 } });
     }
@@ -163,14 +163,14 @@
   }
 
   function drawHistogram() {
-    const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.greatest - quantity.least) / n;
+    const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.max - quantity.min) / n;
     // All rows with one value are one bar, with room at both sides.
-    const single = !(width > 0), room = Math.abs(quantity.least) || 1, none = quantity.count === 0;
-    const middle = single ? [quantity.least] : quantity.bins.map(function (_, k) { return quantity.least + (k + 0.5) * width; });
+    const single = !(width > 0), room = Math.abs(quantity.min) || 1, none = quantity.count === 0;
+    const middle = single ? [quantity.min] : quantity.bins.map(function (_, k) { return quantity.min + (k + 0.5) * width; });
     const bars = single ? [quantity.count] : quantity.bins;
     const nothing = { text: "no row has this number", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 14 } };
     page.show(plot("histogram"), none ? [] : [{ type: "bar", x: middle, y: bars, width: single ? 0.02 * room : width, marker: { color: "#0072b2", line: { color: "#ffffff", width: 0.6 } }, hovertemplate: "about %{x:.4g}<br>%{y} rows<extra></extra>" }],
-      layout({ xaxis: axis(quantity.title, none ? { showticklabels: false, ticks: "" } : single ? { range: [quantity.least - room / 4, quantity.least + room / 4] } : {}), yaxis: axis("rows", none ? { showticklabels: false, ticks: "" } : { rangemode: "tozero" }),
+      layout({ xaxis: axis(quantity.title, none ? { showticklabels: false, ticks: "" } : single ? { range: [quantity.min - room / 4, quantity.min + room / 4] } : {}), yaxis: axis("rows", none ? { showticklabels: false, ticks: "" } : { rangemode: "tozero" }),
         annotations: none ? [nothing] : [], bargap: 0, showlegend: false, margin: { l: 62, r: 14, t: 34, b: 52 } }));
     place.querySelector("[data-count]").textContent = quantity.count + (quantity.count === 1 ? " row has it." : " rows have it.");
   }
@@ -192,7 +192,7 @@
         });
       });
     });
-    const quantity = header.quantities[state.quantity], range = scale(quantity.least, quantity.greatest);
+    const quantity = header.quantities[state.quantity], range = scale(quantity.min, quantity.max);
     const trace = function (from, name, marker) {
       return { type: "scatter3d", mode: "markers", name: name, x: from.x, y: from.y, z: from.z, text: from.t, marker: marker, hovertemplate: "(%{x}, %{y}, %{z}) m<br>%{text}<extra></extra>" };
     };
@@ -211,7 +211,7 @@
 
   function draw() {
     const quantity = header.quantities[state.quantity], log = control("log");
-    log.disabled = !(quantity.least > 0);
+    log.disabled = !(quantity.min > 0);
     state.log = log.checked && !log.disabled;
     const found = slice();
     place.querySelectorAll("[data-axis]").forEach(function (label) {
@@ -231,7 +231,7 @@
   // Where numbers span decades, colours by their size tell nothing: logarithmic at first.
   function begin() {
     const quantity = header.quantities[state.quantity];
-    control("log").checked = quantity.least > 0 && quantity.greatest > 30 * quantity.least;
+    control("log").checked = quantity.min > 0 && quantity.max > 30 * quantity.min;
   }
   header.statuses.forEach(function (one) { one.feasible = header.feasible.includes(one.name); });
   control("quantity").addEventListener("change", function (event) { state.quantity = Number(event.target.value); begin(); draw(); });

@@ -13,7 +13,7 @@ fn robot() -> Value {
         "set": [
             {"path": "platform.mass_kg", "value": 300},
             {"path": "cables.\"a.b\".anchor_m", "value": [0.1, -2.0, 1e-7]},
-            {"path": "platform.freedoms", "value": "point-mass"},
+            {"path": "platform.motion", "value": "point-mass"},
         ],
     })
 }
@@ -35,9 +35,9 @@ fn requests() -> Vec<Value> {
     let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8] })]);
     let turned = json!({ "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] } });
     let tensions = json!({
-        "tension_rule": "closest", "wanted_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
+        "tension_rule": "closest", "target_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
     });
-    let model = json!({ "cable_model": "static-sag", "assembly": "paper", "in_plane_only": true });
+    let model = json!({ "cable_model": "shallow-static", "assembly": "paper", "in_plane_only": true });
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
@@ -70,7 +70,12 @@ fn requests() -> Vec<Value> {
         ),
         of(
             "cable",
-            &[&robot, &lengths, &range, &json!({ "name": "3", "cable_model": "exact", "in_plane_only": true })],
+            &[
+                &robot,
+                &lengths,
+                &range,
+                &json!({ "name": "3", "cable_model": "catenary-dynamic", "in_plane_only": true }),
+            ],
         ),
         of(
             "reduce",

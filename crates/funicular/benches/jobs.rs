@@ -118,7 +118,7 @@ fn first_frequencies(c: &mut Criterion) {
 
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
-    let closed_form = Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() };
+    let closed_form = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
     (Dynamics::about(robot, &rest, closed_form, 20.0).expect("taut"), rest.pose)
 }
 

@@ -5,18 +5,18 @@
 //! `K = k_a eeᵀ + k_b (enᵀ + neᵀ) + k_c nnᵀ + k_o bbᵀ`, and one formula serves a cable that goes up from the platform
 //! and one that goes down. One file a model.
 
-pub mod closed_form;
+pub mod catenary_dynamic;
 mod damping;
-pub mod exact;
+pub mod shallow_dynamic;
+pub mod shallow_static;
 pub mod spring;
-pub mod static_sag;
 
 use crate::catenary::space::any_normal;
 use crate::math::{Complex, Mat3, Vec3};
 use crate::robot::Robot;
 use crate::statics::CableState;
-use closed_form::ClosedForm;
-use exact::ExactEnd;
+use catenary_dynamic::ExactEnd;
+use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
 use std::fmt;
 use thiserror::Error;
@@ -27,34 +27,35 @@ pub enum CableModel {
     /// A massless spring along the chord, EA/l, and nothing else.
     Spring,
     /// Irvine's static stiffness of a shallow sagging cable; constant.
-    StaticSag,
+    ShallowStatic,
     /// The exact static stiffness of the elastic catenary; constant.
-    CatenaryTangent,
+    CatenaryStatic,
     /// Starossek's dynamic stiffness of a shallow sagging cable.
-    ClosedForm,
+    ShallowDynamic,
     /// Linear vibration about the elastic catenary, of any sag, with axial inertia.
     #[default]
-    Exact,
+    CatenaryDynamic,
 }
 
 impl CableModel {
     /// All of them, simplest first.
-    pub const ALL: [Self; 5] = [Self::Spring, Self::StaticSag, Self::CatenaryTangent, Self::ClosedForm, Self::Exact];
+    pub const ALL: [Self; 5] =
+        [Self::Spring, Self::ShallowStatic, Self::CatenaryStatic, Self::ShallowDynamic, Self::CatenaryDynamic];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Spring => "spring",
-            Self::StaticSag => "static-sag",
-            Self::CatenaryTangent => "catenary-tangent",
-            Self::ClosedForm => "closed-form",
-            Self::Exact => "exact",
+            Self::ShallowStatic => "shallow-static",
+            Self::CatenaryStatic => "catenary-static",
+            Self::ShallowDynamic => "shallow-dynamic",
+            Self::CatenaryDynamic => "catenary-dynamic",
         }
     }
 
     /// The stiffness depends on frequency: the cable has resonances of its own.
     pub fn is_dynamic(self) -> bool {
-        matches!(self, Self::ClosedForm | Self::Exact)
+        matches!(self, Self::ShallowDynamic | Self::CatenaryDynamic)
     }
 }
 
@@ -116,7 +117,7 @@ impl LocalStiffness<f64> {
     }
 }
 
-/// The numbers of a shallow sagging cable that the closed form and the static sag share.
+/// The numbers of a shallow sagging cable that the closed form and the shallow-static share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sag {
     /// Chord l [m].
@@ -200,89 +201,89 @@ pub enum EndStiffness {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum NoStiffness {
     /// It is rigid.
-    #[error("ideal cables are rigid: only the models `spring`, `static-sag` and `closed-form` exist for them")]
+    #[error("ideal cables are rigid: only the models `spring`, `shallow-static` and `shallow-dynamic` exist for them")]
     Rigid,
     /// It carries no tension.
     #[error("it has no tension")]
     NoTension,
-    /// The exact model does not exist for it.
+    /// The catenary-dynamic model does not exist for it.
     #[error(transparent)]
-    Exact(#[from] exact::ExactError),
+    CatenaryDynamic(#[from] catenary_dynamic::ExactError),
 }
 
 /// The models whose stiffness depends on frequency; one interface, in the local axes that each names.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DynamicCable {
     /// Starossek's.
-    ClosedForm(ClosedForm),
+    ShallowDynamic(ShallowDynamic),
     /// About the catenary.
-    Exact(Box<ExactEnd>),
+    CatenaryDynamic(Box<ExactEnd>),
 }
 
 impl DynamicCable {
     /// Squares of the clamped frequencies below ω [rad²/s²], in no order.
     pub(crate) fn poles_below(&self, omega: f64) -> Vec<f64> {
         match self {
-            Self::ClosedForm(cable) => cable.clamped_frequencies_below(omega).into_iter().map(|f| f * f).collect(),
-            Self::Exact(cable) => cable.poles_below(omega * omega).collect(),
+            Self::ShallowDynamic(cable) => cable.clamped_frequencies_below(omega).into_iter().map(|f| f * f).collect(),
+            Self::CatenaryDynamic(cable) => cable.poles_below(omega * omega).collect(),
         }
     }
 
     /// Its local axes.
     pub fn axes(&self) -> &LocalAxes {
         match self {
-            Self::ClosedForm(cable) => &cable.axes,
-            Self::Exact(cable) => &cable.axes,
+            Self::ShallowDynamic(cable) => &cable.axes,
+            Self::CatenaryDynamic(cable) => &cable.axes,
         }
     }
 
     /// Undamped stiffness in local axes at ω [rad/s], [N/m].
     pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
         match self {
-            Self::ClosedForm(cable) => cable.undamped(omega),
-            Self::Exact(cable) => cable.undamped(omega),
+            Self::ShallowDynamic(cable) => cable.undamped(omega),
+            Self::CatenaryDynamic(cable) => cable.undamped(omega),
         }
     }
 
     /// Damped stiffness in local axes at ω [rad/s], [N/m].
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
         match self {
-            Self::ClosedForm(cable) => cable.damped(omega),
-            Self::Exact(cable) => cable.damped(omega),
+            Self::ShallowDynamic(cable) => cable.damped(omega),
+            Self::CatenaryDynamic(cable) => cable.damped(omega),
         }
     }
 
     /// Minus the derivative of the undamped stiffness by ω² [kg]; positive semidefinite as a 3×3.
-    pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
+    pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         match self {
-            Self::ClosedForm(cable) => cable.moving_mass(omega),
-            Self::Exact(cable) => cable.moving_mass(omega),
+            Self::ShallowDynamic(cable) => cable.effective_mass(omega),
+            Self::CatenaryDynamic(cable) => cable.effective_mass(omega),
         }
     }
 
     /// Number of clamped-clamped frequencies below ω [rad/s]: J0 of Wittrick and Williams.
     pub fn clamped_modes_below(&self, omega: f64) -> usize {
         match self {
-            Self::ClosedForm(cable) => cable.clamped_modes_below(omega),
-            Self::Exact(cable) => cable.clamped_modes_below(omega),
+            Self::ShallowDynamic(cable) => cable.clamped_modes_below(omega),
+            Self::CatenaryDynamic(cable) => cable.clamped_modes_below(omega),
         }
     }
 
     /// The clamped-clamped frequencies below ω [rad/s], ascending, with multiplicity.
     pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<f64> {
         match self {
-            Self::ClosedForm(cable) => cable.clamped_frequencies_below(omega),
-            Self::Exact(cable) => cable.clamped_frequencies_below(omega),
+            Self::ShallowDynamic(cable) => cable.clamped_frequencies_below(omega),
+            Self::CatenaryDynamic(cable) => cable.clamped_frequencies_below(omega),
         }
     }
 }
 
 impl EndStiffness {
-    /// The cable `i` of a robot at a static state, good up to the frequency `up_to_hz` [Hz] (which only the exact model
+    /// The cable `i` of a robot at a static state, good up to the frequency `up_to_hz` [Hz] (which only the catenary-dynamic model
     /// asks for). `in_plane_only` leaves out all stiffness out of the cable's plane, as the paper does.
     ///
     /// # Errors
-    /// [`NoStiffness`]: an ideal cable has no catenary tangent, a cable without tension no sag stiffness.
+    /// [`NoStiffness`]: an ideal cable has no catenary-static, a cable without tension no sag stiffness.
     pub fn new(
         robot: &Robot,
         i: usize,
@@ -295,7 +296,9 @@ impl EndStiffness {
         let sag = Sag::of(robot, i, state);
         let material = &robot.cables[i].material;
 
-        if sag.tension <= 0.0 && matches!(model, CableModel::StaticSag | CableModel::ClosedForm | CableModel::Exact) {
+        if sag.tension <= 0.0
+            && matches!(model, CableModel::ShallowStatic | CableModel::ShallowDynamic | CableModel::CatenaryDynamic)
+        {
             return Err(NoStiffness::NoTension);
         }
         let without_b =
@@ -303,20 +306,20 @@ impl EndStiffness {
         Ok(match model {
             CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
             CableModel::Spring => Self::Constant(spring::stiffness(&sag).in_world(&axes)),
-            CableModel::StaticSag => Self::Constant(without_b(static_sag::stiffness(&sag).in_world(&axes))),
-            CableModel::CatenaryTangent => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
-            CableModel::ClosedForm => {
-                let cable = ClosedForm::new(sag, axes, material.damping, in_plane_only);
-                Self::Dynamic(DynamicCable::ClosedForm(cable))
+            CableModel::ShallowStatic => Self::Constant(without_b(shallow_static::stiffness(&sag).in_world(&axes))),
+            CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
+            CableModel::ShallowDynamic => {
+                let cable = ShallowDynamic::new(sag, axes, material.damping, in_plane_only);
+                Self::Dynamic(DynamicCable::ShallowDynamic(cable))
             }
-            CableModel::Exact => {
+            CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 if material.mass_per_length == 0.0 {
                     return Ok(Self::Constant(without_b(hanging.tangent_w())));
                 }
                 let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
                 let cable = ExactEnd::new(hanging, m, damping, in_plane_only, limit)?;
-                Self::Dynamic(DynamicCable::Exact(Box::new(cable)))
+                Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })
     }

@@ -7,7 +7,7 @@ mod weighted;
 
 pub use weighted::WeightedMotions;
 
-use crate::cable::exact::{Exact, ExactError, Stations, Swing};
+use crate::cable::catenary_dynamic::{CatenaryDynamic, ExactError, InternalMotion, Stations};
 use crate::cable::{CableModel, DynamicCable, LocalAxes};
 use crate::dynamics::Dynamics;
 use crate::math::{CVec6, Complex, Vec3, Vec6};
@@ -20,11 +20,11 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CableMotionError {
     /// The model knows the cable's end only.
-    #[error("the {0} model knows the end of a cable only: the motion along it needs the model `exact`")]
+    #[error("the {0} model knows the end of a cable only: the motion along it needs the model `catenary-dynamic`")]
     Model(CableModel),
-    /// The exact cable cannot be discretised.
+    /// The catenary-dynamic cable cannot be discretised.
     #[error("cable \"{cable}\": {reason}")]
-    Exact {
+    CatenaryDynamic {
         /// Name of the cable.
         cable: String,
         /// Why.
@@ -51,8 +51,8 @@ pub struct CableStations {
 enum Kind {
     /// A massless cable moves as a straight line: the part of the platform end's motion at each station.
     Straight(Vec<f64>),
-    Exact {
-        exact: Box<Exact>,
+    CatenaryDynamic {
+        exact: Box<CatenaryDynamic>,
         stations: Stations,
         /// Its place among the cables whose stiffness depends on frequency.
         term: usize,
@@ -79,13 +79,16 @@ impl CableStations {
         let chord_w = state.chord_w();
 
         let (kind, axes) = match term.map(|at| (at, dynamics.terms()[at].form())) {
-            Some((_, DynamicCable::ClosedForm(_))) => return Err(CableMotionError::Model(CableModel::ClosedForm)),
-            Some((term, DynamicCable::Exact(end))) => {
-                let hanging = state.hanging.as_ref().expect("an exact cable hangs");
+            Some((_, DynamicCable::ShallowDynamic(_))) => {
+                return Err(CableMotionError::Model(CableModel::ShallowDynamic));
+            }
+            Some((term, DynamicCable::CatenaryDynamic(end))) => {
+                let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
                 let (m, limit) = (end.mass_per_length, end.exact.limit);
                 let (mut exact, mut stations) =
-                    Exact::with_stations(&hanging.catenary, m, limit, arc_lengths.clone(), loaded)
-                        .map_err(|reason| CableMotionError::Exact { cable: robot.cables[i].name.clone(), reason })?;
+                    CatenaryDynamic::with_stations(&hanging.catenary, m, limit, arc_lengths.clone(), loaded).map_err(
+                        |reason| CableMotionError::CatenaryDynamic { cable: robot.cables[i].name.clone(), reason },
+                    )?;
                 if !loaded {
                     // The same cable as in `dynamics`, with as many of its clamped modes.
                     if let Some((plane, across)) = end.kept {
@@ -94,7 +97,7 @@ impl CableStations {
                     }
                     exact = end.exact.clone();
                 }
-                (Kind::Exact { exact: Box::new(exact), stations, term }, end.axes)
+                (Kind::CatenaryDynamic { exact: Box::new(exact), stations, term }, end.axes)
             }
             None => {
                 let parts = fractions.iter().map(|part| 1.0 - part).collect();
@@ -129,12 +132,12 @@ impl CableStations {
                 let LocalAxes { e, n, b } = self.axes;
                 parts.iter().map(|part| [e, n, b].map(|axis| part * axis.dot(&end_w))).collect()
             }
-            Kind::Exact { exact, stations, term } => {
+            Kind::CatenaryDynamic { exact, stations, term } => {
                 let of = &dynamics.terms()[*term];
                 let start = of.axes().map(|axis| Complex::from(axis.dot(&motion.platform)));
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
                 let mut swing = swing(dynamics, exact, start, square.into());
-                let DynamicCable::Exact(end) = of.form() else { unreachable!("made of this term") };
+                let DynamicCable::CatenaryDynamic(end) = of.form() else { unreachable!("made of this term") };
 
                 // Modes whose poles lie at the frequency have amplitudes of their own.
                 for near in motion.near.iter().filter(|near| near.term == *term) {
@@ -167,7 +170,7 @@ impl CableStations {
         // Row of the displacement along the direction by the end's displacement in (e, n, b).
         let row: [Complex; 3] = match &self.kind {
             Kind::Straight(parts) => towards.map(|part| Complex::from(part * parts[at])),
-            Kind::Exact { exact, stations, .. } => {
+            Kind::CatenaryDynamic { exact, stations, .. } => {
                 let square = dynamics.cable_square(self.cable, omega);
                 std::array::from_fn(|axis| {
                     let start = std::array::from_fn(|k| Complex::from(f64::from(u8::from(k == axis))));
@@ -191,13 +194,13 @@ impl CableStations {
     }
 
     /// The motion of station `at` along `direction_w` (unit) by the platform's slow motion and by the amplitudes of the
-    /// cable's clamped modes, in plane and then across: the platform's 6-vector, and for an exact cable its place among the
+    /// cable's clamped modes, in plane and then across: the platform's 6-vector, and for a catenary-dynamic cable its place among the
     /// terms of the dynamics and the amplitudes' row.
     pub(crate) fn row(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3) -> (Vec6, Option<usize>, Vec<f64>) {
         let towards = self.local(direction_w);
         match &self.kind {
             Kind::Straight(parts) => (self.of_end(towards.map(|part| part * parts[at])), None, Vec::new()),
-            Kind::Exact { stations, term, .. } => {
+            Kind::CatenaryDynamic { stations, term, .. } => {
                 let (plane, across) = (&stations.in_plane, &stations.out_of_plane);
                 let [h, v, b] = towards;
                 let psi = &plane.still[at];
@@ -232,7 +235,7 @@ impl CableStations {
         match &self.kind {
             // A taut massless string: its end forces fix where a force on it acts, and no model here says how it yields.
             Kind::Straight(_) => Complex::new(f64::NAN, 0.0),
-            Kind::Exact { exact, stations, .. } => {
+            Kind::CatenaryDynamic { exact, stations, .. } => {
                 let square = dynamics.cable_square(self.cable, omega);
                 stations.receptance(exact, (at, out), (loaded, force), square)
             }
@@ -241,7 +244,7 @@ impl CableStations {
 
     /// Whether a force on a station has an answer of the cable's own.
     pub(crate) fn is_exact(&self) -> bool {
-        matches!(self.kind, Kind::Exact { .. })
+        matches!(self.kind, Kind::CatenaryDynamic { .. })
     }
 
     /// Components (e, n, b).
@@ -252,8 +255,8 @@ impl CableStations {
 }
 
 /// Motion of a cable by its start's; across it is as slow as can be where only the plane counts.
-fn swing(dynamics: &Dynamics, exact: &Exact, start: [Complex; 3], square: Complex) -> Swing {
-    let mut swing = Swing::new(exact, start, square);
+fn swing(dynamics: &Dynamics, exact: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> InternalMotion {
+    let mut swing = InternalMotion::new(exact, start, square);
     if dynamics.linearisation.in_plane_only {
         swing.out_of_plane.fill(0.0.into());
     }

@@ -304,7 +304,7 @@ impl Catenary {
 
     /// The least tension anywhere in the cable [N]: of its lowest point if that is between the ends, else of the lower
     /// end.
-    pub fn least_tension(&self) -> f64 {
+    pub fn min_tension(&self) -> f64 {
         if self.vertical_force_at_start() < 0.0 && self.vertical_force_at_end() > 0.0 {
             self.horizontal
         } else {
@@ -313,7 +313,7 @@ impl Catenary {
     }
 
     /// The greatest tension anywhere in the cable [N]: of the upper end.
-    pub fn greatest_tension(&self) -> f64 {
+    pub fn max_tension(&self) -> f64 {
         self.tension_at_start().max(self.tension_at_end())
     }
 

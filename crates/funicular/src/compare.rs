@@ -75,8 +75,8 @@ pub struct Advice {
     pub text: String,
 }
 
-/// Finds the modes below `below_hz` [Hz] with every model and measures each against the exact cable,
-/// or against the closed form where the exact cable would need more unknowns than it may have. The model in
+/// Finds the modes below `below_hz` [Hz] with every model and measures each against the catenary-dynamic cable,
+/// or against the closed form where the catenary-dynamic cable would need more unknowns than it may have. The model in
 /// `linearisation` is ignored; assembly and plane hold for all.
 ///
 /// # Errors
@@ -89,10 +89,10 @@ pub fn compare(
 ) -> Result<Comparison, DynamicsError> {
     let with =
         |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
-    let (reference, dynamics) = match with(CableModel::Exact) {
-        Ok(dynamics) => (CableModel::Exact, dynamics),
+    let (reference, dynamics) = match with(CableModel::CatenaryDynamic) {
+        Ok(dynamics) => (CableModel::CatenaryDynamic, dynamics),
         // Too many unknowns for one cable; the next best is the closed form, which has no such limit.
-        Err(DynamicsError::Exact { .. }) => (CableModel::ClosedForm, with(CableModel::ClosedForm)?),
+        Err(DynamicsError::CatenaryDynamic { .. }) => (CableModel::ShallowDynamic, with(CableModel::ShallowDynamic)?),
         Err(other) => return Err(other),
     };
 
@@ -234,7 +234,7 @@ fn advise(
     let simplest = models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(reference, |m| m.model);
     let percent = 100.0 * TOLERANCE;
     let result = |model: CableModel| models.iter().find(|m| m.model == model);
-    let lost = result(CableModel::CatenaryTangent).map_or(0, |m| m.missed);
+    let lost = result(CableModel::CatenaryStatic).map_or(0, |m| m.missed);
     let total = truth.modes.len();
 
     let constant = format!(
@@ -247,14 +247,16 @@ fn advise(
             format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
         }
         model if model == reference => {
-            let wrong = result(CableModel::ClosedForm).and_then(|m| m.first_wrong_hz);
+            let wrong = result(CableModel::ShallowDynamic).and_then(|m| m.first_wrong_hz);
             let closed = wrong.map_or(String::new(), |hz| {
                 format!("; the closed form lacks the one at {hz:.3} Hz or has it wrong by more than {percent} %")
             });
             format!("Use `{model}`: {constant}{closed}")
         }
-        CableModel::ClosedForm => {
-            format!("Use `closed-form`, which has all {total} within {percent} % of the {reference} ones: {constant}")
+        CableModel::ShallowDynamic => {
+            format!(
+                "Use `shallow-dynamic`, which has all {total} within {percent} % of the {reference} ones: {constant}"
+            )
         }
         _ => format!(
             "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the {reference} ones; {string}"

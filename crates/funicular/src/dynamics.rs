@@ -2,23 +2,23 @@
 //! frequencies below a frequency.
 
 mod blocks;
-mod complex;
+mod complex_frequency;
 mod count;
-mod least_stiffness;
-mod pencil;
+mod min_stiffness;
+mod null_vectors;
 
 pub(crate) use blocks::{CableBlocks, PlatformBlocks};
-pub(crate) use pencil::NullVector;
+pub(crate) use null_vectors::NullVector;
 
-use crate::cable::exact::ExactError;
+use crate::cable::catenary_dynamic::ExactError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
-use crate::robot::{Damping, Freedoms, Robot};
+use crate::robot::{Damping, PlatformMotion, Robot};
 use crate::statics::{CableState, Equilibrium};
 use thiserror::Error;
 
-/// Distance of ω² to a pole of an exact cable, relative, below which that pole's mode stands in the matrices as an unknown
+/// Distance of ω² to a pole of a catenary-dynamic cable, relative, below which that pole's mode stands in the matrices as an unknown
 /// of its own. Counts and modes are the same at 1e-2 and at 1e-6.
 const POLE_PART: f64 = 1e-3;
 
@@ -29,18 +29,18 @@ pub enum Assembly {
     #[default]
     Consistent,
     /// The cables' end stiffness only, as the paper's equation (11) prints it.
-    Paper,
+    WithoutGeometricStiffness,
 }
 
 impl Assembly {
     /// Both.
-    pub const ALL: [Self; 2] = [Self::Consistent, Self::Paper];
+    pub const ALL: [Self; 2] = [Self::Consistent, Self::WithoutGeometricStiffness];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
-            Self::Paper => "paper",
+            Self::WithoutGeometricStiffness => "paper",
         }
     }
 }
@@ -61,7 +61,7 @@ pub struct Linearisation {
 pub enum DynamicsError {
     /// A cable has no exact dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
-    Exact {
+    CatenaryDynamic {
         /// Name of the cable.
         cable: String,
         /// Why.
@@ -70,7 +70,7 @@ pub enum DynamicsError {
     /// A cable carries no tension.
     #[error(
         "cable \"{cable}\" has no tension: the {model} model does not exist for it; choose a state in which all cables \
-         are taut, or the model `spring` or `catenary-tangent`"
+         are taut, or the model `spring` or `catenary-static`"
     )]
     NoTension {
         /// Name of the cable.
@@ -79,7 +79,7 @@ pub enum DynamicsError {
         model: CableModel,
     },
     /// An ideal equilibrium has no tangent.
-    #[error("ideal cables are rigid: they have no catenary tangent; use the static model `catenary` or `spring`")]
+    #[error("ideal cables are rigid: they have no catenary-static; use the static model `catenary` or `spring`")]
     Rigid,
 }
 
@@ -90,7 +90,7 @@ impl DynamicsError {
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
-            NoStiffness::Exact(reason) => Self::Exact { cable, reason },
+            NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
         }
     }
 }
@@ -98,7 +98,7 @@ impl DynamicsError {
 /// A robot linearised about an equilibrium.
 ///
 /// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all are in N/m and kg. They are in the platform's
-/// coordinates ([`Freedoms::reduced`]), zero beyond their number.
+/// coordinates ([`PlatformMotion::reduced`]), zero beyond their number.
 #[derive(Debug, Clone)]
 pub struct Dynamics {
     coordinates: Coordinates,
@@ -153,7 +153,7 @@ impl Term {
 }
 
 impl Dynamics {
-    /// Linearises a robot about an equilibrium, for frequencies up to `up_to_hz` [Hz]: exact cables are resolved as finely
+    /// Linearises a robot about an equilibrium, for frequencies up to `up_to_hz` [Hz]: catenary-dynamic cables are resolved as finely
     /// as these ask for, the other models do not need the number.
     ///
     /// # Errors
@@ -204,11 +204,11 @@ impl Dynamics {
         })
     }
 
-    /// With a few modes in place of the clamped ones of exact cables from ω [rad/s] on.
+    /// With a few modes in place of the clamped ones of catenary-dynamic cables from ω [rad/s] on.
     pub(crate) fn with_poles_below(&self, omega: f64) -> Self {
         let mut cut = self.clone();
         for term in &mut cut.terms {
-            if let DynamicCable::Exact(end) = &mut term.form {
+            if let DynamicCable::CatenaryDynamic(end) = &mut term.form {
                 **end = end.with_poles_below(omega * omega);
             }
         }
@@ -220,8 +220,8 @@ impl Dynamics {
         self.terms.iter().any(|term| matches!(self.damping[term.cable].0, Damping::Ratio(xi) if xi > 0.0))
     }
 
-    /// Number of freedoms of the platform.
-    pub fn freedoms(&self) -> usize {
+    /// Number of degrees of freedom of the platform.
+    pub fn dof(&self) -> usize {
         self.coordinates.count()
     }
 
@@ -263,7 +263,7 @@ impl Dynamics {
 
     /// Mass matrix about the platform origin, world axes, 6×6 [kg, kg m, kg m²].
     pub fn mass(&self) -> Mat6 {
-        let (scale, mass) = (self.scale(), self.coordinates.freedoms().expanded_matrix(&self.mass));
+        let (scale, mass) = (self.scale(), self.coordinates.motion().expanded_matrix(&self.mass));
         Mat6::from_fn(|i, j| mass[(i, j)] * scale[i] * scale[j])
     }
 
@@ -275,16 +275,16 @@ impl Dynamics {
 
     /// ℓ or 1: factor of each of the platform's coordinates.
     fn coordinate_scale(&self) -> [f64; 6] {
-        std::array::from_fn(|k| if self.coordinates.freedoms().is_rotation(k) { self.coordinates.ell() } else { 1.0 })
+        std::array::from_fn(|k| if self.coordinates.motion().is_rotation(k) { self.coordinates.ell() } else { 1.0 })
     }
 
     /// A matrix over motions in world axes, still scaled, of one over the platform's coordinates.
     pub(crate) fn expanded(&self, matrix: &CMat6) -> CMat6 {
-        let freedoms = self.coordinates.freedoms();
-        match freedoms {
-            Freedoms::Rigid | Freedoms::PointMass => *matrix,
-            Freedoms::Planar(_) => {
-                let parts = [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|part| freedoms.expanded_matrix(&part));
+        let motion = self.coordinates.motion();
+        match motion {
+            PlatformMotion::Rigid | PlatformMotion::PointMass => *matrix,
+            PlatformMotion::Planar(_) => {
+                let parts = [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|part| motion.expanded_matrix(&part));
                 parts[0].zip_map(&parts[1], Complex::new)
             }
         }
@@ -321,11 +321,11 @@ impl Dynamics {
 
     /// Scaled mass that moves with a unit motion of the platform, `M − dK/dω²` [kg], and each cable's share for the
     /// scaled motion `x`.
-    pub(crate) fn moving_masses(&self, omega: f64, x: &Vec6) -> (f64, Vec<f64>) {
+    pub(crate) fn effective_masses(&self, omega: f64, x: &Vec6) -> (f64, Vec<f64>) {
         let platform = x.dot(&(self.mass * x));
         let mut cables = vec![0.0; self.cable_count()];
         for term in &self.terms {
-            let m = term.form.moving_mass(omega);
+            let m = term.form.effective_mass(omega);
             let [a, n, b] = term.displacement(x);
             cables[term.cable] = m.axial * a * a + 2.0 * m.coupling * a * n + m.normal * n * n + m.out_of_plane * b * b;
         }
@@ -362,13 +362,15 @@ impl Dynamics {
         if self.terms.iter().any(|term| term.cable == i) { self.damping[i].1 } else { 0.0 }
     }
 
-    /// Whether every exact cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies below
+    /// Whether every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies below
     /// 1e-9; true for the models that are not discretised.
     pub fn resolves(&self, omega: f64) -> bool {
         self.terms.iter().all(|term| match &term.form {
-            DynamicCable::ClosedForm(_) => true,
+            DynamicCable::ShallowDynamic(_) => true,
             // Frequencies pass through Hz and back.
-            DynamicCable::Exact(cable) => omega <= cable.exact.limit * (1.0 + 1e-12) && cable.exact.error <= RESOLUTION,
+            DynamicCable::CatenaryDynamic(cable) => {
+                omega <= cable.exact.limit * (1.0 + 1e-12) && cable.exact.error <= RESOLUTION
+            }
         })
     }
 
@@ -384,7 +386,7 @@ impl Dynamics {
     }
 }
 
-/// Estimated relative error of the clamped frequencies up to which an exact cable counts as resolved.
+/// Estimated relative error of the clamped frequencies up to which a catenary-dynamic cable counts as resolved.
 const RESOLUTION: f64 = 1e-9;
 
 /// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.

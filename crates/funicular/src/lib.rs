@@ -31,7 +31,7 @@
 //! assert!(matches!(rest.stability, Stability::Stable { .. }));
 //!
 //! // Every natural frequency below 20 Hz, with cables of any sag: as many as the Wittrick–Williams count says.
-//! let exact = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
+//! let exact = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
 //! let dynamics = Dynamics::about(&robot, &rest, exact, 20.0)?;
 //! let found = modes::below(&dynamics, 20.0);
 //! assert!(found.certified && found.modes.len() == 147);
@@ -55,12 +55,12 @@ pub mod math;
 pub mod modes;
 mod platform;
 pub mod pose_error;
-pub mod reduction;
+pub mod reduced_model;
 pub mod response;
 pub mod robot;
 pub mod statics;
 pub mod suggest;
-pub mod validity;
+pub mod warnings;
 
 /// As a text says it: "1 cable", "2 cables".
 pub(crate) fn counted(count: usize, noun: &str) -> String {

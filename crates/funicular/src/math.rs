@@ -2,12 +2,12 @@
 //!
 //! The types are nalgebra's under these names, and no other file of the crate names nalgebra.
 
-pub mod inertia;
+pub mod generalized_eigen;
 pub mod legendre;
-pub mod projected;
 pub mod roots;
 pub mod rotation;
 pub(crate) mod simd;
+pub mod symmetric;
 
 /// Complex number, `f64` real and imaginary part.
 pub type Complex = num_complex::Complex64;

@@ -4,19 +4,19 @@
 //! so the count J tells how many natural frequencies lie there, and bisection on J separates them. What J jumps by
 //! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
 
-mod checks;
+mod certificate;
 pub mod damped;
 pub mod derivatives;
 mod fundamental;
 mod lowest;
 mod mac;
-pub mod track;
+pub mod tracking;
 
 pub use fundamental::{First, FirstError, first, first_of_all};
 pub use lowest::{LowestError, lowest};
 pub use mac::mac;
 
-pub use checks::{MOST, TooMany, check_count, damped_partners};
+pub use certificate::{MOST, TooMany, check_count, damped_partners};
 
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};
@@ -96,7 +96,7 @@ pub struct Modes {
     pub count_below: usize,
     /// Directions in which the equilibrium is unstable; they are in the count and have no frequency.
     pub unstable_directions: usize,
-    /// The list and the count agree, every mode's residual is below 1e-8, and exact cables are resolved up to the limit.
+    /// The list and the count agree, every mode's residual is below 1e-8, and catenary-dynamic cables are resolved up to the limit.
     pub certified: bool,
 }
 
@@ -227,7 +227,7 @@ impl List<'_> {
     fn determinant(&self, omega: f64) -> f64 {
         let d = self.dynamics.dynamic_stiffness(omega);
         // By elimination: the expansion of 3×3 would have the squares of a pole's large term cancel, and lose the sign.
-        if self.dynamics.freedoms() == 6 {
+        if self.dynamics.dof() == 6 {
             d.determinant()
         } else {
             d.fixed_view::<3, 3>(0, 0).clone_owned().lu().determinant()

@@ -9,7 +9,7 @@ use crate::statics::{self, Equilibrium, StaticModel, StaticsError};
 pub struct PoseErrorPoint {
     /// Platform mass [kg].
     pub mass: f64,
-    /// Equilibrium with ideal cables, whose pose does not depend on the mass. An error with more cables than freedoms,
+    /// Equilibrium with ideal cables, whose pose does not depend on the mass. An error with more cables than degrees of freedom,
     /// where rigid cables of given lengths do not close, and where one of them would have to push.
     pub ideal: Result<Equilibrium, StaticsError>,
     /// Equilibrium with springs.

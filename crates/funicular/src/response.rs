@@ -41,7 +41,7 @@ pub enum ResponseError {
     },
     /// A force on a cable and a point of the same cable, whose own answer is not known.
     #[error(
-        "the answer of a cable to a force on itself needs the model `exact`, a cable with mass, and both points among \
+        "the answer of a cable to a force on itself needs the model `catenary-dynamic`, a cable with mass, and both points among \
          the same loaded stations"
     )]
     SameCable,
@@ -146,11 +146,11 @@ pub fn receptances(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<CM
 /// Motions that the platform does not have have zero rows and columns, if they are along axes.
 pub fn receptance(dynamics: &Dynamics, omega: f64) -> CMat6 {
     let mut d = dynamics.damped_dynamic_stiffness(omega);
-    for i in dynamics.freedoms()..6 {
+    for i in dynamics.dof()..6 {
         d[(i, i)] = Complex::new(1.0, 0.0);
     }
     let mut inverse = d.try_inverse().unwrap_or_else(|| CMat6::repeat(Complex::new(f64::INFINITY, 0.0)));
-    for i in dynamics.freedoms()..6 {
+    for i in dynamics.dof()..6 {
         inverse[(i, i)] = Complex::new(0.0, 0.0);
     }
     let inverse = dynamics.expanded(&inverse);

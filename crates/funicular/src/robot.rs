@@ -5,14 +5,14 @@
 
 mod anchor;
 mod change;
-mod freedoms;
+mod motion;
 pub mod parameters;
 pub mod spec;
 mod wind;
 
 pub use anchor::Anchor;
 pub use change::{CableChange, RobotChange};
-pub use freedoms::{Freedoms, OutOfPlane, Plane};
+pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};
@@ -52,7 +52,7 @@ pub struct Platform {
     /// Centre of mass in the platform frame [m].
     pub center_of_mass_p: Vec3,
     /// Which motions it has.
-    pub freedoms: Freedoms,
+    pub motion: PlatformMotion,
     /// Viscous damping of its translation along the platform's axes, at the platform origin [N s/m].
     pub translational_damping_p: Vec3,
     /// Viscous damping of its rotation about the platform's axes [N m s].
@@ -82,14 +82,14 @@ pub enum LoadError {
 }
 
 impl Load {
-    /// Refuses what means nothing on a platform with these freedoms.
+    /// Refuses what means nothing on a platform with these degrees of freedom.
     ///
     /// # Errors
     /// [`LoadError`].
-    pub fn check(&self, freedoms: &Freedoms) -> Result<(), LoadError> {
-        match freedoms {
-            Freedoms::PointMass if self.moment_w.norm() > 0.0 => Err(LoadError::MomentOnPointMass),
-            Freedoms::PointMass if self.point_p.norm() > 0.0 => Err(LoadError::PointOfPointMass),
+    pub fn check(&self, motion: &PlatformMotion) -> Result<(), LoadError> {
+        match motion {
+            PlatformMotion::PointMass if self.moment_w.norm() > 0.0 => Err(LoadError::MomentOnPointMass),
+            PlatformMotion::PointMass if self.point_p.norm() > 0.0 => Err(LoadError::PointOfPointMass),
             _ => Ok(()),
         }
     }

@@ -4,9 +4,9 @@
 //! |---|---|
 //! | the equilibrium of a robot at its state | [`rest`] |
 //! | pose from unstrained lengths | [`forward`] |
-//! | every equilibrium of given lengths | [`all`], [`other_stable`] |
-//! | lengths from a pose, as many cables as freedoms | [`inverse`] |
-//! | lengths from a pose, more cables than freedoms | [`distribute`] by a [`TensionRule`] |
+//! | every equilibrium of given lengths | [`all`], [`another_stable_equilibrium`] |
+//! | lengths from a pose, as many cables as degrees of freedom | [`inverse`] |
+//! | lengths from a pose, more cables than degrees of freedom | [`distribute`] by a [`TensionRule`] |
 //! | the nearest pose that fewer cables hold | [`nearest`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | how an equilibrium follows a number of the robot | [`derivatives`] |
@@ -23,18 +23,18 @@ mod model; // ideal, spring, catenary
 // Pieces that several solvers share.
 mod collect; // an equilibrium made of cables that hang at a pose
 mod energy; // potential energy, which forward statics minimises
+mod initial_pose;
 mod loaded_cable; // a cable with its load, before its length is known
-mod residual; // what is left of the balance at a pose, and how much of it is rounding
-mod start; // a start pose from the lengths
+mod residual; // what is left of the balance at a pose, and how much of it is rounding // a start pose from the lengths
 
 // Solvers.
-mod all; // every equilibrium of given lengths that a search finds
+mod equilibria; // every equilibrium of given lengths that a search finds
 mod forward; // lengths to pose, cables that stretch
 mod ideal; // rigid cables: lengths to pose, pose to tensions
-mod inverse; // pose to lengths, as many cables as freedoms
-mod nearest; // the nearest pose that fewer cables than freedoms hold
+mod inverse; // pose to lengths, as many cables as degrees of freedom
+mod nearest_pose; // the nearest pose that fewer cables than degrees of freedom hold
 mod rest; // the choice between the solvers, by the state and the number of cables
-mod tension; // pose to lengths, more cables than freedoms
+mod tension; // pose to lengths, more cables than degrees of freedom
 
 // Questions to an equilibrium.
 pub mod derivatives; // how it follows a number of the robot
@@ -42,15 +42,15 @@ mod drag; // what the turn of the wind's drag adds to the stiffness
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
-pub use all::{Candidate, Candidates, all, other_stable};
-pub use drag::{antisymmetric_part, drag_effect, drag_stiffness, tangent_with_drag};
+pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, tangent_with_drag};
 pub use energy::energy;
+pub use equilibria::{Candidate, Candidates, all, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
 pub use forward::forward;
-pub use limits::{Limit, Miss, TensionMargin, TensionRange};
+pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
-pub use nearest::{Nearest, distance, nearest};
+pub use nearest_pose::{Nearest, distance, nearest};
 pub use residual::{carries_nothing, wrench};
 pub use rest::{Rest, inverse, rest, solve_at};
 pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};

@@ -49,7 +49,7 @@ impl TensionArgs {
     pub(crate) fn request(&self) -> Tensions {
         Tensions {
             tension_rule: self.tension_rule.map(Rule::from),
-            wanted_tension_n: self.wanted_tension_n.as_ref().map(|wanted| wanted.0.clone()),
+            target_tension_n: self.target_tension_n.as_ref().map(|wanted| wanted.0.clone()),
             min_tension_n: self.min_tension_n,
             max_tension_n: self.max_tension_n,
         }

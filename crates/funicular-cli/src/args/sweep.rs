@@ -62,7 +62,7 @@ pub(crate) struct WhatArgs {
     pub(crate) quantity: Vec<Quantity>,
 
     /// Where the search for natural frequencies ends [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular_study::sweep::HIGHEST_HZ)]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular_study::sweep::MAX_HZ)]
     pub(crate) up_to_hz: f64,
 }
 

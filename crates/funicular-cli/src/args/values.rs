@@ -113,7 +113,7 @@ pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
 }
 
 /// Most values that a list of them may have; a range may have more.
-const MOST_LISTED: usize = 10_000;
+const MAX_LISTED: usize = 10_000;
 
 /// `A:B:N`, or values separated by commas.
 fn steps(text: &str) -> Result<Steps, String> {
@@ -121,14 +121,14 @@ fn steps(text: &str) -> Result<Steps, String> {
     match parts[..] {
         [_] => {
             let values = list(text)?;
-            if values.len() > MOST_LISTED {
-                return Err(format!("{} values are more than the {MOST_LISTED} of a list", values.len()));
+            if values.len() > MAX_LISTED {
+                return Err(format!("{} values are more than the {MAX_LISTED} of a list", values.len()));
             }
             Ok(Steps::List(values))
         }
         [from, to, count] => {
             let (from, to) = (finite(from)?, finite(to)?);
-            let most = sweep::MOST_POINTS;
+            let most = sweep::MAX_POINTS;
             match count.trim().parse::<usize>() {
                 Ok(count) if count <= most => Steps::range(from, to, count),
                 _ => Err(format!("`{count}` is not a number of values: a whole number from 2 to {most}")),

@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
-use funicular::robot::Freedoms;
+use funicular::robot::PlatformMotion;
 use funicular_study::analyses::check::{Checked, CheckedLimits, CheckedRope};
 use std::cmp::Ordering;
 use std::fmt::Write;
@@ -14,11 +14,11 @@ impl Printed for Checked {
         if !self.source.is_empty() {
             say(format!("  source      {}", self.source));
         }
-        let (cables, freedoms) = (self.cables.len(), self.freedoms);
-        let redundancy = match cables.cmp(&freedoms) {
-            Ordering::Less => format!("{} fewer than freedoms", freedoms - cables),
-            Ordering::Equal => "as many as freedoms".to_owned(),
-            Ordering::Greater => format!("{} more than freedoms", cables - freedoms),
+        let (cables, dof) = (self.cables.len(), self.degrees_of_freedom);
+        let redundancy = match cables.cmp(&dof) {
+            Ordering::Less => format!("{} fewer than degrees of freedom", dof - cables),
+            Ordering::Equal => "as many as degrees of freedom".to_owned(),
+            Ordering::Greater => format!("{} more than degrees of freedom", cables - dof),
         };
         say(format!("  cables      {}, {redundancy}", self.cables.len()));
         let platform = &self.platform;
@@ -26,16 +26,16 @@ impl Printed for Checked {
             (Some(normal), Some(offset)) => {
                 format!(
                     "{} platform, plane with normal ({}), {} m from the origin",
-                    platform.freedoms,
+                    platform.motion,
                     vector(&normal, 4),
                     short(offset, 4)
                 )
             }
-            _ if platform.freedoms == Freedoms::PointMass.name() => "point mass".to_owned(),
+            _ if platform.motion == PlatformMotion::PointMass.name() => "point mass".to_owned(),
             _ => "rigid platform".to_owned(),
         };
         say(format!("  platform    {kind}, {} kg", short(platform.mass_kg, 6)));
-        if platform.freedoms != Freedoms::PointMass.name() {
+        if platform.motion != PlatformMotion::PointMass.name() {
             let rows = platform.inertia_kg_m2;
             let cell = |i: usize, j: usize| short(rows[i][j], 5);
             say(format!(

@@ -4,7 +4,7 @@ use crate::output::{self, Content, Printed, Target};
 use crate::table::{Table, counted, decimals};
 use anyhow::{Context, Result, bail};
 use funicular::math::DMat;
-use funicular::reduction::{SecondOrder, StateSpace};
+use funicular::reduced_model::{SecondOrder, StateSpace};
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::analyses::Found;

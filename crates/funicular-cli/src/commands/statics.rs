@@ -35,7 +35,7 @@ impl Printed for Statics {
             row.extend(cable.limits.iter().flat_map(limit_cells));
             cables.row(row);
         }
-        let stability = match (self.stable, self.least_stiffness_n_per_m) {
+        let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(least)) => format!("Stable, least stiffness {} N/m", significant(least, 4)),
             (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
             (Some(false), Some(least)) => format!("NOT STABLE, least stiffness {} N/m", significant(least, 4)),
@@ -47,7 +47,7 @@ impl Printed for Statics {
         let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
             format!("  nearest pose that the cables can hold, {} m from the one asked\n", short(distance, 4))
         });
-        let others = match (&self.other_stable, equilibria_table(self)) {
+        let others = match (&self.another_stable_equilibrium, equilibria_table(self)) {
             (_, Some(table)) => format!("\n{table}"),
             (Some(other), None) => other_text(other),
             (None, None) => String::new(),

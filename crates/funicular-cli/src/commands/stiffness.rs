@@ -35,7 +35,7 @@ impl Printed for Stiffness {
             self.robot,
             self.models.line()
         );
-        if let Some(part) = self.antisymmetric_part {
+        if let Some(part) = self.antisymmetric_fraction {
             let line = format!(
                 "The drag of the wind turns with the cables: the matrix is not symmetric, its antisymmetric part is {} % of it \
                  (Frobenius norm, moments divided by the platform's size).\n\n",

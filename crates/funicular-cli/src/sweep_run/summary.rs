@@ -18,7 +18,7 @@ pub(crate) struct Summary {
     command: &'static str,
     pub(crate) rows: usize,
     feasible: usize,
-    /// Names of what `least_at` and `greatest_at` give.
+    /// Names of what `min_at` and `max_at` give.
     coordinates: Vec<String>,
     /// Number of rows of each status that occurs, in the order of the codes.
     status: Vec<StatusCount>,
@@ -47,10 +47,10 @@ struct StatusCount {
 #[derive(Serialize)]
 struct Range {
     column: String,
-    least: f64,
-    least_at: Vec<f64>,
-    greatest: f64,
-    greatest_at: Vec<f64>,
+    min: f64,
+    min_at: Vec<f64>,
+    max: f64,
+    max_at: Vec<f64>,
 }
 
 impl Summary {
@@ -111,13 +111,13 @@ impl Summary {
                 match self.ranges.iter_mut().find(|range| range.column == column.name) {
                     None => self.ranges.push(Range {
                         column: column.name.clone(),
-                        least: value,
-                        least_at: at(row),
-                        greatest: value,
-                        greatest_at: at(row),
+                        min: value,
+                        min_at: at(row),
+                        max: value,
+                        max_at: at(row),
                     }),
-                    Some(range) if value < range.least => (range.least, range.least_at) = (value, at(row)),
-                    Some(range) if value > range.greatest => (range.greatest, range.greatest_at) = (value, at(row)),
+                    Some(range) if value < range.min => (range.min, range.min_at) = (value, at(row)),
+                    Some(range) if value > range.max => (range.max, range.max_at) = (value, at(row)),
                     Some(_) => {}
                 }
             }
@@ -162,20 +162,20 @@ impl Printed for Summary {
         let mut text = format!("{}: {rows}, {} feasible ({} %)\n", self.robot, self.feasible, short(share, 4));
         if !self.ranges.is_empty() && !self.varies.contains(&true) {
             let mut table = Table::new(&["", "value"]);
-            self.ranges.iter().for_each(|range| table.row(vec![range.column.clone(), significant(range.least, 5)]));
+            self.ranges.iter().for_each(|range| table.row(vec![range.column.clone(), significant(range.min, 5)]));
             text += "\n";
             text += &table.to_string();
         } else if !self.ranges.is_empty() {
             let place = format!("at {}", self.chosen(self.coordinates.iter().cloned()));
-            let mut table = Table::new(&["", "least", &place, "greatest", &place]);
+            let mut table = Table::new(&["", "min", &place, "max", &place]);
             for range in &self.ranges {
                 let at = |place: &[f64]| self.chosen(place.iter().map(|value| short(*value, 5)));
                 table.row(vec![
                     range.column.clone(),
-                    significant(range.least, 5),
-                    at(&range.least_at),
-                    significant(range.greatest, 5),
-                    at(&range.greatest_at),
+                    significant(range.min, 5),
+                    at(&range.min_at),
+                    significant(range.max, 5),
+                    at(&range.max_at),
                 ]);
             }
             text += "\n";
@@ -194,7 +194,7 @@ impl Printed for Summary {
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["column", "least", "greatest"])?;
-        self.ranges.iter().try_for_each(|range| out.serialize((&range.column, range.least, range.greatest)))
+        out.write_record(["column", "min", "max"])?;
+        self.ranges.iter().try_for_each(|range| out.serialize((&range.column, range.min, range.max)))
     }
 }

@@ -33,9 +33,9 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT --static-model rigid", "[possible values: ideal, spring, catenary]"),
         (
             "modes ROBOT --below-hz 9 --cable-model finite-element",
-            "exact, closed-form, static-sag, catenary-tangent, spring",
+            "catenary-dynamic, shallow-dynamic, shallow-static, catenary-static, spring",
         ),
-        ("modes ROBOT --below-hz 9 --assembly full", "[possible values: consistent, paper]"),
+        ("modes ROBOT --below-hz 9 --assembly full", "[possible values: consistent, without-geometric-stiffness]"),
         // The state.
         ("statics ROBOT --pose 0,0", "2 numbers where x,y,z"),
         ("statics ROBOT --pose 0,0,1,2", "4 numbers where"),
@@ -57,10 +57,10 @@ fn broken_command_lines_are_refused() {
         // Tensions.
         ("statics ROBOT --tension-rule highest", "[possible values: lowest, closest, middle, stiffest]"),
         ("statics ROBOT --tension-rule lowest", "given by unstrained lengths"),
-        ("statics ROBOT --pose 0,0,0.5 --tension-rule lowest", "6 cables for 6 freedoms"),
-        ("statics ROBOT --tension-rule closest", "needs --wanted-tension-n"),
-        ("statics ROBOT --tension-rule middle --wanted-tension-n 5", "closest only"),
-        ("statics ROBOT --wanted-tension-n 5,-1", "-1 is negative"),
+        ("statics ROBOT --pose 0,0,0.5 --tension-rule lowest", "6 cables for 6 degrees of freedom"),
+        ("statics ROBOT --tension-rule closest", "needs --target-tension-n"),
+        ("statics ROBOT --tension-rule middle --target-tension-n 5", "closest only"),
+        ("statics ROBOT --target-tension-n 5,-1", "-1 is negative"),
         ("statics ROBOT --min-tension-n 5 --max-tension-n 5", "give --min-tension-n below --max-tension-n"),
         ("statics ROBOT --max-tension-n 0", "0 is not positive"),
         ("statics ROBOT --mass-kg -3", "-3 is not positive"),
@@ -89,14 +89,14 @@ fn broken_command_lines_are_refused() {
         ("stiffness ROBOT --at-hz -1", "-1 is negative"),
         ("stiffness ROBOT --at-hz nan", "not a finite number"),
         ("stiffness ROBOT --static-model ideal", "use the static model `catenary` or `spring`"),
-        ("stiffness ROBOT --static-model ideal --assembly paper", "use the static model"),
+        ("stiffness ROBOT --static-model ideal --assembly without-geometric-stiffness", "use the static model"),
         // Modes.
         ("modes ROBOT", "--below-hz"),
         ("modes ROBOT --below-hz 0", "0 is not positive"),
         ("modes ROBOT --below-hz -5", "-5 is not positive"),
         ("modes ROBOT --below-hz 20Hz", "without its unit"),
         ("modes ROBOT --below-hz 1e9", "lower the limit"),
-        ("modes ROBOT --below-hz 1e9 --cable-model closed-form", "lower the limit"),
+        ("modes ROBOT --below-hz 1e9 --cable-model shallow-dynamic", "lower the limit"),
         ("compare ROBOT --below-hz 1e9", "lower the limit"),
         ("compare ROBOT --below-hz 5 --cable-model spring", "unexpected argument"),
         // Frequency responses.
@@ -126,7 +126,7 @@ fn broken_command_lines_are_refused() {
         ("pose-error ROBOT --mass-kg 10:90:5 --lengths-m 1,2", "2 unstrained lengths for 6 cables"),
         ("cable ROBOT --name 9 --from-hz 1 --to-hz 2 --points 9", "no cable \"9\"; there are `1`"),
         ("cable ROBOT --name 1 --from-hz 1 --to-hz 1e9 --points 9", "lower the limit"),
-        ("cable ROBOT --name 1 --cable-model closed-form --from-hz 1 --to-hz 1e9 --points 9", "lower --to-hz"),
+        ("cable ROBOT --name 1 --cable-model shallow-dynamic --from-hz 1 --to-hz 1e9 --points 9", "lower --to-hz"),
         // Where the result goes.
         ("statics ROBOT -o ROBOT", "refusing to write the result over the robot file"),
         ("statics ROBOT -o /", "it is a directory"),
@@ -241,6 +241,6 @@ fn tensions_that_no_choice_provides_are_no_solution_and_what_binds_is_named() {
     };
     refused(&["--max-tension-n", "200"], 1, "the nearest miss the limits by ");
     refused(&["--max-tension-n", "200"], 1, "held by the maximum of cables ");
-    refused(&["--wanted-tension-n", "1,2"], 2, "2 wanted tensions for 8 cables");
+    refused(&["--target-tension-n", "1,2"], 2, "2 wanted tensions for 8 cables");
     refused(&["--tension-rule", "stiffest", "--static-model", "ideal"], 2, "ideal cables, which are rigid");
 }

@@ -136,7 +136,7 @@ fn the_contents_of_the_theory_are_its_headings() {
 /// The test itself: what it has to find, and what it must not.
 #[test]
 fn anchors_are_those_of_github_and_dead_links_are_found() {
-    assert_eq!(anchor("14 Freedoms, few cables and loads"), "14-freedoms-few-cables-and-loads");
+    assert_eq!(anchor("14 Degrees of freedom, few cables and loads"), "14-degrees-of-freedom-few-cables-and-loads");
     assert_eq!(anchor("Why pulp, and not `wide` or intrinsics?"), "why-pulp-and-not-wide-or-intrinsics");
     let text = "# A\n## B c\n## B c\n```\n# none\n[x](none.md)\n```\n`[y](none.md)` [1](#b-c-1) [2](#b-c-2) [3](none.md) \
                 [4](https://example.org/#x) [5](README.md#a)\n[6](CITATION.cff)";

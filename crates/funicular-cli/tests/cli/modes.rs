@@ -7,7 +7,7 @@ fn modes_below_20_hz_are_147_and_certified() {
     let value = json(&["modes", "ROBOT", "--below-hz", "20"]);
     assert_eq!(value["count_below"], 147);
     assert_eq!(value["certified"], true);
-    assert_eq!(value["cable_model"], "exact");
+    assert_eq!(value["cable_model"], "catenary-dynamic");
     let modes = value["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 147);
     for mode in modes {

@@ -50,7 +50,7 @@ fn the_built_in_robot_is_that_of_the_file() {
 #[test]
 fn options_of_state_model_and_response_reach_the_page() {
     let page = succeed(
-        &"report -o - --pose 0,0,0.6 --mass-kg 20 --static-model spring --cable-model spring --assembly paper \
+        &"report -o - --pose 0,0,0.6 --mass-kg 20 --static-model spring --cable-model spring --assembly without-geometric-stiffness \
           --in-plane-only --below-hz 12 --input mz --output vx --output-point-m 0,0,-0.2"
             .split_whitespace()
             .collect::<Vec<_>>(),
@@ -73,7 +73,7 @@ fn options_of_state_model_and_response_reach_the_page() {
 fn pages_that_cannot_be_are_refused() {
     for (line, code, expected) in [
         ("report --below-hz 1e6", 2, "lower the limit"),
-        ("report --cable-model closed-form --below-hz 1e6", 2, "at most 2000 are listed"),
+        ("report --cable-model shallow-dynamic --below-hz 1e6", 2, "at most 2000 are listed"),
         ("report --below-hz 0", 2, "0 is not positive"),
         ("report no-such.toml", 2, "cannot read the robot file no-such.toml"),
         ("report ROBOT -o ROBOT", 2, "refusing to write the page over the robot file"),
@@ -102,7 +102,7 @@ fn a_dash_is_standard_output_for_every_command() {
 
 #[test]
 fn a_page_warns_on_stderr_too() {
-    let output = run(&["report", &robot("yuan2014-8mm.toml"), "--cable-model", "closed-form", "-o", "-"]);
+    let output = run(&["report", &robot("yuan2014-8mm.toml"), "--cable-model", "shallow-dynamic", "-o", "-"]);
     assert!(stderr(&output).starts_with("warning: cable "), "{}", stderr(&output));
     assert!(stdout(&output).contains("<ul class=\"warnings\">"));
 }
@@ -140,13 +140,14 @@ fn the_page_moves_cables_as_the_library_says_and_hangs_them_on_the_platform() {
         [("yuan2014-4mm.toml", 6.0), ("cogiro.toml", 12.0), ("sap2000-8-cable-point-mass.toml", 30.0)]
     {
         let below = below_hz.to_string();
-        let page = succeed(&["report", &robot(name), "--cable-model", "exact", "--below-hz", &below, "-o", "-"]);
+        let page =
+            succeed(&["report", &robot(name), "--cable-model", "catenary-dynamic", "--below-hz", &below, "-o", "-"]);
         let (header, shapes) = shapes_of(&page);
 
         let robot = Robot::from_toml(&fs::read_to_string(super::robot(name)).unwrap()).unwrap();
         let State::Lengths(lengths) = &robot.state else { panic!("the file gives lengths") };
         let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
-        let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
+        let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, below_hz).unwrap();
         let found = modes::below(&dynamics, below_hz);
         assert_eq!(shapes.len(), found.modes.len());

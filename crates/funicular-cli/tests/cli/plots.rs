@@ -93,7 +93,7 @@ fn a_grid_becomes_slices_that_hold_its_rows() {
         "figure-set-plot",
         "figure-histogram-plot",
         "figure-space-plot",
-        "<td class=\"left\">beyond-limits</td>",
+        "<td class=\"left\">tension-limits</td>",
     ] {
         assert!(page.contains(expected), "{expected}");
     }
@@ -182,8 +182,8 @@ fn a_row_between_two_that_are_infeasible_is_a_point() {
 #[test]
 fn other_models_and_options_are_followed_as_they_were_computed() {
     for rest in [
-        "--pose 0.1,0,0.5 --cable-model closed-form",
-        "--pose 0,0,0.5 --assembly paper --in-plane-only --force-n 1,0,2 --mass-kg 12",
+        "--pose 0.1,0,0.5 --cable-model shallow-dynamic",
+        "--pose 0,0,0.5 --assembly without-geometric-stiffness --in-plane-only --force-n 1,0,2 --mass-kg 12",
     ] {
         let vary = "sweep ROBOT --vary materials.rope-4mm.diameter_m=0.003:0.005:5 --quantity frequencies:3";
         let (page, notes) = page_of(&format!("{vary} {rest}"));

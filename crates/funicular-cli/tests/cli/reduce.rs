@@ -43,7 +43,7 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     assert!(stderr(&refused).contains("is not empty"), "{}", stderr(&refused));
     let refused = run(&with(&arguments, &place("model.mat")));
     assert!(stderr(&refused).contains("neither an .npz file nor a folder"), "{}", stderr(&refused));
-    let refused = run(&["reduce", "ROBOT", "--below-hz", "3", "--cable-model", "closed-form"]);
+    let refused = run(&["reduce", "ROBOT", "--below-hz", "3", "--cable-model", "shallow-dynamic"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("choose the model `exact`"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("choose the model `catenary-dynamic`"), "{}", stderr(&refused));
 }

@@ -11,7 +11,7 @@ fn command_lines() -> Vec<Vec<String>> {
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
         &["statics", "ROBOT", "--set", "platform.mass_kg=20", "--force-n", "1,-2,0", "--load-point-m", "0.1,0,0"],
         &["statics", "ROBOT", "--all"],
-        &["stiffness", "ROBOT", "--at-hz", "3.5", "--cable-model", "closed-form", "--in-plane-only"],
+        &["stiffness", "ROBOT", "--at-hz", "3.5", "--cable-model", "shallow-dynamic", "--in-plane-only"],
         &["modes", "ROBOT", "--below-hz", "2", "--input", "fz", "--output", "cable:3@0.5:az", "--stations", "5"],
         &[
             "frf",

@@ -14,7 +14,7 @@ fn statics_has_the_published_pose_and_the_keys() {
     assert!(number(&value["residual"]) <= 1e-10);
     assert_eq!(value["stable"], true);
     assert_eq!(value["static_model"], "catenary");
-    assert!(number(&value["least_stiffness_n_per_m"]) > 0.0 && value["iterations"].is_u64());
+    assert!(number(&value["stiffness_min_n_per_m"]) > 0.0 && value["iterations"].is_u64());
     let cables = value["cables"].as_array().unwrap();
     assert_eq!(cables.len(), 6);
     for key in ["unstrained_length_m", "tension_platform_n", "tension_anchor_n", "chord_m", "sag_ratio", "lambda2"] {
@@ -65,9 +65,9 @@ fn tensions_of_a_redundant_robot_follow_the_rule_and_show_their_limits() {
     };
     assert!(least(&middle) >= least(&of(&["--max-tension-n", "800"])));
     let stiffest = of(&["--tension-rule", "stiffest", "--max-tension-n", "800"]);
-    let stiffness = |value: &Value| number(&value["least_stiffness_n_per_m"]);
+    let stiffness = |value: &Value| number(&value["stiffness_min_n_per_m"]);
     assert!(stiffness(&stiffest) >= stiffness(&middle) && stiffness(&stiffest) >= stiffness(&lowest));
-    let closest = of(&["--wanted-tension-n", "450"]);
+    let closest = of(&["--target-tension-n", "450"]);
     assert_eq!(closest["tension_rule"], "closest");
     assert!(sum(&closest) > sum(&lowest));
     let text = succeed(&pose);

@@ -5,7 +5,7 @@ use super::{close, json, numbers, succeed};
 #[test]
 fn stiffness_at_rest_is_the_symmetric_tangent_and_above_it_that_of_the_exact_cables() {
     let still = json(&["stiffness", "ROBOT"]);
-    assert_eq!(still["cable_model"], "catenary-tangent");
+    assert_eq!(still["cable_model"], "catenary-static");
     assert_eq!(still["assembly"], "consistent");
     let rows: Vec<Vec<f64>> = still["real"].as_array().unwrap().iter().map(numbers).collect();
     let imag: Vec<Vec<f64>> = still["imag"].as_array().unwrap().iter().map(numbers).collect();
@@ -16,11 +16,11 @@ fn stiffness_at_rest_is_the_symmetric_tangent_and_above_it_that_of_the_exact_cab
         }
     }
     let moving = json(&["stiffness", "ROBOT", "--at-hz", "2"]);
-    assert_eq!(moving["cable_model"], "exact");
+    assert_eq!(moving["cable_model"], "catenary-dynamic");
     assert!(moving["imag"].as_array().unwrap().iter().flat_map(numbers).any(|k| k != 0.0));
-    let shallow = json(&["stiffness", "ROBOT", "--cable-model", "closed-form"]);
-    assert_eq!(shallow["cable_model"], "closed-form");
-    assert_eq!(json(&["stiffness", "ROBOT", "--assembly", "paper"])["cable_model"], "catenary-tangent");
+    let shallow = json(&["stiffness", "ROBOT", "--cable-model", "shallow-dynamic"]);
+    assert_eq!(shallow["cable_model"], "shallow-dynamic");
+    assert_eq!(json(&["stiffness", "ROBOT", "--assembly", "paper"])["cable_model"], "catenary-static");
     assert!(json(&["stiffness", "ROBOT", "--static-model", "spring"])["static_model"] == "spring");
 }
 
@@ -38,7 +38,7 @@ fn stiffness_in_wind_turns_the_drag_and_a_named_model_says_what_it_leaves_out() 
     let entry = |of: &serde_json::Value, i: usize, j: usize| of["real"][i][j].as_f64().unwrap();
     let asymmetry = |of: &serde_json::Value| (entry(of, 0, 2) - entry(of, 2, 0)).abs();
     let whole = stiffness(&[]);
-    let part = whole["antisymmetric_part"].as_f64().unwrap();
+    let part = whole["antisymmetric_fraction"].as_f64().unwrap();
     assert!(part > 1e-4 && asymmetry(&whole) > 1e-4 * entry(&whole, 0, 0).abs(), "{whole}");
     assert!(whole["warnings"].as_array().unwrap().is_empty(), "{whole}");
     let text = succeed(&[&["stiffness", "ROBOT"][..], &STRONG].concat());
@@ -46,8 +46,8 @@ fn stiffness_in_wind_turns_the_drag_and_a_named_model_says_what_it_leaves_out() 
     assert!(text.contains(&format!("antisymmetric part is {}", &format!("{:.6}", 100.0 * part)[..3])), "{part} {text}");
 
     // Symmetric, with the drag held, and with a word on it.
-    let held = stiffness(&["--cable-model", "catenary-tangent"]);
-    assert!(held.get("antisymmetric_part").is_none() && asymmetry(&held) < 1e-6 * entry(&held, 0, 0).abs());
+    let held = stiffness(&["--cable-model", "catenary-static"]);
+    assert!(held.get("antisymmetric_fraction").is_none() && asymmetry(&held) < 1e-6 * entry(&held, 0, 0).abs());
     assert!((entry(&held, 0, 0) - entry(&whole, 0, 0)).abs() > 1e-4 * entry(&held, 0, 0).abs());
     let warned = held["warnings"][0].as_str().unwrap();
     assert!(warned.contains("the drag of the wind turns with the cables"), "{warned}");
@@ -57,5 +57,5 @@ fn stiffness_in_wind_turns_the_drag_and_a_named_model_says_what_it_leaves_out() 
 
     // Still air: nothing new is said.
     let still = json(&["stiffness", "ROBOT"]);
-    assert!(still.get("antisymmetric_part").is_none() && still["warnings"].as_array().unwrap().is_empty());
+    assert!(still.get("antisymmetric_fraction").is_none() && still["warnings"].as_array().unwrap().is_empty());
 }

@@ -24,7 +24,7 @@ fn a_map_has_a_row_for_every_point_and_a_reason_where_there_is_no_number() {
     let text = succeed(&["map", "ROBOT", "--grid", "x=-6:6:3", "--grid", "y=0", "--grid", "z=0.5", "--format", "csv"]);
     assert_eq!(column(&text, "x_m"), ["-6.0", "0.0", "6.0"]);
     assert_eq!(column(&text, "feasible"), ["false", "true", "false"]);
-    assert_eq!(column(&text, "status")[0], "would-push");
+    assert_eq!(column(&text, "status")[0], "negative-tension");
     assert!(column(&text, "reason")[0].contains("would need"), "{text}");
     let tensions = column(&text, "tension_max_n");
     assert!(tensions[0].is_empty() && tensions[1].parse::<f64>().unwrap() > 50.0, "{tensions:?}");
@@ -72,7 +72,7 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     assert_eq!((summary["command"].as_str(), summary["feasible"].as_u64()), (Some("map"), Some(2)));
     let coordinates = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
     assert_eq!(summary["coordinates"], serde_json::json!(coordinates));
-    assert_eq!(summary["ranges"][0]["least_at"].as_array().unwrap().len(), coordinates.len());
+    assert_eq!(summary["ranges"][0]["min_at"].as_array().unwrap().len(), coordinates.len());
     assert!(succeed(&poses).contains("2 rows, 2 feasible (100 %)"));
     fs::write(&path, "x_m,y_m,z_m\n0,0,0.5\n0,zero,0.5\n").unwrap();
     let output = run(&poses);

@@ -199,7 +199,7 @@ class Equilibrium:
         Irvine's λ² of the cables; NaN for a cable without tension.
         """
     @property
-    def least_stiffness_n_per_m(self, /) -> float | None:
+    def stiffness_min_n_per_m(self, /) -> float | None:
         """
         Least eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; None for ideal cables.
         """
@@ -236,7 +236,7 @@ class Equilibrium:
     @property
     def nearest_pose_distance_m(self, /) -> float | None:
         """
-        Distance from the pose asked [m], where fewer cables than freedoms hold only the nearest; else None.
+        Distance from the pose asked [m], where fewer cables than degrees of freedom hold only the nearest; else None.
         """
     @property
     def pose(self, /) -> Pose:
@@ -315,8 +315,8 @@ class Equilibrium:
         at_hz
             Frequency [Hz], or a row of n of them; 0 if not given.
         cable_model
-            How cables answer motion: `exact`, `closed-form`, `static-sag`, `catenary-tangent`, `spring`. If not given,
-            `exact` for cables that hang, else `closed-form`; at 0 Hz the exact tangent of the static model, in wind
+            How cables answer motion: `catenary-dynamic`, `shallow-dynamic`, `shallow-static`, `catenary-static`, `spring`. If not given,
+            `catenary-dynamic` for cables that hang, else `shallow-dynamic`; at 0 Hz the exact tangent of the static model, in wind
             with a drag that turns with the cables, which makes it unsymmetric (theory (49d)). A named model has the
             symmetric stiffness with the drag held, as have other frequencies.
         assembly
@@ -453,7 +453,7 @@ class Robot:
         """
         `Equilibrium.compare` in the state of the robot file.
         """
-    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, threads: SupportsIndex | None = None) -> Equilibria:
+    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, threads: SupportsIndex | None = None) -> Equilibria:
         """
         The robot at rest in many states, computed side by side without Python's lock.
 
@@ -471,7 +471,7 @@ class Robot:
 
         The other parameters are those of `equilibrium`.
         """
-    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Equilibrium:
+    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Equilibrium:
         """
         The robot at rest.
 
@@ -479,16 +479,16 @@ class Robot:
         ----------
         pose
             A `Pose`, or x, y, z, or these and roll, pitch, yaw [m, degrees], or these and a quaternion w, x, y, z. The
-            lengths follow; of fewer cables than freedoms the nearest pose that they hold.
+            lengths follow; of fewer cables than degrees of freedom the nearest pose that they hold.
         lengths_m
             Unstrained lengths [m], one a cable, in file order. The pose follows.
             Without pose and lengths: the state of the robot file.
         static_model
             How cables carry their load: `ideal`, `spring` or `catenary`.
         tension_rule
-            Which of the tensions that hold a pose, where more cables than freedoms leave a choice: `lowest` (the default),
-            `closest` (to `wanted_tension_n`), `middle` or `stiffest`.
-        wanted_tension_n
+            Which of the tensions that hold a pose, where more cables than degrees of freedom leave a choice: `lowest` (the default),
+            `closest` (to `target_tension_n`), `middle` or `stiffest`.
+        target_tension_n
             Tensions for the rule `closest` [N], one for all or one a cable.
         min_tension_n, max_tension_n
             Limits of the tension anywhere in a cable [N], instead of those of the robot file.
@@ -519,7 +519,7 @@ class Robot:
         `Equilibrium.export` in the state of the robot file.
         """
     @property
-    def freedoms(self, /) -> str:
+    def motion(self, /) -> str:
         """
         Which motions the platform has: `rigid`, `point-mass` or a plane.
         """
@@ -564,7 +564,7 @@ class Robot:
         """
         Unstrained lengths that the file gives [m], one a cable; None where it gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Quantities over poses, one row a pose.
 
@@ -683,7 +683,7 @@ class Robot:
         """
         `Equilibrium.stiffness` in the state of the robot file.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, wanted_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Quantities over values of the robot file, one row a combination, as of the program's `sweep`.
 

@@ -33,7 +33,7 @@ def robot(of: "Robot") -> str:
         for name, anchor, attachment in zip(of.cable_names, of.anchors_m, of.attachments_m, strict=True)
     ]
     return (
-        f"<p><b>{escape(of.name)}</b>: {of.mass_kg:g} kg, {escape(of.freedoms)}, {len(rows)} cables</p>"
+        f"<p><b>{escape(of.name)}</b>: {of.mass_kg:g} kg, {escape(of.motion)}, {len(rows)} cables</p>"
         f"{_table(('cable', 'anchor [m]', 'attachment [m]'), rows)}<p>{escape(of.source)}</p>"
     )
 

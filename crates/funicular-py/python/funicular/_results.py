@@ -321,10 +321,10 @@ class Equilibria(_Columns):
     """What is left of the wrench on the platform, over the sum of all forces."""
     stable: NDArray[np.bool_]
     """Whether every small motion is opposed; false for ideal cables, which are rigid."""
-    least_stiffness_n_per_m: NDArray[np.float64]
+    stiffness_min_n_per_m: NDArray[np.float64]
     """Least eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; NaN for ideal cables."""
     nearest_pose_distance_m: NDArray[np.float64]
-    """Distance from the pose asked [m] where fewer cables than freedoms hold only the nearest; else NaN."""
+    """Distance from the pose asked [m] where fewer cables than degrees of freedom hold only the nearest; else NaN."""
     model: str
 
     @property

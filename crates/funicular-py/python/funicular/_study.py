@@ -101,7 +101,7 @@ def _plain(key: str, value: Any) -> Any:
         return {"position_m": value[:3], "quaternion_wxyz": value[3:]}
     if key == "poses":
         return [[*row, 0.0, 0.0, 0.0] if len(row) == 3 else row for row in value]
-    if key == "wanted_tension_n" and not isinstance(value, list):
+    if key == "target_tension_n" and not isinstance(value, list):
         return [value]
     return value
 

@@ -62,7 +62,7 @@ def equilibria_table(of: "Equilibria") -> Any:
     columns |= {
         "residual": of.residual,
         "stable": of.stable,
-        "least_stiffness_n_per_m": of.least_stiffness_n_per_m,
+        "stiffness_min_n_per_m": of.stiffness_min_n_per_m,
         "nearest_pose_distance_m": of.nearest_pose_distance_m,
     }
     return _pandas().DataFrame(columns)

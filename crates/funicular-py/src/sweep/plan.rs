@@ -3,8 +3,8 @@
 use super::work::PyWork;
 use crate::arrays::Reduced;
 use crate::errors;
+use crate::interrupt::on_threads;
 use crate::threads::Threads;
-use crate::waiting::on_threads;
 use funicular_files::{Begin, Job, Opened, table};
 use funicular_study::request::Request;
 use funicular_study::sweep::{Chunk, Part, PreparedSweep, Record};
@@ -118,7 +118,7 @@ impl PyPlan {
                 first..end,
                 threads.0,
                 |chunk| table::pack(&mut bytes, &chunk).map_err(PyErr::from),
-                crate::waiting::look,
+                crate::interrupt::look,
             )
         })?;
         Ok(PyBytes::new(py, &bytes))

@@ -128,7 +128,7 @@ impl PyWork {
                 Ok(())
             };
             let look = || {
-                crate::waiting::look()?;
+                crate::interrupt::look()?;
                 if told.elapsed() >= TELL {
                     told = Instant::now();
                     tell()?;

@@ -3,7 +3,7 @@
 use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Cable, Damping, Freedoms, Load, Robot, State, TensionLimits, Wind};
+use funicular::robot::{Cable, Damping, Load, PlatformMotion, Robot, State, TensionLimits, Wind};
 use serde::Serialize;
 
 /// The robot as it was read.
@@ -13,7 +13,7 @@ pub struct Checked {
     pub robot: String,
     pub source: String,
     pub gravity_m_s2: [f64; 3],
-    pub freedoms: usize,
+    pub degrees_of_freedom: usize,
     pub platform: CheckedPlatform,
     /// Absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -33,7 +33,7 @@ pub struct Checked {
 /// The platform of a robot file.
 #[derive(Serialize)]
 pub struct CheckedPlatform {
-    pub freedoms: &'static str,
+    pub motion: &'static str,
     /// Only of a planar platform.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plane_normal: Option<[f64; 3]>,
@@ -202,19 +202,19 @@ pub fn run(robot: Robot) -> Checked {
         State::Unknown => ("none", None),
     };
     let inertia = robot.platform.inertia_p;
-    let freedoms = robot.platform.freedoms.count();
-    let plane = match robot.platform.freedoms {
-        Freedoms::Planar(plane) => Some(plane),
-        Freedoms::Rigid | Freedoms::PointMass => None,
+    let dof = robot.platform.motion.count();
+    let plane = match robot.platform.motion {
+        PlatformMotion::Planar(plane) => Some(plane),
+        PlatformMotion::Rigid | PlatformMotion::PointMass => None,
     };
     Checked {
         warnings: warnings(&robot),
         robot: robot.name,
         source: robot.source,
         gravity_m_s2: robot.gravity_w.into(),
-        freedoms,
+        degrees_of_freedom: dof,
         platform: CheckedPlatform {
-            freedoms: robot.platform.freedoms.name(),
+            motion: robot.platform.motion.name(),
             plane_normal: plane.map(|plane| plane.normal_w().into()),
             plane_offset_m: plane.map(|plane| plane.offset()),
             mass_kg: robot.platform.mass,
@@ -232,15 +232,15 @@ pub fn run(robot: Robot) -> Checked {
 }
 
 fn warnings(robot: &Robot) -> Vec<String> {
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     let mut warnings = Vec::new();
-    if cables < freedoms {
+    if cables < dof {
         warnings.push(format!(
-            "{cables} cables for {freedoms} freedoms: from lengths the platform hangs where its energy is least; of a pose \
+            "{cables} cables for {dof} degrees of freedom: from lengths the platform hangs where its energy is least; of a pose \
              that they cannot hold, statics gives the nearest that they can"
         ));
     }
-    if let Freedoms::Planar(plane) = robot.platform.freedoms {
+    if let PlatformMotion::Planar(plane) = robot.platform.motion {
         let across =
             |cable: &Cable| plane.distance(&cable.anchor.reference_w()) - plane.normal_w().dot(&cable.attachment_p);
         let beside: Vec<String> = robot

@@ -79,7 +79,7 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     request::check_positive("below_hz", request.below_hz)?;
     let linearisation = Linearisation {
         // For the number of modes, before any work; the models follow.
-        cable_model: CableModel::ClosedForm,
+        cable_model: CableModel::ShallowDynamic,
         assembly: request.terms.assembly,
         in_plane_only: request.terms.in_plane_only,
     };
@@ -88,7 +88,7 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation)?;
     let Comparison { below_hz, reference, models, advice } = found;
     for model in &models {
-        if let Some(warning) = model.modes.as_ref().ok().and_then(modes::Modes::doubt) {
+        if let Some(warning) = model.modes.as_ref().ok().and_then(modes::Modes::caveat) {
             warnings.push(format!("{}: {warning}", model.model));
         }
     }

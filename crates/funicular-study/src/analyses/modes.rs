@@ -126,12 +126,12 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, modes::MOST)?;
     let found = modes::below(&dynamics, request.below_hz);
-    warnings.extend(found.doubt());
+    warnings.extend(found.caveat());
     let AtRest { robot, equilibrium, .. } = at_rest;
 
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let (damped, doubt) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
-    warnings.extend(doubt);
+    let (damped, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
+    warnings.extend(caveat);
     if let Some(damped) = &damped {
         for (row, mode) in rows.iter_mut().zip(&damped.modes) {
             let eigenvalue = mode.eigenvalue();

@@ -9,7 +9,7 @@ use crate::text::significant;
 use anyhow::Result;
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::reduction::{Coordinate, DampingAt, SecondOrder, Wanted, reduce};
+use funicular::reduced_model::{Coordinate, DampingAt, SecondOrder, Wanted, reduce};
 use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
@@ -141,7 +141,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
 fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Signal)>> {
     let all = ["fx", "fy", "fz", "mx", "my", "mz"];
     let asked = if request.input.is_empty() {
-        let possible = robot.platform.freedoms.components();
+        let possible = robot.platform.motion.components();
         possible.iter().map(|&i| request::input(all[i])).collect::<Result<Vec<_>>>()?
     } else {
         request.input.iter().map(|name| request::input(name)).collect::<Result<Vec<_>>>()?
@@ -154,7 +154,7 @@ fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input,
 fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Signal)>> {
     let all = ["x", "y", "z", "rx", "ry", "rz"];
     let asked = if request.output.is_empty() {
-        let possible = robot.platform.freedoms.components();
+        let possible = robot.platform.motion.components();
         possible.iter().map(|&i| request::output(all[i])).collect::<Result<Vec<_>>>()?
     } else {
         request.output.iter().map(|name| request::output(name)).collect::<Result<Vec<_>>>()?
@@ -178,8 +178,8 @@ impl CoordinateRow {
     fn of(robot: &Robot, coordinate: &Coordinate) -> Self {
         match coordinate {
             Coordinate::Platform(i) => Self {
-                name: robot.platform.freedoms.coordinate_names()[*i].to_owned(),
-                unit: if robot.platform.freedoms.is_rotation(*i) { "rad" } else { "m" },
+                name: robot.platform.motion.coordinate_names()[*i].to_owned(),
+                unit: if robot.platform.motion.is_rotation(*i) { "rad" } else { "m" },
                 clamped_frequency_hz: None,
             },
             Coordinate::Clamped { cable, out_of_plane, frequency_hz } => Self {

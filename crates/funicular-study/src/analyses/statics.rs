@@ -26,7 +26,7 @@ pub struct Statics {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<WindRow>,
     pub pose: PoseRow,
-    /// Distance from the pose asked; absent where the cables are as many as the freedoms, or lengths were given.
+    /// Distance from the pose asked; absent where the cables are as many as the degrees of freedom, or lengths were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest_pose_distance_m: Option<f64>,
     /// Absent where the tensions were no choice.
@@ -42,9 +42,9 @@ pub struct Statics {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stable: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub least_stiffness_n_per_m: Option<f64>,
+    pub stiffness_min_n_per_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub other_stable: Option<OtherStable>,
+    pub another_stable_equilibrium: Option<OtherStable>,
     /// All that a search found, the lowest first; with --all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibria: Option<Vec<EquilibriumRow>>,
@@ -107,7 +107,7 @@ pub struct OtherStable {
 
 impl OtherStable {
     fn of(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        let (other, energy_above_j) = statics::other_stable(robot, equilibrium)?;
+        let (other, energy_above_j) = statics::another_stable_equilibrium(robot, equilibrium)?;
         Some(Self { energy_above_j, distance_m: other.distance, position_m: other.equilibrium.pose.position_w.into() })
     }
 }
@@ -213,12 +213,12 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
 pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let cables = cable_rows(at_rest);
-    let (stable, least_stiffness_n_per_m) = match equilibrium.stability {
-        Stability::Stable { least_stiffness } => (Some(true), Some(least_stiffness)),
-        Stability::Unstable { least_stiffness, .. } => (Some(false), Some(least_stiffness)),
+    let (stable, stiffness_min_n_per_m) = match equilibrium.stability {
+        Stability::Stable { min_stiffness } => (Some(true), Some(min_stiffness)),
+        Stability::Unstable { min_stiffness, .. } => (Some(false), Some(min_stiffness)),
         Stability::Rigid => (None, None),
     };
-    let (mut equilibria, mut search, mut other_stable) = (None, None, None);
+    let (mut equilibria, mut search, mut another_stable_equilibrium) = (None, None, None);
     let mut warnings = at_rest.warnings(None);
     if all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
@@ -234,7 +234,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         let (index_sum, expected_index_sum) = (found.index_sum, found.expected_index_sum);
         search = Some(Search { starts: found.starts, index_sum, expected_index_sum });
     } else {
-        other_stable = OtherStable::of(robot, equilibrium);
+        another_stable_equilibrium = OtherStable::of(robot, equilibrium);
     }
     Ok(Statics {
         warnings,
@@ -251,8 +251,8 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         carries_nothing: statics::carries_nothing(robot, equilibrium),
         iterations: equilibrium.iterations,
         stable,
-        least_stiffness_n_per_m,
-        other_stable,
+        stiffness_min_n_per_m,
+        another_stable_equilibrium,
         equilibria,
         search,
     })

@@ -25,7 +25,7 @@ pub struct Stiffness {
     pub imag: [[f64; 6]; 6],
     /// Size of the antisymmetric part over that of the whole; absent where the matrix is symmetric by its theory.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub antisymmetric_part: Option<f64>,
+    pub antisymmetric_fraction: Option<f64>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -42,7 +42,7 @@ pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffnes
 
     // The drag that turns with the cables makes the matrix unsymmetric; the models of vibration are not asked then.
     let turns = drag_turns(&at_rest, request.model, request.at_hz);
-    let antisymmetric_part = turns.then(|| statics::antisymmetric_part(&at_rest.robot, &matrix.map(|k| k.re)));
+    let antisymmetric_fraction = turns.then(|| statics::antisymmetric_fraction(&at_rest.robot, &matrix.map(|k| k.re)));
     let warnings = at_rest.warnings((!turns).then_some((linearisation.cable_model, request.at_hz)));
 
     // `+ 0.0` makes a negative zero positive: the sign would mean nothing.
@@ -54,7 +54,7 @@ pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffnes
         models: Models::of(&at_rest.equilibrium, linearisation),
         real: rows(|k| k.re),
         imag: rows(|k| k.im),
-        antisymmetric_part,
+        antisymmetric_fraction,
         warnings,
     })
 }
@@ -64,7 +64,7 @@ pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffnes
 fn linearisation_at(at_rest: &AtRest, model: Model, hz: f64) -> Linearisation {
     let linearisation = at_rest::linearisation(&model, at_rest.equilibrium.model);
     if model.cable_model.is_none() && hz == 0.0 {
-        return Linearisation { cable_model: CableModel::CatenaryTangent, ..linearisation };
+        return Linearisation { cable_model: CableModel::CatenaryStatic, ..linearisation };
     }
     linearisation
 }
@@ -94,7 +94,7 @@ pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<V
 
 /// All terms of the static tangent.
 const WHOLE_TANGENT: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryTangent, assembly: Assembly::Consistent, in_plane_only: false };
+    Linearisation { cable_model: CableModel::CatenaryStatic, assembly: Assembly::Consistent, in_plane_only: false };
 
 /// A stiffness over frequency.
 enum Form {
@@ -132,7 +132,7 @@ impl Form {
 
 /// Refuses the tangent of ideal cables, which are rigid.
 fn refuse_rigid(linearisation: Linearisation, static_model: StaticModel) -> Result<(), DynamicsError> {
-    if linearisation.cable_model == CableModel::CatenaryTangent && static_model == StaticModel::Ideal {
+    if linearisation.cable_model == CableModel::CatenaryStatic && static_model == StaticModel::Ideal {
         return Err(DynamicsError::Rigid);
     }
     Ok(())

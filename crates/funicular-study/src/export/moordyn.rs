@@ -10,7 +10,7 @@ use crate::at_rest::AtRest;
 use anyhow::{Result, bail};
 use askama::Template;
 use funicular::math::{Mat3, Vec3};
-use funicular::robot::{Damping, Freedoms, Material, Robot};
+use funicular::robot::{Damping, Material, PlatformMotion, Robot};
 
 #[derive(Template)]
 #[template(path = "moordyn.txt", escape = "none")]
@@ -66,9 +66,9 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
     let mut types = Vec::new();
-    let body = match robot.platform.freedoms {
-        Freedoms::Rigid => Some(Frame::of(at_rest)),
-        Freedoms::PointMass | Freedoms::Planar(_) => None,
+    let body = match robot.platform.motion {
+        PlatformMotion::Rigid => Some(Frame::of(at_rest)),
+        PlatformMotion::PointMass | PlatformMotion::Planar(_) => None,
     };
     let mut points = Vec::new();
     let mut lines = Vec::new();
@@ -133,9 +133,9 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
 const STEP: f64 = 0.5;
 
 fn refuse(robot: &Robot) -> Result<()> {
-    if matches!(robot.platform.freedoms, Freedoms::Planar(_)) {
+    if matches!(robot.platform.motion, PlatformMotion::Planar(_)) {
         bail!(
-            "the platform is planar: MoorDyn's bodies are free in all six freedoms or moved by another program, and \
+            "the platform is planar: MoorDyn's bodies are free in all six degrees of freedom or moved by another program, and \
              nothing guides them in a plane; export it to OpenSees"
         );
     }

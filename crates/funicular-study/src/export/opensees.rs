@@ -18,7 +18,7 @@ use crate::at_rest::AtRest;
 use anyhow::Result;
 use askama::Template;
 use funicular::math::{Mat3, Vec3};
-use funicular::robot::{Freedoms, Load, Robot};
+use funicular::robot::{Load, PlatformMotion, Robot};
 use serde::Serialize;
 
 /// Natural frequencies to compare with, unless a limit is given.
@@ -68,7 +68,7 @@ struct CableData<'a> {
 /// The script.
 ///
 /// # Errors
-/// A slack cable; no equilibrium of exact cables, more modes than a table has rows.
+/// A slack cable; no equilibrium of catenary-dynamic cables, more modes than a table has rows.
 pub(crate) fn script(
     at_rest: &AtRest,
     segments: usize,
@@ -85,7 +85,7 @@ pub(crate) fn script(
     let platform: Vec<([f64; 3], f64)> = body.points.iter().map(|(point, mass)| ((*point).into(), *mass)).collect();
     let loads: Vec<[[f64; 3]; 2]> =
         body.loads(at_rest).iter().map(|(point, force)| [(*point).into(), (*force).into()]).collect();
-    let (axes, guided) = axes(robot.platform.freedoms);
+    let (axes, guided) = axes(robot.platform.motion);
     let stiffest = |i: usize| robot.cables[i].material.axial_stiffness / equilibrium.cables[i].unstrained_length;
     let frame_stiffness = FRAME_STIFFNESS * (0..robot.cables.len()).map(stiffest).fold(0.0, f64::max);
     let lost = frequencies.first().map_or(0.0, |first_hz| rounding(&body, frame_stiffness, *first_hz));
@@ -143,9 +143,9 @@ fn rounding(body: &Body, frame_stiffness: f64, first_hz: f64) -> f64 {
 }
 
 /// World axes of the script's coordinates, and the coordinate that a guide holds.
-fn axes(freedoms: Freedoms) -> ([Vec3; 3], Option<usize>) {
+fn axes(motion: PlatformMotion) -> ([Vec3; 3], Option<usize>) {
     let coordinates = [Vec3::x(), Vec3::y(), Vec3::z()];
-    let Freedoms::Planar(plane) = freedoms else { return (coordinates, None) };
+    let PlatformMotion::Planar(plane) = motion else { return (coordinates, None) };
     let normal = plane.normal_w();
     if let Some(guided) = coordinates.iter().position(|axis| *axis == normal) {
         return (coordinates, Some(guided));
@@ -179,16 +179,16 @@ fn body(at_rest: &AtRest) -> Body {
     let Robot { platform, .. } = robot;
     let pose = &equilibrium.pose;
     // Along each axis its second moment of mass.
-    let axes: Vec<(Vec3, f64)> = match platform.freedoms {
-        Freedoms::PointMass => Vec::new(),
+    let axes: Vec<(Vec3, f64)> = match platform.motion {
+        PlatformMotion::PointMass => Vec::new(),
         // The moment about the normal is all that counts, and all that the file has to say; each axis in the plane has
         // half of it.
-        Freedoms::Planar(plane) => {
+        PlatformMotion::Planar(plane) => {
             let normal = plane.normal_w();
             let moment = normal.dot(&(pose.rot_wp * (platform.inertia_p * (pose.rot_wp.inverse() * normal))));
             in_plane(&normal).map(|axis| (axis, 0.5 * moment)).into()
         }
-        Freedoms::Rigid => {
+        PlatformMotion::Rigid => {
             let principal = platform.inertia_p.symmetric_eigen();
             let half_trace = 0.5 * principal.eigenvalues.sum();
             let axes_w: Mat3 = pose.rot_wp.to_rotation_matrix() * principal.eigenvectors;
@@ -305,7 +305,7 @@ mod tests {
             let at_rest = at_rest(&planar(normal));
             let Body { points, size, .. } = body(&at_rest);
             let of = &at_rest.robot.platform;
-            let Freedoms::Planar(plane) = of.freedoms else { panic!("it is planar") };
+            let PlatformMotion::Planar(plane) = of.motion else { panic!("it is planar") };
             let center_w = at_rest.equilibrium.pose.point_w(&of.center_of_mass_p);
             let mass: f64 = points.iter().map(|(_, mass)| mass).sum();
             let moment: f64 = points.iter().map(|(point, mass)| mass * (point - center_w).norm_squared()).sum();
@@ -313,7 +313,7 @@ mod tests {
             for (point, _) in &points {
                 assert!(plane.normal_w().dot(&(point - center_w)).abs() < 1e-15 * size.max(1.0));
             }
-            let (axes, guided) = axes(of.freedoms);
+            let (axes, guided) = axes(of.motion);
             assert!((axes[guided.unwrap()] - plane.normal_w()).norm() < 1e-15);
             assert!((Mat3::from_columns(&axes).determinant() - 1.0).abs() < 1e-14);
         }
@@ -333,7 +333,7 @@ mod tests {
             })
             .collect();
         format!(
-            "name = \"p\"\n[platform]\nmass_kg = 3.0\nfreedoms = \"planar\"\nplane_normal = [{normal}]\n\
+            "name = \"p\"\n[platform]\nmass_kg = 3.0\nmotion = \"planar\"\nplane_normal = [{normal}]\n\
              inertia_kg_m2 = 0.2\ncenter_of_mass_m = [0.05, 0.02, 0.01]\n[materials.r]\naxial_stiffness_n = 1e4\n\
              mass_kg_per_m = 0.02\n{}",
             cables.concat()
@@ -351,10 +351,10 @@ mod tests {
         for text in [funicular_robots::YUAN2014_4MM, &planar("1.0, 2.0, -2.0")] {
             let mut at_rest = at_rest(text);
             at_rest.robot.load = load;
-            let freedoms = at_rest.robot.platform.freedoms;
+            let motion = at_rest.robot.platform.motion;
             // Of a planar platform the rest of the moment is the guide's.
-            let moment_w = match freedoms {
-                Freedoms::Planar(plane) => plane.normal_w() * plane.normal_w().dot(&load.moment_w),
+            let moment_w = match motion {
+                PlatformMotion::Planar(plane) => plane.normal_w() * plane.normal_w().dot(&load.moment_w),
                 _ => load.moment_w,
             };
             let pose = &at_rest.equilibrium.pose;

@@ -44,7 +44,7 @@ pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Resu
             mass: body.mass,
             inertia_p: body.inertia_p,
             center_of_mass_p: Some(body.center_of_mass_p),
-            freedoms: body.freedoms,
+            motion: body.motion,
             place: body.place,
         },
         cables: set.cables,

@@ -35,14 +35,14 @@ pub(crate) struct DraftPlatform {
     pub(crate) inertia_p: Option<Mat3>,
     /// Centre of mass in the platform frame [m]; `None` where the source has none.
     pub(crate) center_of_mass_p: Option<Vec3>,
-    pub(crate) freedoms: DraftFreedoms,
+    pub(crate) motion: DraftMotion,
     /// Where the source speaks of mass and inertia: `file:line`, with the column in XML.
     pub(crate) place: String,
 }
 
 /// Which motions the platform has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum DraftFreedoms {
+pub(crate) enum DraftMotion {
     Rigid,
     /// Translations only.
     PointMass,
@@ -53,7 +53,7 @@ pub(crate) enum DraftFreedoms {
     },
 }
 
-impl DraftFreedoms {
+impl DraftMotion {
     /// Of a planar platform the world axis across its plane, x first.
     fn across(self) -> Option<usize> {
         match self {
@@ -128,7 +128,7 @@ impl Draft {
 
     /// Refuses options that would change nothing.
     fn refuse_useless(&self, ropes: &ImportRopes, platform: &ImportPlatform) -> Result<()> {
-        if self.platform.freedoms == DraftFreedoms::PointMass {
+        if self.platform.motion == DraftMotion::PointMass {
             let given = [
                 ("⟪inertia_kg_m2⟫", platform.inertia_kg_m2.is_some()),
                 ("⟪center_of_mass_m⟫", platform.center_of_mass_m.is_some()),
@@ -212,7 +212,7 @@ impl Draft {
     /// A platform that cannot rotate feels forces only: its cables may as well end in one point, if their anchors move by
     /// as much.
     fn merge_point_mass(&mut self) {
-        if self.platform.freedoms != DraftFreedoms::PointMass {
+        if self.platform.motion != DraftMotion::PointMass {
             return;
         }
         if self.cables.iter().any(|cable| cable.attachment_p != Vec3::zeros()) {
@@ -232,7 +232,7 @@ impl Draft {
 
     fn set_state(&mut self, options: &ImportPlatform) -> Result<()> {
         let Some(pose) = options.pose.map(request::Pose::to_robot).transpose()? else { return Ok(()) };
-        if self.platform.freedoms == DraftFreedoms::PointMass && pose.rot_wp.angle() != 0.0 {
+        if self.platform.motion == DraftMotion::PointMass && pose.rot_wp.angle() != 0.0 {
             bail!("a point mass has no orientation: give ⟪pose⟫ x,y,z");
         }
         match self.state {
@@ -262,7 +262,7 @@ impl Draft {
         if platform.mass.is_none() {
             missing.push(format!("{}: the platform has no mass, give ⟪mass_kg⟫ KG", platform.place));
         }
-        if platform.freedoms == DraftFreedoms::PointMass {
+        if platform.motion == DraftMotion::PointMass {
             return missing;
         }
         if let Some(inertia) = options.inertia_kg_m2 {
@@ -274,7 +274,7 @@ impl Draft {
             self.notes.push("The platform's centre of mass is that of ⟪center_of_mass_m⟫".to_owned());
             platform.center_of_mass_p = Some(center.into());
         }
-        let across = platform.freedoms.across();
+        let across = platform.motion.across();
         // About the normal of its plane a planar platform needs a moment, however many others there are.
         let turns = |inertia: &Mat3| across.is_none_or(|normal| inertia[(normal, normal)] > 0.0);
         if !platform.inertia_p.as_ref().is_some_and(turns) {

@@ -8,7 +8,7 @@
 mod objects;
 mod sections;
 
-use super::draft::{Draft, DraftCable, DraftFreedoms, DraftPlatform, DraftRope, DraftState};
+use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState};
 use super::text::{SourceFile, clean};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
@@ -57,7 +57,7 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
     if cables.is_empty() {
         bail!("{}: no line holds the platform", file.path);
     }
-    let is_point = platform.freedoms == DraftFreedoms::PointMass;
+    let is_point = platform.motion == DraftMotion::PointMass;
     let frame = if is_point { "the free point" } else { "the body's reference point" };
     Ok(Draft {
         name: file.stem(),
@@ -107,7 +107,7 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
             mass: (mass > 0.0).then_some(mass),
             inertia_p: (inertia != Mat3::zeros()).then_some(inertia),
             center_of_mass_p: Some(center),
-            freedoms: DraftFreedoms::Rigid,
+            motion: DraftMotion::Rigid,
             place: body.row.place(file),
         };
         return Ok((platform, On::Body(body.id)));
@@ -125,7 +125,7 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
                 mass: (point.mass > 0.0).then_some(point.mass),
                 inertia_p: None,
                 center_of_mass_p: None,
-                freedoms: DraftFreedoms::PointMass,
+                motion: DraftMotion::PointMass,
                 place: point.row.place(file),
             };
             Ok((platform, On::Point(point.id)))

@@ -9,7 +9,7 @@ use std::path::Path;
 pub const MAX_BYTES: usize = 16 << 20;
 
 /// Largest magnitude of a number, as in robot files.
-const LARGEST: f64 = 1e12;
+const MAX_NUMBER: f64 = 1e12;
 
 /// A file of another program, as text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -70,7 +70,7 @@ impl SourceFile {
     }
 
     /// What the reader should know of how the file was decoded.
-    pub(crate) fn doubt(&self) -> Option<String> {
+    pub(crate) fn caveat(&self) -> Option<String> {
         self.guessed_encoding
             .as_ref()
             .map(|name| format!("{} is not UTF-8 and declares no encoding; it was read as {name}", self.name()))
@@ -97,8 +97,8 @@ pub(crate) fn clean(text: &str) -> String {
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value.abs() <= LARGEST => Ok(value),
-        Ok(value) if value.is_finite() => Err(format!("{text}, which is beyond {LARGEST:e} in magnitude")),
+        Ok(value) if value.is_finite() && value.abs() <= MAX_NUMBER => Ok(value),
+        Ok(value) if value.is_finite() => Err(format!("{text}, which is beyond {MAX_NUMBER:e} in magnitude")),
         Ok(_) => Err(format!("{text}, which is not a finite number")),
         Err(_) if text.is_empty() => Err("empty where a number is needed".to_owned()),
         Err(_) if text.contains(',') => {
@@ -129,8 +129,8 @@ mod tests {
         assert!(decoded(b"<?xml version='1.0' encoding='ISO-8859-1'?><a n='\xE4'/>").text.ends_with("<a n='ä'/>"));
         let guessed = decoded(b"<a n='\xE4'/>");
         assert_eq!(guessed.text, "<a n='ä'/>");
-        assert!(guessed.doubt().unwrap().contains("windows-1252"));
-        assert!(decoded("<a n='ä'/>".as_bytes()).doubt().is_none());
+        assert!(guessed.caveat().unwrap().contains("windows-1252"));
+        assert!(decoded("<a n='ä'/>".as_bytes()).caveat().is_none());
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! A. Pott, Cable-Driven Parallel Robots, Springer 2018. What the attributes mean is as WireX itself takes them
 //! (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
 
-use super::draft::{Draft, DraftCable, DraftFreedoms, DraftPlatform, DraftRope, DraftState, listed};
+use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState, listed};
 use super::text::clean;
 use super::xml::{Xml, children, tag};
 use anyhow::{Result, bail};
@@ -47,10 +47,10 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     if robots.len() > 1 {
         lost.push(format!("{} more robots of the file: the first is read, as WireX does", robots.len() - 1));
     }
-    let freedoms = freedoms(xml, robot)?;
+    let motion = motion(xml, robot)?;
     let rope = rope(xml, root, &mut assumed, &mut lost)?;
     let cables = cables(xml, root, robot, &rope, &mut lost)?;
-    let platform = platform(xml, robot, freedoms, &mut assumed)?;
+    let platform = platform(xml, robot, motion, &mut assumed)?;
     if children(robot, "application").next().is_some() {
         lost.push("<application>, its load and its limits".to_owned());
     }
@@ -85,11 +85,11 @@ fn source(xml: &Xml, robot: Node) -> String {
     source
 }
 
-fn freedoms(xml: &Xml, robot: Node) -> Result<DraftFreedoms> {
+fn motion(xml: &Xml, robot: Node) -> Result<DraftMotion> {
     match robot.attribute("motionpattern").map_or("3R3T", str::trim) {
-        "3R3T" => Ok(DraftFreedoms::Rigid),
-        "3T" => Ok(DraftFreedoms::PointMass),
-        "1R2T" => Ok(DraftFreedoms::Planar { plane: "xy" }),
+        "3R3T" => Ok(DraftMotion::Rigid),
+        "3T" => Ok(DraftMotion::PointMass),
+        "1R2T" => Ok(DraftMotion::Planar { plane: "xy" }),
         pattern @ ("1T" | "2T" | "2R3T") => bail!(xml.error(
             robot,
             format!(
@@ -104,13 +104,13 @@ fn freedoms(xml: &Xml, robot: Node) -> Result<DraftFreedoms> {
     }
 }
 
-fn platform(xml: &Xml, robot: Node, freedoms: DraftFreedoms, assumed: &mut Vec<String>) -> Result<DraftPlatform> {
+fn platform(xml: &Xml, robot: Node, motion: DraftMotion, assumed: &mut Vec<String>) -> Result<DraftPlatform> {
     let Some(node) = xml.optional(robot, "platform")? else {
         return Ok(DraftPlatform {
             mass: None,
             inertia_p: None,
             center_of_mass_p: None,
-            freedoms,
+            motion,
             place: xml.place(robot),
         });
     };
@@ -120,7 +120,7 @@ fn platform(xml: &Xml, robot: Node, freedoms: DraftFreedoms, assumed: &mut Vec<S
     }
     let center = xml.optional(node, "centerofgravity")?.map(|center| xml.attribute_vector(center)).transpose()?;
     let tensor = xml.optional(node, "inertiatensor")?.map(|tensor| inertia(xml, tensor)).transpose()?.flatten();
-    if freedoms != DraftFreedoms::PointMass {
+    if motion != DraftMotion::PointMass {
         if center == Some(DEFAULT_CENTER) {
             assumed.push(
                 "the centre of gravity (0, 1, 0.2) m: it is in the file, but it is the one that WireX writes for robots \
@@ -140,7 +140,7 @@ fn platform(xml: &Xml, robot: Node, freedoms: DraftFreedoms, assumed: &mut Vec<S
         mass: mass.filter(|mass| *mass > 0.0),
         inertia_p: Some(tensor.unwrap_or(Mat3::from_diagonal(&DEFAULT_MOMENTS))),
         center_of_mass_p: center,
-        freedoms,
+        motion,
         place: xml.place(node),
     })
 }
@@ -231,7 +231,7 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
             anchor_w: xml.attribute_vector(base)?,
             attachment_p: xml.attribute_vector(xml.required(chain, "platform")?)?,
             rope: rope.clone(),
-            limits: [minimum, greatest_force(xml, root, chain)?],
+            limits: [minimum, max_force(xml, root, chain)?],
             unstrained_length: None,
         });
     }
@@ -249,7 +249,7 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
 }
 
 /// What the winch of a chain can pull [N]; a winch without a number has none.
-fn greatest_force(xml: &Xml, root: Node, chain: Node) -> Result<Option<f64>> {
+fn max_force(xml: &Xml, root: Node, chain: Node) -> Result<Option<f64>> {
     let Some(kind) = chain.attribute("winchtype") else { return Ok(None) };
     let Some(winch) = children(root, "winch").find(|winch| winch.attribute("name") == Some(kind)) else {
         return Ok(None);

@@ -128,22 +128,22 @@ pub(crate) fn plain(text: &str) -> String {
 /// Colour and dash of a cable model, the same in every figure.
 pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
     match model {
-        CableModel::Exact => (colour::BLACK, "solid"),
-        CableModel::ClosedForm => (colour::BLUE, "solid"),
-        CableModel::StaticSag => (colour::ORANGE, "dash"),
+        CableModel::CatenaryDynamic => (colour::BLACK, "solid"),
+        CableModel::ShallowDynamic => (colour::BLUE, "solid"),
+        CableModel::ShallowStatic => (colour::ORANGE, "dash"),
         CableModel::Spring => (colour::GREEN, "dot"),
-        CableModel::CatenaryTangent => (colour::PURPLE, "dashdot"),
+        CableModel::CatenaryStatic => (colour::PURPLE, "dashdot"),
     }
 }
 
 /// A cable model in words.
 pub(crate) fn model_name(model: CableModel) -> &'static str {
     match model {
-        CableModel::Exact => "exact (dynamic)",
-        CableModel::ClosedForm => "closed form (dynamic)",
-        CableModel::StaticSag => "static sag",
+        CableModel::CatenaryDynamic => "exact (dynamic)",
+        CableModel::ShallowDynamic => "closed form (dynamic)",
+        CableModel::ShallowStatic => "shallow-static",
         CableModel::Spring => "spring",
-        CableModel::CatenaryTangent => "catenary tangent",
+        CableModel::CatenaryStatic => "catenary-static",
     }
 }
 

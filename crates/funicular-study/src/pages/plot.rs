@@ -33,7 +33,7 @@ struct PlotInput<'a> {
 struct Tracking {
     /// Ascending in frequency; none for a row without.
     modes: Vec<Vec<Mode>>,
-    /// As of [`funicular::modes::track::branches`].
+    /// As of [`funicular::modes::tracking::branches`].
     branches: Vec<Vec<usize>>,
 }
 
@@ -234,7 +234,7 @@ fn numbers(rows: &Rows) -> Table {
     let mut table = Table::new(
         "table-numbers",
         "Every quantity: how many rows have it, its least and greatest value, and the first row that has it.",
-        &["<quantity", "<unit", "rows", "least", "<<at", "greatest", "<<at", "<<what it is"],
+        &["<quantity", "<unit", "rows", "min", "<<at", "max", "<<at", "<<what it is"],
     );
     for series in &rows.series {
         let unit = if series.unit == "1" { "–" } else { &series.unit };
@@ -242,8 +242,8 @@ fn numbers(rows: &Rows) -> Table {
         if series.count == 0 {
             cells.extend(["–"; 4].map(str::to_owned));
         } else {
-            cells.extend([significant(series.least.0, 5), place(series.least.1)]);
-            cells.extend([significant(series.greatest.0, 5), place(series.greatest.1)]);
+            cells.extend([significant(series.min.0, 5), place(series.min.1)]);
+            cells.extend([significant(series.max.0, 5), place(series.max.1)]);
         }
         cells.push(series.about.clone());
         table.row(cells);

@@ -108,7 +108,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
     modes::check_count(&dynamics, below_hz, MAX_MODES)?;
     let found = modes::below(&dynamics, below_hz);
-    warnings.extend(found.doubt());
+    warnings.extend(found.caveat());
     let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
@@ -168,7 +168,7 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
         ("platform mass", format!("{} kg", significant(robot.platform.mass, 4))),
         ("position x, y, z", format!("{}, {}, {} m", fixed(p.x, 4), fixed(p.y, 4), fixed(p.z, 4))),
     ];
-    if robot.platform.freedoms.can_turn() {
+    if robot.platform.motion.can_turn() {
         let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&equilibrium.pose.rot_wp);
         key.push(("roll, pitch, yaw", format!("{}, {}, {} °", fixed(roll, 2), fixed(pitch, 2), fixed(yaw, 2))));
     }
@@ -195,10 +195,10 @@ fn state_text(equilibrium: &Equilibrium) -> String {
         StaticModel::Catenary => "elastic catenaries",
     };
     let stability = match equilibrium.stability {
-        Stability::Stable { least_stiffness } => {
-            format!("stable (least eigenvalue of the scaled stiffness {} N/m)", significant(least_stiffness, 3))
+        Stability::Stable { min_stiffness } => {
+            format!("stable (least eigenvalue of the scaled stiffness {} N/m)", significant(min_stiffness, 3))
         }
-        Stability::Unstable { directions, least_stiffness: 0.0 } => {
+        Stability::Unstable { directions, min_stiffness: 0.0 } => {
             format!("indifferent in {directions} of its directions")
         }
         Stability::Unstable { directions, .. } => format!("unstable in {directions} of its directions"),
@@ -214,7 +214,7 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
     let of = |kind: Kind| found.modes.iter().filter(|m| m.kind == kind).count();
     let assembly = match linearisation.assembly {
         Assembly::Consistent => "consistent assembly",
-        Assembly::Paper => "assembly without the turning of static forces, as in Yuan et al. 2014",
+        Assembly::WithoutGeometricStiffness => "assembly without the turning of static forces, as in Yuan et al. 2014",
     };
     let plane = if linearisation.in_plane_only { ", cables stiff in their planes only" } else { "" };
     let certified = if found.certified {
@@ -245,7 +245,9 @@ fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, foun
         Ok(Some(shapes)) => return Ok(shapes),
         Ok(None) if found.modes.is_empty() => "there is no mode below the limit. Raise `--below-hz`".to_owned(),
         Ok(None) => "one of them needs more room than a page has".to_owned(),
-        Err(error @ CableMotionError::Model(_)) => format!("{error}. Write this page with `--cable-model exact`"),
+        Err(error @ CableMotionError::Model(_)) => {
+            format!("{error}. Write this page with `--cable-model catenary-dynamic`")
+        }
         Err(error) => error.to_string(),
     };
     Err(prose(&format!("Mode shapes are not shown: {reason}.")))
@@ -268,7 +270,9 @@ fn respond(
     };
     let mut curves = vec![draw(dynamics, found)?];
     let mut notes = Vec::new();
-    for cable_model in [CableModel::Exact, CableModel::ClosedForm, CableModel::StaticSag, CableModel::Spring] {
+    for cable_model in
+        [CableModel::CatenaryDynamic, CableModel::ShallowDynamic, CableModel::ShallowStatic, CableModel::Spring]
+    {
         if cable_model == linearisation.cable_model {
             continue;
         }

@@ -17,7 +17,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("wind_m_s", "velocity of the wind, world axes [m/s]"),
     ("cable_load_n_per_m", "load per metre of every cable besides its weight, world axes [N/m]"),
     ("tension_rule", "which of the tensions that hold a pose: more cables than degrees of freedom leave a choice"),
-    ("wanted_tension_n", "tensions to come close to [N], one for all cables or one per cable"),
+    ("target_tension_n", "tensions to come close to [N], one for all cables or one per cable"),
     ("min_tension_n", "minimum tension anywhere in a cable [N]"),
     ("max_tension_n", "maximum tension anywhere in a cable [N]"),
     ("all", "search for all equilibria of the unstrained lengths"),

@@ -161,7 +161,7 @@ pub struct Tensions {
     pub tension_rule: Option<TensionRuleName>,
     /// Tensions to come close to [N], one for all or one per cable.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub wanted_tension_n: Option<Vec<f64>>,
+    pub target_tension_n: Option<Vec<f64>>,
     /// Minimum tension anywhere in a cable [N].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min_tension_n: Option<f64>,
@@ -300,7 +300,7 @@ impl EachPoint {
 }
 
 fn default_up_to_hz() -> f64 {
-    crate::sweep::HIGHEST_HZ
+    crate::sweep::MAX_HZ
 }
 
 /// Numbers of ropes that files of other programs may lack; given, they win over the files.
@@ -374,8 +374,8 @@ impl Points {
 impl Tensions {
     /// Checks the numbers.
     pub(crate) fn check(&self) -> Result<()> {
-        for tension in self.wanted_tension_n.iter().flatten() {
-            check("wanted_tension_n", Some(*tension), not_negative)?;
+        for tension in self.target_tension_n.iter().flatten() {
+            check("target_tension_n", Some(*tension), not_negative)?;
         }
         check("min_tension_n", self.min_tension_n, not_negative)?;
         check("max_tension_n", self.max_tension_n, positive)

@@ -5,7 +5,7 @@ use super::points::Point;
 use super::status::Status;
 use funicular::cable_motion::WeightedMotions;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::modes::track::Tracked;
+use funicular::modes::tracking::Tracked;
 use funicular::modes::{self, Kind, LowestError, Mode};
 use funicular::robot::Robot;
 use funicular::statics::{self, Equilibrium, Stability};
@@ -20,7 +20,7 @@ pub struct PointModes {
 }
 
 /// The lowest `count` modes of a point: those whose frequencies the quantity `frequencies:N` gives, with their
-/// motions, to be [tracked](modes::track::branches) from point to point.
+/// motions, to be [tracked](modes::tracking::branches) from point to point.
 ///
 /// # Errors
 /// The reason why there are none, as a row has it.
@@ -44,7 +44,7 @@ pub(super) struct Lowest {
     pub(super) certified: bool,
 }
 
-/// The lowest `count` natural frequencies that are not above `highest_hz`. The first alone of exact cables has its own way, [`modes::first`].
+/// The lowest `count` natural frequencies that are not above `highest_hz`. The first alone of catenary-dynamic cables has its own way, [`modes::first`].
 pub(super) fn lowest(
     robot: &Robot,
     rest: &Equilibrium,
@@ -92,7 +92,7 @@ fn refuse_unstable(rest: &Equilibrium) -> Result<(), Status> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use funicular::modes::track::branches;
+    use funicular::modes::tracking::branches;
     use std::borrow::Cow;
 
     #[test]

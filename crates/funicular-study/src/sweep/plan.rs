@@ -20,7 +20,7 @@ use thiserror::Error;
 pub struct Options {
     /// How cables carry their static load.
     pub static_model: StaticModel,
-    /// Which tensions a pose has, for robots with more cables than freedoms.
+    /// Which tensions a pose has, for robots with more cables than degrees of freedom.
     pub tension_rule: TensionRule,
     /// How cables answer motion, for natural frequencies.
     pub linearisation: Linearisation,
@@ -34,22 +34,22 @@ impl Default for Options {
             static_model: StaticModel::default(),
             tension_rule: TensionRule::default(),
             linearisation: Linearisation::default(),
-            highest_hz: HIGHEST_HZ,
+            highest_hz: MAX_HZ,
         }
     }
 }
 
 /// Default of [`Options::highest_hz`]: far above the first frequency of any cable robot, low enough to end.
-pub const HIGHEST_HZ: f64 = 1000.0;
+pub const MAX_HZ: f64 = 1000.0;
 
 /// Most points of a plan.
-pub const MOST_POINTS: usize = 100_000_000;
+pub const MAX_POINTS: usize = 100_000_000;
 
 /// Most rows of a chunk: some milliseconds of work where only statics is asked, some seconds with natural frequencies.
-const MOST_ROWS: usize = 256;
+const MAX_ROWS: usize = 256;
 
 /// Chunks that a small plan is cut into at least, so that all cores have work to the end.
-const LEAST_CHUNKS: usize = 64;
+const MIN_CHUNKS: usize = 64;
 
 /// Why a sweep cannot be.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -75,12 +75,12 @@ pub enum SweepError {
         value: f64,
     },
     /// An axis along which the platform cannot move.
-    #[error("the platform cannot move along the axis `{axis}`: its freedoms are {freedoms}, which has {has}")]
-    NoSuchFreedom {
+    #[error("the platform cannot move along the axis `{axis}`: its degrees of freedom are {dof}, which has {has}")]
+    NoSuchMotion {
         /// The axis.
         axis: &'static str,
-        /// Name of the freedoms.
-        freedoms: &'static str,
+        /// Name of the degrees of freedom.
+        dof: &'static str,
         /// Axes that it has.
         has: String,
     },
@@ -97,7 +97,7 @@ pub enum SweepError {
     NoPoints,
     /// Too much to compute.
     #[error(
-        "{count} points are more than the {MOST_POINTS} that one sweep may have: take larger steps, or several sweeps"
+        "{count} points are more than the {MAX_POINTS} that one sweep may have: take larger steps, or several sweeps"
     )]
     TooMany {
         /// How many.
@@ -135,13 +135,13 @@ pub struct Plan<'a> {
     columns: Vec<Column>,
     /// Columns behind the coordinates.
     width: usize,
-    /// Fewer cables than freedoms: poses asked are not the poses found.
+    /// Fewer cables than degrees of freedom: poses asked are not the poses found.
     with_distance: bool,
 }
 
 impl<'a> Plan<'a> {
     /// Of points, quantities and options. `robot` is one that the points have: the number and the names of its cables, and
-    /// its freedoms, are those of every point.
+    /// its degrees of freedom, are those of every point.
     ///
     /// # Errors
     /// [`SweepError`] if there is nothing to compute, too much, or something that no point can have.
@@ -161,7 +161,7 @@ impl<'a> Plan<'a> {
     ///     let [.., Values::Text(status), _, Values::Real(tension_max)] = &chunk.columns[..] else { unreachable!() };
     ///     rows.extend(status.iter().cloned().zip(tension_max.iter().copied()));
     /// }
-    /// assert_eq!(rows[0], (Some("would-push".into()), None));
+    /// assert_eq!(rows[0], (Some("negative-tension".into()), None));
     /// assert!((rows[5].1.unwrap() - 55.174).abs() < 1e-3); // N, in the middle
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -175,7 +175,7 @@ impl<'a> Plan<'a> {
         match rows {
             0 => return Err(SweepError::NoPoints),
             usize::MAX => return Err(SweepError::TooMany { count: format!("{:.0e} and more", usize::MAX as f64) }),
-            rows if rows > MOST_POINTS => return Err(SweepError::TooMany { count: rows.to_string() }),
+            rows if rows > MAX_POINTS => return Err(SweepError::TooMany { count: rows.to_string() }),
             _ => {}
         }
         if quantities.is_empty() {
@@ -184,7 +184,7 @@ impl<'a> Plan<'a> {
         if let Some(quantity) = quantities.iter().find(|quantity| quantity.excludes(options.static_model)) {
             return Err(SweepError::NotWithModel { quantity: quantity.name(), model: options.static_model });
         }
-        let with_distance = robot.cables.len() < robot.platform.freedoms.count();
+        let with_distance = robot.cables.len() < robot.platform.motion.count();
         let of_points = points.columns();
         let of_rows = row_columns(robot, quantities, with_distance);
         let width = of_rows.len();
@@ -205,7 +205,7 @@ impl<'a> Plan<'a> {
         let Ok((robot, state)) = &first.robot else { return Ok(()) };
         let Options { static_model, tension_rule, .. } = self.options;
         match statics::solve_at(robot, state, *static_model, tension_rule) {
-            Err(error) if Status::of_error(&error).code == "bad-input" => Err(error.into()),
+            Err(error) if Status::of_error(&error).code == "invalid-state" => Err(error.into()),
             _ => Ok(()),
         }
     }
@@ -222,7 +222,7 @@ impl<'a> Plan<'a> {
 
     /// Rows of every chunk but the last, which may have fewer.
     pub fn chunk_rows(&self) -> usize {
-        (self.rows / LEAST_CHUNKS).clamp(1, MOST_ROWS)
+        (self.rows / MIN_CHUNKS).clamp(1, MAX_ROWS)
     }
 
     /// Number of chunks.

@@ -4,7 +4,7 @@ use super::columns::{Column, Kind};
 use super::plan::SweepError;
 use super::steps::{Steps, digits};
 use funicular::math::rotation;
-use funicular::robot::{Freedoms, Pose, Robot, State};
+use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use std::borrow::Cow;
 
 /// The points of a sweep, in a fixed order.
@@ -72,7 +72,7 @@ impl Poses {
             let Some(axis) = AXES.iter().position(|axis| axis == name) else {
                 return Err(SweepError::UnknownAxis { axis: name.clone() });
             };
-            refuse_missing_freedom(&robot.platform.freedoms, axis)?;
+            refuse_missing_freedom(&robot.platform.motion, axis)?;
             if let Some(value) = steps.repeated() {
                 return Err(SweepError::RepeatedValue { axis: name.clone(), value });
             }
@@ -116,7 +116,7 @@ impl Poses {
 
     /// Angles are columns: the platform can turn.
     fn width(&self) -> usize {
-        if self.robot.platform.freedoms.can_turn() { 6 } else { 3 }
+        if self.robot.platform.motion.can_turn() { 6 } else { 3 }
     }
 }
 
@@ -128,12 +128,12 @@ fn numbers(pose: &Pose) -> [f64; 6] {
 }
 
 /// A platform that cannot move along an axis has no grid along it.
-fn refuse_missing_freedom(freedoms: &Freedoms, axis: usize) -> Result<(), SweepError> {
-    if freedoms.components().contains(&axis) {
+fn refuse_missing_freedom(motion: &PlatformMotion, axis: usize) -> Result<(), SweepError> {
+    if motion.components().contains(&axis) {
         return Ok(());
     }
-    let has = freedoms.components().into_iter().map(|i| AXES[i]).collect::<Vec<_>>().join(", ");
-    Err(SweepError::NoSuchFreedom { axis: AXES[axis], freedoms: freedoms.name(), has })
+    let has = motion.components().into_iter().map(|i| AXES[i]).collect::<Vec<_>>().join(", ");
+    Err(SweepError::NoSuchMotion { axis: AXES[axis], dof: motion.name(), has })
 }
 
 impl Points for Poses {

@@ -34,7 +34,7 @@ struct Definition {
 /// Parameter that a name has after its colon.
 enum Takes {
     Nothing,
-    /// A number from 1 to [`MOST_FREQUENCIES`].
+    /// A number from 1 to [`MAX_FREQUENCIES`].
     Count,
     /// A cable model simpler than the exact one; that of the name without a colon.
     Model(CableModel),
@@ -57,7 +57,7 @@ enum Parameter {
 }
 
 /// Most natural frequencies of a point.
-pub const MOST_FREQUENCIES: usize = 100;
+pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
 static TABLE: [Definition; 17] = [
@@ -169,9 +169,7 @@ static TABLE: [Definition; 17] = [
         columns: |_, _| one("stiffness_min_n_per_m", "N/m", "least eigenvalue of the scaled static stiffness"),
         values: |row, _, out| {
             out.push(Value::real(match row.rest.stability {
-                Stability::Stable { least_stiffness } | Stability::Unstable { least_stiffness, .. } => {
-                    Some(least_stiffness)
-                }
+                Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(min_stiffness),
                 Stability::Rigid => None,
             }));
         },
@@ -188,7 +186,7 @@ static TABLE: [Definition; 17] = [
         values: |row, _, out| {
             let found = statics::stiffness_along_coordinates(row.robot, row.rest);
             let along = |k: usize| found.as_ref().map(|stiffness| stiffness[k]);
-            out.extend((0..row.robot.platform.freedoms.count()).map(|k| Value::real(along(k))));
+            out.extend((0..row.robot.platform.motion.count()).map(|k| Value::real(along(k))));
         },
     },
     Definition {
@@ -196,7 +194,7 @@ static TABLE: [Definition; 17] = [
         about: "distances between the poses of ideal, spring and catenary cables of the same lengths",
         documentation: "`spring_from_ideal_distance_m`, `catenary_from_ideal_distance_m`, `spring_from_catenary_distance_m`: \
                         how far the platform rests from where the other model says, at the unstrained lengths of the \
-                        catenaries; the first two where there are as many cables as freedoms; nothing where the other \
+                        catenaries; the first two where there are as many cables as degrees of freedom; nothing where the other \
                         model holds the platform nowhere near, as springs that are all slack",
         takes: Takes::Nothing,
         needs: Needs::Catenary,
@@ -222,8 +220,8 @@ static TABLE: [Definition; 17] = [
         name: "model-error:MODEL",
         about: "first frequency with a simpler cable model, relative to the exact one",
         documentation: "`model_error_MODEL`: first frequency with a simpler cable model over the exact one, less one; \
-                        without MODEL `closed-form`",
-        takes: Takes::Model(CableModel::ClosedForm),
+                        without MODEL `shallow-dynamic`",
+        takes: Takes::Model(CableModel::ShallowDynamic),
         needs: Needs::Catenary,
         frequencies: |_| 0,
         columns: |_, parameter| {
@@ -405,7 +403,7 @@ impl Definition {
         match (&self.takes, text) {
             (Takes::Nothing, None) => Some(Parameter::None),
             (Takes::Count, Some(text)) => {
-                let count = text.parse().ok().filter(|count| (1..=MOST_FREQUENCIES).contains(count));
+                let count = text.parse().ok().filter(|count| (1..=MAX_FREQUENCIES).contains(count));
                 count.map(Parameter::Count)
             }
             (Takes::Model(default), None) => Some(Parameter::Model(*default)),
@@ -438,7 +436,7 @@ impl Parameter {
 
 /// Cable models that are compared with the exact one.
 fn simpler_models() -> impl Iterator<Item = CableModel> {
-    CableModel::ALL.into_iter().filter(|model| *model != CableModel::Exact)
+    CableModel::ALL.into_iter().filter(|model| *model != CableModel::CatenaryDynamic)
 }
 
 impl std::str::FromStr for Quantity {
@@ -462,7 +460,7 @@ fn hint(text: &str) -> String {
     let head = text.split(':').next().unwrap_or(text);
     match TABLE.iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
         Some(Takes::Count) => {
-            return format!(": how many is a whole number from 1 to {MOST_FREQUENCIES}, as in {head}:3");
+            return format!(": how many is a whole number from 1 to {MAX_FREQUENCIES}, as in {head}:3");
         }
         Some(Takes::Model(_)) if text.contains(':') => {
             let models: Vec<&str> = simpler_models().map(CableModel::name).collect();
@@ -493,12 +491,12 @@ fn each_cable(robot: &Robot, prefix: &str, suffix: &str, unit: &'static str, abo
 }
 
 fn stiffness_columns(robot: &Robot) -> Vec<Column> {
-    let freedoms = &robot.platform.freedoms;
+    let motion = &robot.platform.motion;
     let about = "load along this coordinate over the motion along it, all others free";
-    let names = freedoms.coordinate_names().iter().enumerate();
+    let names = motion.coordinate_names().iter().enumerate();
     names
         .map(|(k, name)| {
-            let (suffix, unit) = if freedoms.is_rotation(k) { ("n_m_per_rad", "N m/rad") } else { ("n_per_m", "N/m") };
+            let (suffix, unit) = if motion.is_rotation(k) { ("n_m_per_rad", "N m/rad") } else { ("n_per_m", "N/m") };
             column(format!("stiffness_{name}_{suffix}"), unit, about)
         })
         .collect()
@@ -506,7 +504,7 @@ fn stiffness_columns(robot: &Robot) -> Vec<Column> {
 
 /// Rigid cables of given lengths close only where there are as many as degrees of freedom.
 pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
-    robot.cables.len() == robot.platform.freedoms.count()
+    robot.cables.len() == robot.platform.motion.count()
 }
 
 fn pose_error_columns(robot: &Robot) -> Vec<Column> {
@@ -526,12 +524,13 @@ mod tests {
     #[test]
     fn every_quantity_of_the_table_is_read_and_named_back() {
         for name in Quantity::names() {
-            let name = name.replace(":N", ":7").replace(":MODEL", ":static-sag");
+            let name = name.replace(":N", ":7").replace(":MODEL", ":shallow-static");
             let quantity: Quantity = name.parse().unwrap();
             assert_eq!(quantity.name(), name);
             assert!(!quantity.about().is_empty());
         }
-        for (short, full) in [("model-error", "model-error:closed-form"), ("stiffness-error", "stiffness-error:spring")]
+        for (short, full) in
+            [("model-error", "model-error:shallow-dynamic"), ("stiffness-error", "stiffness-error:spring")]
         {
             assert_eq!(short.parse::<Quantity>().unwrap().name(), full);
         }
@@ -553,7 +552,7 @@ mod tests {
             ("frequencies:x", "from 1 to 100"),
             ("frequencies", "as in frequencies:3"),
             ("tension-max:3", "did you mean `tension-max`"),
-            ("model-error:exact", "one of spring, static-sag, catenary-tangent, closed-form"),
+            ("model-error:exact", "one of spring, shallow-static, catenary-static, shallow-dynamic"),
             ("", "there are first-frequency"),
             ("é", "there are"),
         ] {

@@ -22,7 +22,7 @@ pub(super) struct Row<'a> {
     /// Lowest frequencies in the cable model of the options, as many as are needed at most.
     lowest: OnceCell<Result<Lowest, Status>>,
     most: usize,
-    /// The first with exact cables, for comparisons.
+    /// The first with catenary-dynamic cables, for comparisons.
     exact: OnceCell<Result<Lowest, Status>>,
     /// The first reason why something requested is missing.
     missing: Option<Status>,
@@ -58,7 +58,7 @@ pub(super) fn cells(
 
 /// The robot of a point and its equilibrium, or why it has none within the limits.
 fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Rest), Status> {
-    let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("bad-robot", reason))?;
+    let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("invalid-robot", reason))?;
     let rest = statics::solve_at(robot, state, options.static_model, &options.tension_rule)
         .map_err(|error| Status::of_error(&error))?;
     match Status::refusing(robot, &rest.equilibrium) {
@@ -75,7 +75,7 @@ fn quantity_values(
     options: &Options,
 ) -> (Vec<Value>, Option<Status>) {
     let most = quantities.iter().map(Quantity::frequencies).max().unwrap_or(0);
-    let missing = Status::remarking(robot, rest);
+    let missing = Status::note_for(robot, rest);
     let (lowest, exact) = (OnceCell::new(), OnceCell::new());
     let mut row = Row { robot, rest, options, lowest, most, exact, missing };
     let mut values = Vec::new();
@@ -106,7 +106,7 @@ impl Row<'_> {
     /// Least and greatest tension anywhere in each cable.
     pub(super) fn tensions(&self) -> impl Iterator<Item = (f64, f64)> {
         self.rest.cables.iter().map(|cable| match &cable.hanging {
-            Some(hanging) => (hanging.catenary.least_tension(), hanging.catenary.greatest_tension()),
+            Some(hanging) => (hanging.catenary.min_tension(), hanging.catenary.max_tension()),
             None => (cable.tension_platform, cable.tension_platform),
         })
     }
@@ -185,12 +185,12 @@ impl Row<'_> {
             }
             Err(status) => Err(status.clone()),
         };
-        let exact = if linearisation.cable_model == CableModel::Exact && self.most > 0 {
+        let exact = if linearisation.cable_model == CableModel::CatenaryDynamic && self.most > 0 {
             of(self
                 .lowest
                 .get_or_init(|| frequency::lowest(self.robot, self.rest, linearisation, self.most, highest_hz)))?
         } else {
-            of(self.exact.get_or_init(|| first(CableModel::Exact)))?
+            of(self.exact.get_or_init(|| first(CableModel::CatenaryDynamic)))?
         };
         let simpler = of(&first(model))?;
         if !certified {
@@ -207,7 +207,7 @@ impl Row<'_> {
                 .map_err(|error| Status::new("no-comparison", &error))?;
             Ok::<f64, Status>(dynamics.least_static_stiffness())
         };
-        let exact = least(CableModel::CatenaryTangent)?;
+        let exact = least(CableModel::CatenaryStatic)?;
         if exact <= 0.0 {
             return Err(Status::new(
                 "unstable",

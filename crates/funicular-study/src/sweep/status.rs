@@ -2,7 +2,7 @@
 
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticsError};
-use funicular::validity::{self, Warning};
+use funicular::warnings::{self, Warning};
 use std::borrow::Cow;
 
 /// What there is to say of a row.
@@ -19,14 +19,14 @@ pub const CODES: [(&str, &str); 15] = [
     ("coinciding-ends", "infeasible: a cable has no length between its ends"),
     ("singular", "infeasible: the cables' directions are dependent"),
     (
-        "would-push",
+        "negative-tension",
         "infeasible: a straight cable would have to push, and no sagging ones that hold the pose were found",
     ),
-    ("beyond-limits", "infeasible: no tensions within the limits, or beyond what a rope bears"),
+    ("tension-limits", "infeasible: no tensions within the limits, or beyond what a rope bears"),
     ("not-found", "infeasible: no tensions within the limits found, and no proof that there are none"),
     ("not-converged", "infeasible: no equilibrium found"),
-    ("bad-robot", "infeasible: the values of this row make no robot"),
-    ("bad-input", "infeasible: the state does not fit the robot"),
+    ("invalid-robot", "infeasible: the values of this row make no robot"),
+    ("invalid-state", "infeasible: the state does not fit the robot"),
     ("unstable", "an equilibrium that the platform leaves by itself"),
     ("slack", "a cable carries no force"),
     ("no-frequency", "no natural frequency to give: the model does not exist here, or none is below the limit"),
@@ -42,29 +42,29 @@ impl Status {
 
     pub(super) fn of_error(error: &StaticsError) -> Self {
         let code = match error.code() {
-            "limits-exclude" => "beyond-limits",
+            "limits-exclude" => "tension-limits",
             "not-nearest" => "not-converged",
             code if CODES.iter().any(|known| known.0 == code) => code,
-            _ => "bad-input",
+            _ => "invalid-state",
         };
         Self::new(code, error)
     }
 
     /// What makes an equilibrium infeasible: limits of tension that the robot has.
     pub(super) fn refusing(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
-            Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("beyond-limits", warning)),
+        warnings::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
+            Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("tension-limits", warning)),
             _ => None,
         })
     }
 
     /// What to mind of a feasible one.
-    pub(super) fn remarking(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+    pub(super) fn note_for(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let unstable = matches!(equilibrium.stability, Stability::Unstable { .. });
         if !unstable && !equilibrium.cables.iter().any(funicular::statics::CableState::is_slack) {
             return None;
         }
-        validity::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
+        warnings::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
             Warning::Unstable { .. } => Some(Self::new("unstable", warning)),
             Warning::Slack { .. } if !unstable => Some(Self::new("slack", warning)),
             _ => None,

@@ -60,7 +60,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
         iterations: 0,
         stability: Stability::Rigid,
     };
-    let linearisation = Linearisation { cable_model: CableModel::ClosedForm, ..Default::default() };
+    let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
     Ok((Dynamics::about(&robot, &rest, linearisation, cube.limit_hz)?, strain))
 }
 

@@ -2,7 +2,7 @@
 
 use super::reference::{BesselRow, ClosedFormRow, Fig2, FiniteElementRow, Published};
 use super::{Bound, Case, Kind, Row, Section, over, worst};
-use funicular::cable::closed_form::ClosedForm;
+use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::{Complex, Vec3};
 use funicular::robot::Damping;
@@ -41,12 +41,12 @@ pub(super) fn fig2_sag(of: &Fig2, mass_per_length: f64) -> Sag {
     )
 }
 
-fn fig2(of: &Fig2, upper_end_moves: bool, damping: Damping) -> ClosedForm {
+fn fig2(of: &Fig2, upper_end_moves: bool, damping: Damping) -> ShallowDynamic {
     let (sin, cos) = of.inclination_deg.to_radians().sin_cos();
     let (lower, upper) = (Vec3::zeros(), Vec3::new(cos, 0.0, sin) * of.chord_m);
     let (from, to) = if upper_end_moves { (upper, lower) } else { (lower, upper) };
     let axes = LocalAxes::of_chord(&from, &to, &Vec3::z());
-    ClosedForm::new(fig2_sag(of, of.mass_kg_per_m), axes, damping, false)
+    ShallowDynamic::new(fig2_sag(of, of.mass_kg_per_m), axes, damping, false)
 }
 
 /// Clamped frequencies in plane. Those of the string that sag does not change, even multiples of π, are compared with the
@@ -93,7 +93,7 @@ fn bessel(published: &Published, row: &BesselRow) -> Vec<Row> {
     let tension = weight / f64::ln(1.0 + weight / row.lower_tension_n);
     let sag = Sag::new(of.length_m, 0.0, tension, 1e9, of.mass_kg_per_m, of.mass_kg_per_m * of.gravity_m_s2);
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &(Vec3::z() * of.length_m), &Vec3::z());
-    let cable = ClosedForm::new(sag, axes, Damping::Ratio(0.0), false);
+    let cable = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), false);
     let case = Case { name: format!("vertical, {} N below", row.lower_tension_n), source: &of.source };
     let variation = (weight / tension).powi(2);
     let varies = Bound::Model("one tension per string: second order in its variation");

@@ -1,10 +1,10 @@
-//! The exact cable, alone and in robots.
+//! The catenary-dynamic cable, alone and in robots.
 
 use super::reference::{ExactCable, ExactRobot, Independent, Published, Reference, robot};
 use super::{Bound, Case, Kind, Row, Section, largest, worst};
 use anyhow::{Context, Result};
 use funicular::cable::CableModel;
-use funicular::cable::exact::Exact;
+use funicular::cable::catenary_dynamic::CatenaryDynamic;
 use funicular::catenary::space::HangingCable;
 use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
@@ -25,7 +25,7 @@ pub(super) fn section(published: &Published, reference: &Reference, robots: &Ind
     }
     rows.extend(bessel(published)?);
     Ok(Section {
-        title: "Exact cables, computed independently",
+        title: "Catenary-dynamic cables, computed independently",
         note: "Vibration about the elastic catenary, of any sag, axial waves included. The other program uses finite \
                elements in extended precision and transfer matrices; ours one element of high degree and its poles. Of \
                lists and matrices the last or largest value is shown and all are compared. The vertical cable of the \
@@ -45,7 +45,7 @@ fn alone(source: &str, of: &ExactCable) -> Result<Vec<Row>> {
     let hanging = HangingCable::new(Vec3::from(of.start_m), Vec3::from(of.end_m), -gravity.normalize(), rope)?;
     let all = [&of.clamped_in_plane_hz, &of.clamped_out_of_plane_hz, &of.end_stiffness.frequency_hz];
     let highest = worst(all.iter().map(|list| largest(list)));
-    let exact = Exact::new(&hanging.catenary, of.mass_kg_per_m, 1.01 * highest * TAU)?;
+    let exact = CatenaryDynamic::new(&hanging.catenary, of.mass_kg_per_m, 1.01 * highest * TAU)?;
     let hertz = |squares: &[f64]| squares.iter().map(|square| square.sqrt() / TAU).collect::<Vec<_>>();
     let (in_plane, across) = (hertz(&exact.in_plane.poles), hertz(&exact.out_of_plane.poles));
     Ok(vec![
@@ -65,7 +65,7 @@ fn last(case: &Case, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f6
 }
 
 /// The stiffness of the start, end held, at all frequencies.
-fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Exact) -> Row {
+fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &CatenaryDynamic) -> Row {
     let (h, v) = hanging.axes_w();
     let b = h.cross(&v);
     let of = &of.end_stiffness;
@@ -87,7 +87,7 @@ fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Ex
 }
 
 /// The 6×6 stiffness of both ends at all frequencies, undamped and with either damping of the rope.
-fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Exact) -> Row {
+fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &CatenaryDynamic) -> Row {
     let theirs = &of.end_stiffness;
     let mut gaps = Vec::new();
     let mut shown = (0.0, 0.0);
@@ -116,7 +116,7 @@ fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Exact
 }
 
 /// Stiffness of both ends in world axes, start first, at a complex ω².
-fn end_matrix(hanging: &HangingCable, exact: &Exact, square: Complex) -> [[Complex; 6]; 6] {
+fn end_matrix(hanging: &HangingCable, exact: &CatenaryDynamic, square: Complex) -> [[Complex; 6]; 6] {
     let (h, v) = hanging.axes_w();
     let (pair, b) = ([h, v], h.cross(&v));
     std::array::from_fn(|row| {
@@ -138,8 +138,11 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Row>> {
     let case = Case { name: of.id.clone(), source };
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
-    let linearisation =
-        Linearisation { cable_model: CableModel::Exact, assembly: Assembly::Consistent, in_plane_only: false };
+    let linearisation = Linearisation {
+        cable_model: CableModel::CatenaryDynamic,
+        assembly: Assembly::Consistent,
+        in_plane_only: false,
+    };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, of.below_hz)?;
     let found = modes::below(&dynamics, of.below_hz);
     // A list that its own count does not certify is no list.
@@ -173,7 +176,7 @@ fn bessel(published: &Published) -> Result<Vec<Row>> {
         let rope = Rope { unstrained_length: of.length_m, weight_per_length, axial_stiffness: STIFF };
         let mean = row.lower_tension_n + 0.5 * weight_per_length * of.length_m;
         let cable = Catenary::between(0.0, of.length_m * (1.0 + mean / STIFF), rope)?;
-        let exact = Exact::new(&cable, of.mass_kg_per_m, 1.2 * row.clamped_rad_per_s[2])?;
+        let exact = CatenaryDynamic::new(&cable, of.mass_kg_per_m, 1.2 * row.clamped_rad_per_s[2])?;
         let found: Vec<f64> = exact.out_of_plane.poles.iter().take(3).map(|square| square.sqrt()).collect();
         let case = Case { name: format!("vertical, {} N below", row.lower_tension_n), source: &of.source };
         let stretch = Bound::Model("stretch, T/EA");

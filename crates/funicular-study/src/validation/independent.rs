@@ -115,15 +115,18 @@ impl Compared<'_> {
         let consistent = statics::tangent_stiffness(&self.robot, &self.rest).ok_or(DynamicsError::Rigid)?;
         let theirs = &self.given.static_tangent_consistent;
         rows.push(self.matrix("static stiffness, consistent [N/m]", theirs, &consistent));
-        let linearisation =
-            Linearisation { cable_model: CableModel::CatenaryTangent, assembly: Assembly::Paper, in_plane_only: false };
+        let linearisation = Linearisation {
+            cable_model: CableModel::CatenaryStatic,
+            assembly: Assembly::WithoutGeometricStiffness,
+            in_plane_only: false,
+        };
         let paper = Dynamics::about(&self.robot, &self.rest, linearisation, 0.0)?.stiffness(0.0).map(|k| k.re);
         rows.push(self.matrix("static stiffness, paper [N/m]", &self.given.static_tangent_paper, &paper));
         Ok(())
     }
 
     fn closed(&self, robot: &Robot, assembly: Assembly, in_plane_only: bool) -> Result<Dynamics, DynamicsError> {
-        let linearisation = Linearisation { cable_model: CableModel::ClosedForm, assembly, in_plane_only };
+        let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, assembly, in_plane_only };
         Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
     }
 
@@ -137,7 +140,7 @@ impl Compared<'_> {
         let at = format!("closed form at {} Hz", given.closed_form_at_hz);
         for (assembly, in_plane_only, name, theirs) in [
             (Assembly::Consistent, false, "consistent", &given.closed_form_consistent_undamped),
-            (Assembly::Paper, false, "paper", &given.closed_form_paper_undamped),
+            (Assembly::WithoutGeometricStiffness, false, "paper", &given.closed_form_paper_undamped),
             (Assembly::Consistent, true, "in plane only", &given.closed_form_consistent_in_plane_only_undamped),
         ] {
             let k = self.closed(&quiet, assembly, in_plane_only)?.stiffness(omega).map(|k| k.re);

@@ -4,7 +4,7 @@ use super::{CableMotionError, CableStations};
 use crate::dynamics::Dynamics;
 use crate::math::DMat;
 use crate::modes::Mode;
-use crate::modes::track::Tracked;
+use crate::modes::tracking::Tracked;
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 
@@ -16,7 +16,7 @@ const STATIONS: usize = 32;
 #[derive(Debug)]
 pub struct WeightedMotions<'a> {
     dynamics: &'a Dynamics,
-    /// Lᵀ of the platform's mass L Lᵀ in its freedoms.
+    /// Lᵀ of the platform's mass L Lᵀ in its degrees of freedom.
     platform: DMat,
     /// Of each cable, the square root of the mass that a station stands for; none where cables end in models without
     /// motion along them.
@@ -29,7 +29,7 @@ impl<'a> WeightedMotions<'a> {
     /// # Errors
     /// [`CableMotionError::Exact`]: a cable that cannot be discretised.
     pub fn new(robot: &Robot, rest: &Equilibrium, dynamics: &'a Dynamics) -> Result<Self, CableMotionError> {
-        let n = dynamics.freedoms();
+        let n = dynamics.dof();
         let mass = DMat::from_fn(n, n, |i, j| dynamics.platform_mass()[(i, j)]);
         let platform = mass.cholesky().map_or_else(|| DMat::zeros(n, n), |factor| factor.l().transpose());
         let fractions: Vec<f64> = (0..STATIONS).map(|k| (k as f64 + 0.5) / STATIONS as f64).collect();
@@ -48,10 +48,10 @@ impl<'a> WeightedMotions<'a> {
         Ok(Self { dynamics, platform, cables })
     }
 
-    /// A mode of these dynamics, for [`crate::modes::track`]. Its motion has the platform's coordinates and three for each
+    /// A mode of these dynamics, for [`crate::modes::tracking`]. Its motion has the platform's coordinates and three for each
     /// station of a cable; for models that know a cable's end only, one for each cable: the root of its energy.
     pub fn of(&self, mode: &Mode) -> Tracked {
-        let n = self.dynamics.freedoms();
+        let n = self.dynamics.dof();
         let mut motion: Vec<f64> =
             (&self.platform * DMat::from_fn(n, 1, |i, _| mode.motion.platform[i])).iter().copied().collect();
         match &self.cables {
@@ -80,7 +80,7 @@ impl<'a> WeightedMotions<'a> {
 mod tests {
     use super::*;
     use crate::dynamics::Linearisation;
-    use crate::modes::{below, track::mac_of_motions};
+    use crate::modes::{below, tracking::mac_of_motions};
     use crate::robot::State;
     use crate::statics::{StaticModel, forward};
 

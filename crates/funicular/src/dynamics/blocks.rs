@@ -1,6 +1,6 @@
-//! Blocks of a second-order model: the platform, and for each exact cable its end and its clamped modes.
+//! Blocks of a second-order model: the platform, and for each catenary-dynamic cable its end and its clamped modes.
 //!
-//! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, an exact cable is no
+//! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, a catenary-dynamic cable is no
 //! function of frequency any more (docs/theory.md, section 13):
 //!
 //! ```text
@@ -10,7 +10,7 @@
 
 use super::{Dynamics, Term};
 use crate::cable::DynamicCable;
-use crate::cable::exact::Exact;
+use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::math::{DMat, Mat6, Vec6};
 use crate::robot::Damping;
 
@@ -21,7 +21,7 @@ pub(crate) struct PlatformBlocks {
     pub(crate) stiffness: DMat,
 }
 
-/// What an exact cable adds.
+/// What a catenary-dynamic cable adds.
 pub(crate) struct CableBlocks {
     /// Which cable it is, file order.
     pub(crate) cable: usize,
@@ -54,15 +54,15 @@ impl Dynamics {
         PlatformBlocks { mass, damping, stiffness }
     }
 
-    /// Matrices of every exact cable, not scaled, in the order of [`terms`](Self::terms).
+    /// Matrices of every catenary-dynamic cable, not scaled, in the order of [`terms`](Self::terms).
     pub(crate) fn cable_blocks(&self) -> impl Iterator<Item = CableBlocks> {
         self.terms.iter().filter_map(|term| match &term.form {
-            DynamicCable::Exact(end) => Some(self.blocks_of(term, &end.exact)),
-            DynamicCable::ClosedForm(_) => None,
+            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(term, &end.exact)),
+            DynamicCable::ShallowDynamic(_) => None,
         })
     }
 
-    fn blocks_of(&self, term: &Term, exact: &Exact) -> CableBlocks {
+    fn blocks_of(&self, term: &Term, exact: &CatenaryDynamic) -> CableBlocks {
         let across = !self.linearisation.in_plane_only;
         let (plane, out) = (&exact.in_plane, &exact.out_of_plane);
         let (damping, mass_per_length) = self.damping[term.cable];
@@ -90,13 +90,13 @@ impl Dynamics {
 
     /// A scaled matrix over the platform's coordinates, not scaled any more.
     fn unscaled_block(&self, matrix: &Mat6) -> DMat {
-        let (f, scale) = (self.freedoms(), self.coordinate_scale());
+        let (f, scale) = (self.dof(), self.coordinate_scale());
         DMat::from_fn(f, f, |i, j| matrix[(i, j)] * scale[i] * scale[j])
     }
 
     fn unscaled_row(&self, vector: &Vec6) -> Vec<f64> {
         let scale = self.coordinate_scale();
-        (0..self.freedoms()).map(|i| vector[i] * scale[i]).collect()
+        (0..self.dof()).map(|i| vector[i] * scale[i]).collect()
     }
 }
 

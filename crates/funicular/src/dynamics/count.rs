@@ -1,9 +1,9 @@
 //! The number of natural frequencies below a frequency.
 
 use super::{Dynamics, POLE_PART, Term, add_local};
-use crate::cable::closed_form::{ClosedForm, Entire};
+use crate::cable::shallow_dynamic::{Entire, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
-use crate::math::{Mat6, Vec6, inertia};
+use crate::math::{Mat6, Vec6, symmetric};
 
 impl Dynamics {
     /// Number of natural frequencies below ω [rad/s], undamped, with multiplicity:
@@ -27,7 +27,7 @@ impl Dynamics {
         let mut borders: Vec<(Vec6, f64)> = Vec::new();
         for term in &self.terms {
             match &term.form {
-                DynamicCable::ClosedForm(form) => {
+                DynamicCable::ShallowDynamic(form) => {
                     let of = Entire::real(omega * omega * form.gamma_by_square);
                     if is_regular(&of, form) {
                         add_local(&mut matrix, term, &form.undamped(omega), |k, product| k * product);
@@ -35,7 +35,7 @@ impl Dynamics {
                         add_bordered(&mut matrix, &mut borders, term, form, &of);
                     }
                 }
-                DynamicCable::Exact(form) => {
+                DynamicCable::CatenaryDynamic(form) => {
                     let x = omega * omega;
                     let (regular, poles) = form.beside_poles(x, POLE_PART);
                     add_local(&mut matrix, term, &regular, |k, product| k * product);
@@ -45,11 +45,11 @@ impl Dynamics {
         }
 
         if borders.is_empty() {
-            return inertia::negative_eigenvalues(&matrix, self.freedoms());
+            return symmetric::negative_eigenvalues(&matrix, self.dof());
         }
 
         // The bordered matrix, platform and borders in units of their own.
-        let (m, n) = (self.freedoms(), self.freedoms() + borders.len());
+        let (m, n) = (self.dof(), self.dof() + borders.len());
         let size = matrix.amax().max(f64::MIN_POSITIVE);
         let mut a = vec![0.0; n * n];
         for j in 0..m {
@@ -66,7 +66,7 @@ impl Dynamics {
         }
 
         let positive = borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();
-        inertia::negative_eigenvalues_in(&mut a, n) - positive
+        symmetric::negative_eigenvalues_in(&mut a, n) - positive
     }
 }
 
@@ -74,7 +74,7 @@ impl Dynamics {
 /// the soft directions lost in the sum) the counts are the same.
 const NEAR_POLE: f64 = 1e3;
 
-fn is_regular(of: &Entire<f64>, form: &ClosedForm) -> bool {
+fn is_regular(of: &Entire<f64>, form: &ShallowDynamic) -> bool {
     let determinant = of.c + 0.25 * form.sag.lambda2 * of.q;
     let (antisymmetric, symmetric) = (of.c / of.sigma, of.gamma * of.sigma / of.c);
     let across = 1.0 + of.gamma.abs();
@@ -88,7 +88,13 @@ fn is_regular(of: &Entire<f64>, form: &ClosedForm) -> bool {
 ///
 /// With t = c/σ − γσ/c, the string's stiffness across, the cable in its plane is `k_a w wᵀ + (τ/l) t n nᵀ` with
 /// `w = a + (ε/2)(γq/c) n`: a spring with λ²-softening beside a taut string (docs/theory.md, equation (25)).
-fn add_bordered(matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>, term: &Term, form: &ClosedForm, of: &Entire<f64>) {
+fn add_bordered(
+    matrix: &mut Mat6,
+    borders: &mut Vec<(Vec6, f64)>,
+    term: &Term,
+    form: &ShallowDynamic,
+    of: &Entire<f64>,
+) {
     let sag = &form.sag;
     let (along, across) = (sag.axial_stiffness / sag.effective_length, sag.tension / sag.chord);
     let Entire { gamma, c, sigma, q } = *of;

@@ -148,7 +148,7 @@ thread_local! {
 const SIZES: usize = 12;
 
 /// Most pieces of a size that a thread keeps.
-const MOST_SPARE: usize = 64;
+const MAX_SPARE: usize = 64;
 
 impl Lanes {
     /// None, with room for so many.
@@ -175,7 +175,7 @@ impl Drop for Lanes {
         // At the end of a thread there is nobody to keep it.
         let _ = SPARE.try_with(|spare| {
             let mut spare = spare.borrow_mut();
-            if let Some(spare) = spare.get_mut(size as usize).filter(|spare| spare.len() < MOST_SPARE) {
+            if let Some(spare) = spare.get_mut(size as usize).filter(|spare| spare.len() < MAX_SPARE) {
                 spare.push(lanes);
             }
         });

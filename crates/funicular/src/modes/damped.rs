@@ -59,9 +59,9 @@ const WANTED_ERROR: f64 = 1e-9;
 const ONE_ZERO: f64 = 1e-8;
 /// Damping ratio that is put on at once: strong damping comes in steps, each zero following from its last place.
 const STEP_OF_DAMPING: f64 = 0.1;
-const MOST_STEPS: f64 = 20.0;
+const MAX_STEPS: f64 = 20.0;
 /// Times that lost zeros are sought again.
-const MOST_ROUNDS: usize = 5;
+const MAX_ROUNDS: usize = 5;
 /// Relative step below which a zero has settled.
 const SETTLED: f64 = 4e-15;
 /// Poles up to this part of the limit are divided out of det D: so none is near a zero that is sought.
@@ -90,7 +90,7 @@ const POLES_BEYOND: f64 = 1.3;
 pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
     let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
-    let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MOST_STEPS);
+    let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MAX_STEPS);
     let mut search = Search { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit) };
 
     // All zeros at once, damping put on in steps.
@@ -206,7 +206,7 @@ impl Search<'_> {
 
                 // No start is thrown out of its region by a flat place of f.
                 let size = step.norm() / omega.norm();
-                let step = if size > LONGEST_STEP { step * (LONGEST_STEP / size) } else { step };
+                let step = if size > MAX_STEP { step * (MAX_STEP / size) } else { step };
                 zeros[i].omega -= step;
                 zeros[i].error = size;
                 moved = true;
@@ -249,7 +249,7 @@ impl Search<'_> {
         let least = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
         let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < least(zero);
 
-        for round in 0..MOST_ROUNDS {
+        for round in 0..MAX_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
             if lost.is_empty() {
                 return;
@@ -356,7 +356,7 @@ const BEYOND: f64 = 0.05;
 const LOOKS: usize = 64;
 
 /// Longest step of a search, relative to its frequency.
-const LONGEST_STEP: f64 = 0.1;
+const MAX_STEP: f64 = 0.1;
 
 /// The least change of a phase.
 fn wrapped(phase: f64) -> f64 {

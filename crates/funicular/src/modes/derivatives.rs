@@ -5,7 +5,7 @@
 //! the change does to forces, lever arms, masses and ropes while the motion stays. `dω = dW/(2ω · modal mass)`.
 
 use super::Mode;
-use crate::cable::exact::{Exact, Swing};
+use crate::cable::catenary_dynamic::{CatenaryDynamic, InternalMotion};
 use crate::cable::{CableModel, DynamicCable};
 use crate::dynamics::{Assembly, Dynamics, Linearisation};
 use crate::math::{Mat3, Vec3, legendre, skew};
@@ -26,7 +26,7 @@ const NODES: usize = 12;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FrequencyDerivativeError {
     /// The model of the cables is an approximation whose derivative is not implemented.
-    #[error("derivatives of frequencies need the cable model `exact` or `catenary-tangent`, not `{0}`")]
+    #[error("derivatives of frequencies need the cable model `catenary-dynamic` or `catenary-static`, not `{0}`")]
     Model(CableModel),
     /// Terms of the stiffness are left out.
     #[error("derivatives of frequencies need all terms of the stiffness: assembly `consistent`, in and out of plane")]
@@ -39,13 +39,13 @@ pub enum FrequencyDerivativeError {
         /// Number of modes.
         multiplicity: usize,
     },
-    /// An exact cable cannot be discretised.
+    /// a catenary-dynamic cable cannot be discretised.
     #[error("cable \"{cable}\": {reason}")]
-    Exact {
+    CatenaryDynamic {
         /// Name of the cable.
         cable: String,
         /// Reason.
-        reason: crate::cable::exact::ExactError,
+        reason: crate::cable::catenary_dynamic::ExactError,
     },
 }
 
@@ -105,7 +105,7 @@ fn in_pieces(
     pieces: usize,
 ) -> Result<f64, FrequencyDerivativeError> {
     let Linearisation { cable_model, assembly, in_plane_only } = dynamics.linearisation;
-    if !matches!(cable_model, CableModel::CatenaryTangent | CableModel::Exact) {
+    if !matches!(cable_model, CableModel::CatenaryStatic | CableModel::CatenaryDynamic) {
         return Err(FrequencyDerivativeError::Model(cable_model));
     }
     if assembly != Assembly::Consistent || in_plane_only {
@@ -125,8 +125,9 @@ fn in_pieces(
     for (i, state) in equilibrium.cables.iter().enumerate() {
         let (of_cable, by) = (&change.cables[i], &by.cables[i]);
         let end_w = v + theta.cross(&state.lever_w);
-        let motion = CableMotion::new(robot, dynamics, mode, i, state, &end_w, pieces)
-            .map_err(|reason| FrequencyDerivativeError::Exact { cable: robot.cables[i].name.clone(), reason })?;
+        let motion = CableMotion::new(robot, dynamics, mode, i, state, &end_w, pieces).map_err(|reason| {
+            FrequencyDerivativeError::CatenaryDynamic { cable: robot.cables[i].name.clone(), reason }
+        })?;
         total += motion.energy_change(robot, i, state, of_cable, by, omega);
         // The end turns with its lever arm, against the force that holds it.
         total += 2.0 * motion.end_force_w.dot(&theta.cross(&by.lever_w));
@@ -196,7 +197,7 @@ impl CableMotion {
         state: &CableState,
         end_w: &Vec3,
         pieces: usize,
-    ) -> Result<Self, crate::cable::exact::ExactError> {
+    ) -> Result<Self, crate::cable::catenary_dynamic::ExactError> {
         let hanging = state.hanging.as_ref().expect("dynamics of these models are those of hanging cables");
         let length = state.unstrained_length;
         let rule = legendre::gauss(NODES);
@@ -213,15 +214,21 @@ impl CableMotion {
             let tension_w = vec![-end_force_w; nodes.len()];
             return Ok(Self { nodes, displacement_w: Vec::new(), tension_w, end_force_w });
         };
-        let DynamicCable::Exact(end) = term.form() else { unreachable!("other models were refused") };
+        let DynamicCable::CatenaryDynamic(end) = term.form() else { unreachable!("other models were refused") };
 
         // Displacement at the nodes: slow shape and clamped modes; those whose poles are near, by their amplitudes.
         let arc_lengths = nodes.iter().map(|(s, _)| *s).collect();
-        let (_, stations) =
-            Exact::with_stations(&hanging.catenary, end.mass_per_length, end.exact.limit, arc_lengths, false)?;
+        let (_, stations) = CatenaryDynamic::with_stations(
+            &hanging.catenary,
+            end.mass_per_length,
+            end.exact.limit,
+            arc_lengths,
+            false,
+        )?;
         let axes = [&end.axes.e, &end.axes.n, &end.axes.b];
         let omega = mode.frequency_hz * TAU;
-        let mut swing = Swing::new(&end.exact, axes.map(|axis| axis.dot(end_w).into()), (omega * omega).into());
+        let mut swing =
+            InternalMotion::new(&end.exact, axes.map(|axis| axis.dot(end_w).into()), (omega * omega).into());
         let platform_w = dynamics.coordinates().expand(&mode.motion.platform);
         let largest = platform_w[platform_w.iamax()];
         let scale = if mode.shape.iter().all(|part| *part == 0.0) { 1.0 } else { 1.0 / largest };
@@ -347,7 +354,7 @@ mod tests {
         for text in [funicular_robots::YUAN2014_4MM, funicular_robots::FAST, funicular_robots::STADIUM_CAMERA] {
             let robot = Robot::from_toml(text).unwrap();
             let rest = rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
-            let linearisation = Linearisation { cable_model: CableModel::Exact, ..Linearisation::default() };
+            let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
             let dynamics = Dynamics::about(&robot, &rest, linearisation, 2.0).unwrap();
             let change = RobotChange::of_mass(&robot);
             let by = at_held_lengths(&robot, &rest, &change).unwrap();

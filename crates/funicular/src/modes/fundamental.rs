@@ -1,4 +1,4 @@
-//! The first natural frequency alone, with exact cables, for sweeps over many poses. Nothing of this room is visible
+//! The first natural frequency alone, with catenary-dynamic cables, for sweeps over many poses. Nothing of this room is visible
 //! outside but [`first`] with its result, and the slow way that it falls back to.
 //!
 //! **What is computed.** Platform and cables together are a symmetric pencil `K − ω² M` with M positive definite. Its
@@ -76,7 +76,7 @@ pub struct First {
 /// Why there is no first frequency to give.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FirstError {
-    /// The robot cannot be linearised with exact cables.
+    /// The robot cannot be linearised with catenary-dynamic cables.
     #[error(transparent)]
     Dynamics(#[from] DynamicsError),
     /// Nothing vibrates: the platform is unstable in every direction.
@@ -89,7 +89,7 @@ pub enum FirstError {
     },
 }
 
-/// The lowest natural frequency of a robot with exact cables, undamped, and its mode.
+/// The lowest natural frequency of a robot with catenary-dynamic cables, undamped, and its mode.
 ///
 /// The same as the first of [`below`] with [`Linearisation::default`], some twenty times faster, more where cables are
 /// slack. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, go through
@@ -124,13 +124,12 @@ pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstErr
 /// # Errors
 /// As [`first`].
 pub fn first_of_all(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    let (_, found) =
-        lowest(robot, equilibrium, Linearisation::default(), 1, HIGHEST_HZ).map_err(|error| match error {
-            LowestError::Dynamics(error) => FirstError::Dynamics(error),
-            LowestError::TooFew { unstable_directions, highest_hz, .. } => {
-                FirstError::None { below_hz: highest_hz, directions: unstable_directions }
-            }
-        })?;
+    let (_, found) = lowest(robot, equilibrium, Linearisation::default(), 1, MAX_HZ).map_err(|error| match error {
+        LowestError::Dynamics(error) => FirstError::Dynamics(error),
+        LowestError::TooFew { unstable_directions, highest_hz, .. } => {
+            FirstError::None { below_hz: highest_hz, directions: unstable_directions }
+        }
+    })?;
     let Modes { modes, unstable_directions, below_hz, certified, .. } = found;
     match modes.into_iter().next() {
         Some(mode) => Ok(First::of_mode(mode, unstable_directions, certified)),
@@ -139,7 +138,7 @@ pub fn first_of_all(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, F
 }
 
 /// Limit of the search [Hz]: far above the sound of any rope.
-const HIGHEST_HZ: f64 = 1e8;
+const MAX_HZ: f64 = 1e8;
 
 impl First {
     fn of_mode(mode: Mode, unstable_directions: usize, certified: bool) -> Self {

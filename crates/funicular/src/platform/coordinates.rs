@@ -2,32 +2,32 @@
 
 use super::wrench::wrench_of;
 use crate::math::{Mat6, Vec3, Vec6, symmetric_part};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::robot::{PlatformMotion, Pose, Robot};
 
 /// Degrees of freedom of a platform and its length ℓ, [`Robot::platform_length`].
 ///
 /// Scaled quantities have one unit throughout: moments are divided by ℓ, rotations multiplied. Reduced ones are scaled
-/// and in the coordinates of the platform's degrees of freedom, zero beyond their number ([`Freedoms::reduced`]).
+/// and in the coordinates of the platform's degrees of freedom, zero beyond their number ([`PlatformMotion::reduced`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinates {
-    freedoms: Freedoms,
+    motion: PlatformMotion,
     ell: f64,
 }
 
 impl Coordinates {
     /// Coordinates of a robot's platform.
     pub(crate) fn of(robot: &Robot) -> Self {
-        Self { freedoms: robot.platform.freedoms, ell: robot.platform_length() }
+        Self { motion: robot.platform.motion, ell: robot.platform_length() }
     }
 
     /// Degrees of freedom.
-    pub(crate) fn freedoms(&self) -> Freedoms {
-        self.freedoms
+    pub(crate) fn motion(&self) -> PlatformMotion {
+        self.motion
     }
 
     /// Number of degrees of freedom.
     pub(crate) fn count(&self) -> usize {
-        self.freedoms.count()
+        self.motion.count()
     }
 
     /// Length ℓ [m].
@@ -38,7 +38,7 @@ impl Coordinates {
     /// Larger of force and moment/ℓ of a wrench [N]; what the platform cannot do is not counted.
     #[inline]
     pub(crate) fn wrench_size(&self, wrench: &Vec6) -> f64 {
-        let wrench = self.freedoms.allowed(wrench);
+        let wrench = self.motion.allowed(wrench);
         wrench.fixed_rows::<3>(0).norm().max(wrench.fixed_rows::<3>(3).norm() / self.ell)
     }
 
@@ -46,19 +46,19 @@ impl Coordinates {
     #[inline]
     pub(crate) fn reduce(&self, wrench: &Vec6) -> Vec6 {
         let scaled = Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { wrench[i] / self.ell });
-        self.freedoms.reduced(&scaled)
+        self.motion.reduced(&scaled)
     }
 
     /// Reduced wrench of a force at a lever arm [m].
     #[inline]
     pub(crate) fn reduce_force(&self, force: &Vec3, lever: &Vec3) -> Vec6 {
-        self.freedoms.reduced(&wrench_of(force, &(lever / self.ell)))
+        self.motion.reduced(&wrench_of(force, &(lever / self.ell)))
     }
 
     /// Scaled motion or wrench of six components that has these reduced ones.
     #[inline]
     pub(crate) fn expand(&self, reduced: &Vec6) -> Vec6 {
-        self.freedoms.expanded(reduced)
+        self.motion.expanded(reduced)
     }
 
     /// Scaled matrix `S M S` with `S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ)`.
@@ -71,7 +71,7 @@ impl Coordinates {
     /// Reduced matrix of a matrix over motions.
     #[inline]
     pub(crate) fn reduce_matrix(&self, matrix: &Mat6) -> Mat6 {
-        self.freedoms.reduced_matrix(&self.scale_matrix(matrix))
+        self.motion.reduced_matrix(&self.scale_matrix(matrix))
     }
 
     /// Reduced matrix of the symmetric part of a matrix over motions.
@@ -82,7 +82,7 @@ impl Coordinates {
 
     /// Part of a matrix over motions, not scaled, that concerns motions which the platform has; zero for the others.
     pub(crate) fn allowed_matrix(&self, matrix: &Mat6) -> Mat6 {
-        self.freedoms.expanded_matrix(&self.freedoms.reduced_matrix(matrix))
+        self.motion.expanded_matrix(&self.motion.reduced_matrix(matrix))
     }
 
     /// Pose after a small reduced motion: translations in metres, rotations times ℓ.
@@ -101,7 +101,8 @@ mod tests {
 
     fn all(ell: f64) -> [Coordinates; 3] {
         let plane = Plane::new(Vec3::new(1.0, -2.0, 0.5), 0.0).unwrap();
-        [Freedoms::Rigid, Freedoms::PointMass, Freedoms::Planar(plane)].map(|freedoms| Coordinates { freedoms, ell })
+        [PlatformMotion::Rigid, PlatformMotion::PointMass, PlatformMotion::Planar(plane)]
+            .map(|motion| Coordinates { motion, ell })
     }
 
     proptest! {

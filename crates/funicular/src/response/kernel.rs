@@ -1,8 +1,8 @@
 //! Receptance at many frequencies, [`LANES`] of them side by side.
 
 use super::receptance;
-use crate::cable::closed_form::{self, ClosedForm, Entire, SERIES_BELOW};
-use crate::cable::exact::{ExactEnd, PoleResidue};
+use crate::cable::catenary_dynamic::{ExactEnd, PoleResidue};
+use crate::cable::shallow_dynamic::{self, Entire, SERIES_BELOW, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::dynamics::Dynamics;
 use crate::math::simd::complex::{Complexes, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
@@ -18,7 +18,7 @@ const fn at(i: usize, j: usize) -> usize {
 
 /// A pivot below this part of the largest diagonal entry sends its lane to the plain version: elimination without
 /// exchange then keeps at least ten digits.
-const LEAST_PIVOT: f64 = 1e-6;
+const MIN_PIVOT: f64 = 1e-6;
 
 /// A cable's projections, ready to be multiplied: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ.
 struct Products {
@@ -48,7 +48,7 @@ impl<'a> Prepared<'a> {
             entries
         };
 
-        let lacking = |i: usize| i >= dynamics.freedoms();
+        let lacking = |i: usize| i >= dynamics.dof();
         // Beyond the platform's coordinates there is a unit diagonal and nothing else.
         let constant = lower(&|i, j| if lacking(i) && i == j { 1.0 } else { dynamics.constant_stiffness()[(i, j)] });
         let (mass, damping) = (dynamics.platform_mass(), dynamics.platform_damping());
@@ -86,10 +86,10 @@ impl<'a> Prepared<'a> {
 
         for (term, products) in self.dynamics.terms().iter().zip(&self.products) {
             let (k, in_plane_only) = match term.form() {
-                DynamicCable::ClosedForm(form) => {
-                    (closed_form::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
+                DynamicCable::ShallowDynamic(form) => {
+                    (shallow_dynamic::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
                 }
-                DynamicCable::Exact(form) => (exact(form, omega), form.in_plane_only),
+                DynamicCable::CatenaryDynamic(form) => (exact(form, omega), form.in_plane_only),
             };
             for (entry, d) in d.iter_mut().enumerate() {
                 d.add_scaled(&k.axial, products.axial[entry]);
@@ -104,7 +104,7 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// The exact cable's stiffness at each lane.
+/// The catenary-dynamic cable's stiffness at each lane.
 #[inline(always)]
 fn exact(form: &ExactEnd, omega: &Lane) -> LocalStiffness<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
@@ -137,7 +137,7 @@ fn pole_sum<const N: usize, const E: usize>(of: &PoleResidue<N, E>, x: &Complexe
 
 /// The closed form's functions of γ at each lane, divided by cosh Im √γ.
 #[inline(always)]
-fn entire(form: &ClosedForm, omega: &Lane) -> Entire<Complexes> {
+fn entire(form: &ShallowDynamic, omega: &Lane) -> Entire<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         let (a, b) = form.damping.square(omega[i], form.sag.mass_per_length);
@@ -202,7 +202,7 @@ fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
             d[at(j, k)] = d[at(j, k)] * inverse;
         }
     }
-    from_fn(|i| least[i] > LEAST_PIVOT * LEAST_PIVOT * largest[i])
+    from_fn(|i| least[i] > MIN_PIVOT * MIN_PIVOT * largest[i])
 }
 
 /// `L⁻¹ v` for a real vector.
@@ -221,7 +221,7 @@ fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
 /// `outputᵀ D⁻¹ input` at each frequency [Hz].
 pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
     let scale = dynamics.scale();
-    let vector = |v: &Vec6| dynamics.coordinates().freedoms().reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
+    let vector = |v: &Vec6| dynamics.coordinates().motion().reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
 
     let mut values = vec![Complex::new(0.0, 0.0); frequencies_hz.len()];
     let entries = OneEntry {
@@ -315,8 +315,8 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
                 }
 
                 let mut of_lane = CMat6::zeros();
-                for column in 0..dynamics.freedoms() {
-                    for row in column..dynamics.freedoms() {
+                for column in 0..dynamics.dof() {
+                    for row in column..dynamics.dof() {
                         let entry = inverse[at(row, column)].lane(i);
                         of_lane[(row, column)] = entry;
                         of_lane[(column, row)] = entry;

@@ -15,7 +15,7 @@ pub struct Peak {
 
 /// Local maxima of `|values|` over `frequencies_hz` (ascending) with at least the given prominence [dB], ascending in
 /// frequency. Ends of the range are not peaks. A zero counts as the smallest positive number.
-pub fn peaks(frequencies_hz: &[f64], values: &[Complex], least_prominence_db: f64) -> Vec<Peak> {
+pub fn peaks(frequencies_hz: &[f64], values: &[Complex], min_prominence_db: f64) -> Vec<Peak> {
     let level: Vec<f64> = values.iter().map(|v| 20.0 * v.norm().max(f64::MIN_POSITIVE).log10()).collect();
     let mut found = Vec::new();
     let mut i = 1;
@@ -28,7 +28,7 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], least_prominence_db: f6
 
         if level[i] > level[i - 1] && end + 1 < level.len() && level[i] > level[end + 1] {
             let prominence_db = level[i] - valley(&level, i, end);
-            if prominence_db >= least_prominence_db {
+            if prominence_db >= min_prominence_db {
                 let top = usize::midpoint(i, end);
                 let frequency_hz = if i == end { vertex(frequencies_hz, &level, i) } else { frequencies_hz[top] };
                 found.push(Peak { frequency_hz, prominence_db, magnitude: values[top].norm() });

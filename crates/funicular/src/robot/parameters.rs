@@ -6,7 +6,7 @@
 //! passes through text.
 
 use super::spec::{Component, Key, Numbers, Numeric, Shape, SpecError, TABLES, TOP, from_tree, parsed};
-use super::{Freedoms, Robot, RobotChange};
+use super::{PlatformMotion, Robot, RobotChange};
 use crate::math::Vec3;
 use std::borrow::Cow;
 use std::fmt;
@@ -15,9 +15,9 @@ use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeTable, DeValue};
 
 /// Maximum magnitude of any number of a robot file: products of four of them stay far inside `f64`.
-pub(super) const LARGEST: f64 = 1e12;
+pub(super) const MAX_NUMBER: f64 = 1e12;
 /// Minimum of a quantity that has to be positive, so that quotients stay inside `f64`, too.
-pub(super) const SMALLEST: f64 = 1e-12;
+pub(super) const MIN_NUMBER: f64 = 1e-12;
 
 /// Numbers that a parameter may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,9 +38,9 @@ impl Range {
     /// Minimum; of a component of a vector whose magnitude is limited that of the component alone.
     pub fn minimum(self) -> f64 {
         match self {
-            Self::Any => -LARGEST,
+            Self::Any => -MAX_NUMBER,
             Self::NotNegative | Self::Below(_) => 0.0,
-            Self::Positive => SMALLEST,
+            Self::Positive => MIN_NUMBER,
             Self::Magnitude(limit) => -limit,
         }
     }
@@ -48,7 +48,7 @@ impl Range {
     /// Maximum, or the limit below which a number has to be.
     pub fn maximum(self) -> f64 {
         match self {
-            Self::Any | Self::NotNegative | Self::Positive => LARGEST,
+            Self::Any | Self::NotNegative | Self::Positive => MAX_NUMBER,
             Self::Below(limit) | Self::Magnitude(limit) => limit,
         }
     }
@@ -289,9 +289,11 @@ impl Parameters {
             (Part::Platform, "mass_kg") => change.mass = 1.0,
             (Part::Platform, "center_of_mass_m") => change.center_of_mass_p = unit()?,
             (Part::Platform, "drag_area_m2") => change.drag_area = 1.0,
-            (Part::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.freedoms) {
+            (Part::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.motion) {
                 // One number is the moment about the normal.
-                (None, Freedoms::Planar(plane)) => change.inertia_p = plane.normal_w() * plane.normal_w().transpose(),
+                (None, PlatformMotion::Planar(plane)) => {
+                    change.inertia_p = plane.normal_w() * plane.normal_w().transpose()
+                }
                 (component, _) => {
                     let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;
                     let Component::Entry(i, j) = entry else { return None };
@@ -517,11 +519,11 @@ fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> V
 
 /// The numbers of a key that the file leaves out, where they mean something on this robot.
 fn defaults(key: &Key, numbers: &Numeric, table: &DeTable, robot: &Robot) -> Vec<Found> {
-    let freedoms = &robot.platform.freedoms;
+    let motion = &robot.platform.motion;
     let means_something = match key.name {
-        "plane_offset_m" => matches!(freedoms, Freedoms::Planar(_)),
+        "plane_offset_m" => matches!(motion, PlatformMotion::Planar(_)),
         "center_of_mass_m" | "rotational_damping_n_m_s" | "moment_n_m" | "point_m" | "roll_pitch_yaw_deg" => {
-            *freedoms != Freedoms::PointMass
+            *motion != PlatformMotion::PointMass
         }
         "damping_ratio" => !table.contains_key("viscous_damping_n_s_m2"),
         _ => true,

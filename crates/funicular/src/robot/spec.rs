@@ -12,7 +12,7 @@
 //! | `gravity_m_s2` | acceleration of gravity, world axes | `[0, 0, -9.81]` |
 //! | **`[platform]`** | | required |
 //! | `mass_kg` | mass, positive | required |
-//! | `freedoms` | `"rigid"`, `"point-mass"` (translations only), `"planar-xy"`, `"planar-xz"`, `"planar-yz"` (two translations and the rotation about the third axis), or `"planar"` with a normal | `"rigid"` |
+//! | `motion` | `"rigid"`, `"point-mass"` (translations only), `"planar-xy"`, `"planar-xz"`, `"planar-yz"` (two translations and the rotation about the third axis), or `"planar"` with a normal | `"rigid"` |
 //! | `plane_normal` | normal of the plane in which the platform's origin moves, world axes, any length | required if `"planar"`, else refused |
 //! | `plane_offset_m` | distance of that plane from the world's origin along the normal (z, y or x, or `plane_normal`) | 0 |
 //! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; if planar also one number, the moment about the normal, the only one that counts | required, refused of a point mass |
@@ -57,7 +57,7 @@ mod platform;
 mod read;
 
 use super::parameters::Range;
-use super::{Cable, Freedoms, Load, Pose, Robot, State, Wind};
+use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
@@ -165,7 +165,7 @@ impl Robot {
     ///     name = "pendulum"
     ///     [platform]
     ///     mass_kg = 2.0
-    ///     freedoms = "point-mass"
+    ///     motion = "point-mass"
     ///     [materials.steel]
     ///     youngs_modulus_pa = 100e9
     ///     area_m2 = 1e-5
@@ -232,13 +232,13 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         Some(value) => reader.vector(&root, "gravity_m_s2", value),
         None => Some(DEFAULT_GRAVITY),
     };
-    let freedoms = platform::freedoms(reader, &root);
-    let platform = platform::read(reader, &root, freedoms);
-    let load = read_load(reader, &root, freedoms);
+    let motion = platform::motion(reader, &root);
+    let platform = platform::read(reader, &root, motion);
+    let load = read_load(reader, &root, motion);
     let wind = read_wind(reader, &root);
     let materials = materials::read(reader, &root);
-    let cables = cables::read(reader, &root, materials.as_ref(), freedoms);
-    let state = read_state(reader, &root, cables.as_deref(), freedoms);
+    let cables = cables::read(reader, &root, materials.as_ref(), motion);
+    let state = read_state(reader, &root, cables.as_deref(), motion);
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
     Some(Robot {
         name: name?,
@@ -253,20 +253,20 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
 }
 
 /// `[loads]`: force, moment and point.
-fn read_load(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) -> Option<Load> {
+fn read_load(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>) -> Option<Load> {
     let Some(value) = root.get("loads") else { return Some(Load::default()) };
     let table = reader.table("loads", "[loads]", value)?;
     let section = reader.open("[loads]", value.span(), table, LOADS);
     let mut vector = |key: &str| match section.get(key) {
         Some(value) => {
             let vector = reader.vector(&section, key, value)?;
-            if key != "force_n" && freedoms == Some(Freedoms::PointMass) && !is_zero(&vector) {
+            if key != "force_n" && motion == Some(PlatformMotion::PointMass) && !is_zero(&vector) {
                 reader
                     .issue(
                         value.span(),
                         format!("a point mass bears forces at its own point only, `{key}` must be absent"),
                     )
-                    .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+                    .help("remove the line, or set `motion = \"rigid\"` in [platform]");
                 return None;
             }
             Some(Vec3::from(vector))
@@ -307,7 +307,7 @@ fn read_state(
     reader: &mut Reader,
     root: &Section,
     cables: Option<&[CableEntry]>,
-    freedoms: Option<Freedoms>,
+    motion: Option<PlatformMotion>,
 ) -> Option<State> {
     let lengths = cables.map(|cables| cables::lengths(reader, cables));
     let Some(value) = root.get("state") else {
@@ -323,10 +323,10 @@ fn read_state(
     let angles = match section.get("roll_pitch_yaw_deg") {
         Some(value) => {
             let angles = reader.vector(&section, "roll_pitch_yaw_deg", value);
-            if freedoms == Some(Freedoms::PointMass) && angles.is_some_and(|angles| !is_zero(&angles)) {
+            if motion == Some(PlatformMotion::PointMass) && angles.is_some_and(|angles| !is_zero(&angles)) {
                 reader
                     .issue(value.span(), "a point mass has no orientation, `roll_pitch_yaw_deg` must be zero or absent")
-                    .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+                    .help("remove the line, or set `motion = \"rigid\"` in [platform]");
             }
             angles
         }
@@ -340,7 +340,7 @@ fn read_state(
         return None;
     }
     let pose = Pose::new(position?, angles?);
-    if let Some(Err(out)) = freedoms.map(|freedoms| freedoms.check(&pose)) {
+    if let Some(Err(out)) = motion.map(|motion| motion.check(&pose)) {
         reader.issue(value.span(), format!("this pose is not in the plane: {out}"));
         return None;
     }
@@ -391,7 +391,7 @@ roll_pitch_yaw_deg = [0.0, 0.0, 90.0]
         let robot = Robot::from_toml(VALID).unwrap();
         assert_eq!((robot.name.as_str(), robot.source.as_str()), ("two ropes", "made up"));
         assert_eq!(robot.gravity_w, Vec3::new(0.0, 0.0, -9.81));
-        assert_eq!(robot.platform.freedoms, Freedoms::Rigid);
+        assert_eq!(robot.platform.motion, PlatformMotion::Rigid);
         assert!((robot.platform.inertia_p[(0, 1)] - 0.01).abs() < 1e-15);
         assert_eq!(robot.cables.len(), 2);
         let [thin, thick] = [&robot.cables[0].material, &robot.cables[1].material];

@@ -24,7 +24,7 @@ use crate::robot::Robot;
 /// let robot = Robot::from_toml(&text)?.with_wind(wind);
 /// let rest = statics::rest(&robot, StaticModel::Catenary, None)?.equilibrium;
 /// let tangent = statics::tangent_with_drag(&robot, &rest).ok_or("elastic cables have a tangent")?;
-/// assert!(statics::antisymmetric_part(&robot, &tangent) > 1e-5);
+/// assert!(statics::antisymmetric_fraction(&robot, &tangent) > 1e-5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -57,7 +57,7 @@ pub fn drag_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> 
 
 /// Size of the antisymmetric part of a stiffness over the size of the whole: Frobenius norms of the scaled matrices
 /// (theory (3)), moments over ℓ and rotations times ℓ.
-pub fn antisymmetric_part(robot: &Robot, stiffness: &Mat6) -> f64 {
+pub fn antisymmetric_fraction(robot: &Robot, stiffness: &Mat6) -> f64 {
     let matrix = Coordinates::of(robot).scale_matrix(stiffness);
     let size = matrix.norm();
     if size > 0.0 { 0.5 * (matrix - matrix.transpose()).norm() / size } else { 0.0 }

@@ -74,12 +74,12 @@ pub enum Stability {
     /// Every small displacement is opposed; the least eigenvalue of the scaled stiffness S K S [N/m].
     Stable {
         /// Least eigenvalue [N/m].
-        least_stiffness: f64,
+        min_stiffness: f64,
     },
     /// Some displacement is not opposed.
     Unstable {
         /// Least eigenvalue [N/m]; negative, or exactly zero where it is rounding: then the equilibrium is indifferent.
-        least_stiffness: f64,
+        min_stiffness: f64,
         /// Number of directions that are not opposed.
         directions: usize,
     },

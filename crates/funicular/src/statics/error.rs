@@ -1,7 +1,7 @@
 //! Reasons why there is no equilibrium to give, and their texts.
 
 use super::equilibrium::RESIDUAL_LIMIT;
-use super::limits::Miss;
+use super::limits::LimitViolation;
 use super::loaded_cable::LONGEST;
 use crate::robot::OutOfPlane;
 use thiserror::Error;
@@ -15,16 +15,16 @@ pub enum StaticsError {
          `unstrained_length_m`, or the file a [state] with `position_m`"
     )]
     NoState,
-    /// A tension rule for as many cables as freedoms, or fewer.
+    /// A tension rule for as many cables as degrees of freedom, or fewer.
     #[error(
-        "a tension rule has nothing to choose: {cables} cables for {freedoms} freedoms have one set of tensions at a \
+        "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions at a \
          pose; leave out the tension rule and the wanted tensions"
     )]
     NothingToChoose {
         /// Cables of the robot.
         cables: usize,
-        /// Freedoms of the platform.
-        freedoms: usize,
+        /// Degrees of freedom of the platform.
+        dof: usize,
     },
     /// A tension rule for given lengths.
     #[error(
@@ -48,29 +48,29 @@ pub enum StaticsError {
         /// Value [m].
         value: f64,
     },
-    /// Ideal cables, not as many as freedoms.
+    /// Ideal cables, not as many as degrees of freedom.
     #[error(
-        "{} for {freedoms} freedoms: forward statics of `ideal` cables needs exactly {freedoms}; `spring` \
+        "{} for {dof} degrees of freedom: forward statics of `ideal` cables needs exactly {dof}; `spring` \
          and `catenary` cables may be fewer or more",
         crate::counted(*cables, "cable")
     )]
     CableCount {
         /// Cables of the robot.
         cables: usize,
-        /// Freedoms of the platform.
-        freedoms: usize,
+        /// Degrees of freedom of the platform.
+        dof: usize,
     },
-    /// Fewer cables than freedoms hold no given pose.
+    /// Fewer cables than degrees of freedom hold no given pose.
     #[error(
-        "{} for {freedoms} freedoms can hold no given pose: with `spring` and `catenary` cables there is the nearest pose \
+        "{} for {dof} degrees of freedom can hold no given pose: with `spring` and `catenary` cables there is the nearest pose \
          that can be held, with `ideal` cables there is none",
         crate::counted(*cables, "cable")
     )]
     InverseCableCount {
         /// Cables of the robot.
         cables: usize,
-        /// Freedoms of the platform.
-        freedoms: usize,
+        /// Degrees of freedom of the platform.
+        dof: usize,
     },
     /// A pose that a planar platform cannot have.
     #[error(transparent)]
@@ -81,7 +81,7 @@ pub enum StaticsError {
         /// Name of the cable.
         cable: String,
     },
-    /// The pose is singular: the cables do not span the freedoms.
+    /// The pose is singular: the cables do not span the degrees of freedom.
     #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
     Singular,
     /// A straight cable would have to push.
@@ -89,7 +89,7 @@ pub enum StaticsError {
         "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose; choose \
          another pose, mass or centre of mass"
     )]
-    WouldPush {
+    NegativeTension {
         /// Name of the cable that lacks most.
         cable: String,
         /// Its tension [N], not positive.
@@ -137,7 +137,7 @@ pub enum StaticsError {
         "no tensions within their limits hold this pose: the nearest miss the limits {0}; choose another pose, mass or \
          centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
-    BeyondLimits(Miss),
+    BeyondLimits(LimitViolation),
     /// No tensions within the limits were found, and no proof that there are none: the balance of sagging cables is not
     /// linear.
     #[error(
@@ -147,7 +147,7 @@ pub enum StaticsError {
     )]
     NotFoundWithinLimits {
         /// By how much the nearest tensions found miss the limits, and which.
-        miss: Miss,
+        miss: LimitViolation,
         /// Number of starts of the search.
         starts: usize,
     },
@@ -193,7 +193,7 @@ pub enum StaticsError {
     #[error(
         "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
     )]
-    NothingToStiffen,
+    StiffestNeedsElastic,
     /// More cables than the rule `stiffest` is made for.
     #[error(
         "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the cube \
@@ -207,7 +207,7 @@ pub enum StaticsError {
     },
     /// Ideal cables are rigid: their poses are those of a mechanism, not of an energy.
     #[error("a search for all equilibria needs cables that stretch: choose the static model `spring` or `catenary`")]
-    OneIdeal,
+    NeedsElasticCables,
     /// The search for the nearest pose did not end.
     #[error(
         "no nearest pose found in {iterations} iterations: the last, at position ({x:.4}, {y:.4}, {z:.4}) m, could come \
@@ -227,13 +227,13 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
-    /// The tensions of a robot with more cables than freedoms do not come to rest.
+    /// The tensions of a robot with more cables than degrees of freedom do not come to rest.
     #[error(
         "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual is \
          {residual:.3e}; raise the least tensions (`minimum_tension_n` in the robot file)",
         unrest(*change, *limit)
     )]
-    Unsettled {
+    TensionsNotConverged {
         /// Iterations taken.
         iterations: usize,
         /// Change of the tensions in the last step, over their size; infinite if no step could be made.
@@ -305,18 +305,20 @@ impl StaticsError {
             Self::OutOfPlane(_) => "out-of-plane",
             Self::CoincidingEnds { .. } => "coinciding-ends",
             Self::Singular => "singular",
-            Self::WouldPush { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "would-push",
-            Self::BeyondLimits(_) => "beyond-limits",
+            Self::NegativeTension { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "negative-tension",
+            Self::BeyondLimits(_) => "tension-limits",
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NeedsMaximum { .. } => "needs-maximum",
             Self::WantedCount { .. } => "wanted-count",
             Self::Wanted { .. } => "wanted",
-            Self::NothingToStiffen => "nothing-to-stiffen",
+            Self::StiffestNeedsElastic => "nothing-to-stiffen",
             Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
-            Self::OneIdeal => "one-ideal",
+            Self::NeedsElasticCables => "one-ideal",
             Self::NotNearest { .. } => "not-nearest",
-            Self::NotConverged { .. } | Self::LostInRounding { .. } | Self::Unsettled { .. } => "not-converged",
+            Self::NotConverged { .. } | Self::LostInRounding { .. } | Self::TensionsNotConverged { .. } => {
+                "not-converged"
+            }
         }
     }
 
@@ -325,7 +327,7 @@ impl StaticsError {
         matches!(
             self,
             Self::Singular
-                | Self::WouldPush { .. }
+                | Self::NegativeTension { .. }
                 | Self::NotFound { .. }
                 | Self::LengthsPush { .. }
                 | Self::BeyondLimits(_)
@@ -333,7 +335,7 @@ impl StaticsError {
                 | Self::NotNearest { .. }
                 | Self::NotConverged { .. }
                 | Self::LostInRounding { .. }
-                | Self::Unsettled { .. }
+                | Self::TensionsNotConverged { .. }
         )
     }
 }

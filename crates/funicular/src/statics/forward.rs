@@ -7,26 +7,26 @@ use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::residual::{check_lengths, elastic_rounding, scaled_residual};
 use super::stiffness::assembled;
-use super::{energy, ideal, start};
+use super::{energy, ideal, initial_pose};
 use crate::catenary::space::HangingCable;
-use crate::math::{Mat6, Vec6, inertia};
+use crate::math::{Mat6, Vec6, symmetric};
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
 use std::ops::ControlFlow;
 
 /// Limit of iterations. Robots of the library take 4 to 12; random ones whose platform slides down a narrow valley of
 /// stiff ropes, some of them slack, up to 450.
-const MOST_ITERATIONS: usize = 5000;
+const MAX_ITERATIONS: usize = 5000;
 
 /// The pose in which the platform rests for given unstrained lengths [m], one a cable in file order.
 ///
 /// `spring` and `catenary`: minimises the potential energy of cables and platform by Newton's method with shifted
 /// stiffness, so that what it finds is a stable equilibrium wherever there is one near, or an indifferent one; any number
-/// of cables. `ideal`: closes the lengths, as many cables as freedoms, all of which have to pull. `start`: where to begin; without it
+/// of cables. `ideal`: closes the lengths, as many cables as degrees of freedom, all of which have to pull. `start`: where to begin; without it
 /// the pose that straight cables of these lengths come closest to.
 ///
 /// # Errors
-/// [`StaticsError`]: lengths that do not fit the robot, ideal cables that are not as many as freedoms or one of which
+/// [`StaticsError`]: lengths that do not fit the robot, ideal cables that are not as many as degrees of freedom or one of which
 /// would have to push, a start out of a planar platform's plane, no equilibrium within [`RESIDUAL_LIMIT`], or, where
 /// rounding of stiff cables leaves more, none within [`MAX_RESIDUAL_OF_ROUNDING`].
 ///
@@ -46,14 +46,14 @@ pub fn forward(
     start: Option<&Pose>,
 ) -> Result<Equilibrium, StaticsError> {
     check_lengths(robot, lengths)?;
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-    if model == StaticModel::Ideal && cables != freedoms {
-        return Err(StaticsError::CableCount { cables, freedoms });
+    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+    if model == StaticModel::Ideal && cables != dof {
+        return Err(StaticsError::CableCount { cables, dof });
     }
     if let Some(start) = start {
-        robot.platform.freedoms.check(start)?;
+        robot.platform.motion.check(start)?;
     }
-    let pose = start.copied().unwrap_or_else(|| start::pose_from_lengths(robot, lengths));
+    let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     match model {
         StaticModel::Ideal => ideal::forward(robot, lengths, pose),
         StaticModel::Spring | StaticModel::Catenary => elastic(robot, lengths, model, pose),
@@ -146,8 +146,8 @@ impl<'a> Search<'a> {
             trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
         let mut total = self.coordinates.reduce_symmetric(&total);
-        let freedoms = self.coordinates.freedoms();
-        for row in (0..6).filter(|&k| k >= freedoms.count() || !self.turns && freedoms.is_rotation(k)) {
+        let motion = self.coordinates.motion();
+        for row in (0..6).filter(|&k| k >= motion.count() || !self.turns && motion.is_rotation(k)) {
             total.row_mut(row).fill(0.0);
             total.column_mut(row).fill(0.0);
             total[(row, row)] = 1.0;
@@ -171,7 +171,7 @@ pub(super) const AT_REST: f64 = 1e-13;
 const STALLED_ROUND: f64 = 0.5;
 
 /// Limit of rounds in which the drag of the wind follows the cables; each gains a factor, see theory, section 15.
-const MOST_ROUNDS: usize = 100;
+const MAX_ROUNDS: usize = 100;
 
 /// The stable equilibrium that elastic cables come to from a start.
 pub(super) fn elastic(
@@ -187,7 +187,7 @@ pub(super) fn elastic(
         // At rest under the drag of one pose, the platform meets that of another; the two draw near, each round by the
         // part that the drag's turn is of the stiffness.
         let mut last = f64::INFINITY;
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             search = Search::new(robot, lengths, model, &here.pose);
             here = search.at(here.pose);
             if here.residual < AT_REST || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
@@ -247,12 +247,12 @@ impl Search<'_> {
     /// Newton's method with a shifted stiffness from a start: the last place, the iterations taken, and why it ended.
     fn descend(&self, start: Pose) -> (Trial, usize, Exit) {
         let mut descent = Descent::new(self, start);
-        for iterations in 1..=MOST_ITERATIONS {
+        for iterations in 1..=MAX_ITERATIONS {
             if let ControlFlow::Break(exit) = descent.iterate() {
                 return (descent.here, iterations, exit);
             }
         }
-        (descent.here, MOST_ITERATIONS, Exit::TooManyIterations)
+        (descent.here, MAX_ITERATIONS, Exit::TooManyIterations)
     }
 }
 
@@ -267,7 +267,7 @@ enum Exit {
     NeverDefinite,
     /// No step gains, however short.
     NoGain,
-    /// [`MOST_ITERATIONS`].
+    /// [`MAX_ITERATIONS`].
     TooManyIterations,
 }
 
@@ -375,7 +375,7 @@ impl<'a, 's> Descent<'a, 's> {
     /// energy falls both ways; else ends.
     fn leave_saddle(&mut self, stiffness: &Mat6, exit: Exit) -> ControlFlow<Exit> {
         if self.escapes < MAX_ESCAPES
-            && inertia::negative_eigenvalues(stiffness, self.search.coordinates.count()) > 0
+            && symmetric::negative_eigenvalues(stiffness, self.search.coordinates.count()) > 0
             && let Some(lower) = descend_from_saddle(self.search, &self.here, stiffness)
         {
             self.escapes += 1;
@@ -447,7 +447,7 @@ const ESCAPES: [f64; 6] = [0.3, -0.3, 0.1, -0.1, 0.01, -0.01];
 
 /// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
 fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
-    let (values, vectors) = inertia::eigen(stiffness, search.coordinates.count());
+    let (values, vectors) = symmetric::eigen(stiffness, search.coordinates.count());
     let noise = NOISE * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
         return None;
@@ -481,7 +481,7 @@ mod tests {
     #[test]
     fn a_usual_search_ends_at_rest_or_at_rounding_within_a_few_iterations() {
         let robot = robot();
-        let (here, iterations, exit) = descent(&robot, start::pose_from_lengths(&robot, &LENGTHS));
+        let (here, iterations, exit) = descent(&robot, initial_pose::pose_from_lengths(&robot, &LENGTHS));
         assert!(matches!(exit, Exit::AtRest | Exit::AsFarAsRounding), "{exit:?}");
         assert!(here.residual < here.limit && iterations < 20, "{} after {iterations}", here.residual);
     }
@@ -489,7 +489,7 @@ mod tests {
     #[test]
     fn from_its_own_end_a_search_ends_at_once() {
         let robot = robot();
-        let (first, ..) = descent(&robot, start::pose_from_lengths(&robot, &LENGTHS));
+        let (first, ..) = descent(&robot, initial_pose::pose_from_lengths(&robot, &LENGTHS));
         let (second, iterations, exit) = descent(&robot, first.pose);
         assert!(matches!(exit, Exit::AtRest | Exit::AsFarAsRounding), "{exit:?}");
         assert!(iterations <= 3 && second.residual <= first.residual, "{iterations}");

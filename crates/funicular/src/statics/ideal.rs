@@ -108,7 +108,7 @@ fn unit_wrenches(robot: &Robot, pose: &Pose, coordinates: &Coordinates) -> Mat6 
     columns
 }
 
-/// Tensions of straight cables, as many as freedoms, that balance a wrench about the platform origin.
+/// Tensions of straight cables, as many as degrees of freedom, that balance a wrench about the platform origin.
 pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Result<Vec<f64>, StaticsError> {
     for cable in &robot.cables {
         if cable.chord_w(pose).norm() == 0.0 {

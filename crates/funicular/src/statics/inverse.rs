@@ -1,4 +1,4 @@
-//! Pose to unstrained lengths and tensions; here as many cables as freedoms, in `tension` more.
+//! Pose to unstrained lengths and tensions; here as many cables as degrees of freedom, in `tension` more.
 
 mod starts;
 
@@ -26,7 +26,7 @@ use crate::robot::{Pose, Robot};
 /// coinciding ends, or no convergence.
 pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
     let cables = robot.cables.len();
-    robot.platform.freedoms.check(pose)?;
+    robot.platform.motion.check(pose)?;
 
     // Straight cables, with half of each cable's load.
     let mut load = load_wrench(robot, pose);
@@ -43,12 +43,15 @@ pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
 
     match model {
         StaticModel::Ideal => match pushing(&tensions) {
-            Some((i, tension)) => Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension }),
+            Some((i, tension)) => Err(StaticsError::NegativeTension { cable: robot.cables[i].name.clone(), tension }),
             None => Ok(ideal::collect(robot, *pose, &tensions, 0)),
         },
         StaticModel::Spring => {
             if let Some(i) = weakest(&tensions).filter(|&i| tensions[i] <= 0.0) {
-                return Err(StaticsError::WouldPush { cable: robot.cables[i].name.clone(), tension: tensions[i] });
+                return Err(StaticsError::NegativeTension {
+                    cable: robot.cables[i].name.clone(),
+                    tension: tensions[i],
+                });
             }
             let lengths: Vec<f64> = (0..cables)
                 .map(|i| {
@@ -173,7 +176,7 @@ fn sagging(
         let (cable, tension) = (robot.cables[i].name.clone(), straight[i]);
         // Without sag the straight solution is the only one.
         if loaded.iter().all(|cable| cable.load.size == 0.0) {
-            return Err(StaticsError::WouldPush { cable, tension });
+            return Err(StaticsError::NegativeTension { cable, tension });
         }
         let residual = found.residual;
         let greatest = (residual <= RESIDUAL_LIMIT).then(|| found.strongest());
@@ -210,7 +213,7 @@ fn is_out_of_reach(
     Ok(reach.iter().zip(sizes).any(|(reach, size)| *reach < -REACH_ROUNDING * size))
 }
 
-/// Cables whose chords do not span the freedoms: sagging ones may, since they do not pull along their chords.
+/// Cables whose chords do not span the degrees of freedom: sagging ones may, since they do not pull along their chords.
 fn slack(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>]) -> Result<Equilibrium, StaticsError> {
     let limit = OUT_OF_PROPORTION * load_size(robot);
     let accept = |found: &Balanced| found.residual <= RESIDUAL_LIMIT && found.strongest() <= limit;

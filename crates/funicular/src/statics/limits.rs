@@ -48,11 +48,10 @@ impl TensionRange {
 
     /// How far a cable is from these limits.
     pub fn margin(&self, state: &CableState) -> TensionMargin {
-        let (least, greatest) =
-            state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
-                (hanging.catenary.least_tension(), hanging.catenary.greatest_tension())
-            });
-        TensionMargin { range: *self, least, greatest }
+        let (min, max) = state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
+            (hanging.catenary.min_tension(), hanging.catenary.max_tension())
+        });
+        TensionMargin { range: *self, min, max }
     }
 }
 
@@ -62,9 +61,9 @@ pub struct TensionMargin {
     /// The limits.
     pub range: TensionRange,
     /// Least tension anywhere in the cable [N].
-    pub least: f64,
+    pub min: f64,
     /// Greatest tension anywhere in the cable [N].
-    pub greatest: f64,
+    pub max: f64,
 }
 
 /// One of the two limits of a tension.
@@ -82,7 +81,7 @@ const REACHED: f64 = 1e-6;
 impl TensionMargin {
     /// Distance from the nearer limit [N], negative beyond it.
     pub fn distance(&self) -> f64 {
-        (self.least - self.range.minimum).min(self.range.maximum - self.greatest)
+        (self.min - self.range.minimum).min(self.range.maximum - self.max)
     }
 
     /// [`Self::distance`] over the distance between the limits: at most one half, negative beyond a limit; `None`
@@ -94,9 +93,9 @@ impl TensionMargin {
 
     /// The limit that is reached or exceeded, within a millionth.
     pub fn reached(&self) -> Option<Limit> {
-        if self.least <= self.range.minimum * (1.0 + REACHED) {
+        if self.min <= self.range.minimum * (1.0 + REACHED) {
             Some(Limit::Minimum)
-        } else if self.greatest >= self.range.maximum * (1.0 - REACHED) {
+        } else if self.max >= self.range.maximum * (1.0 - REACHED) {
             Some(Limit::Maximum)
         } else {
             None
@@ -109,7 +108,7 @@ const MAX_NAMES: usize = 8;
 
 /// How far the best tensions miss the limits, and which they are.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Miss {
+pub struct LimitViolation {
     /// The least force [N] by which all limits would have to give way for tensions within them to exist.
     pub by: f64,
     /// Cables whose minimum is in the way.
@@ -118,7 +117,7 @@ pub struct Miss {
     pub maximum_of: Vec<String>,
 }
 
-impl fmt::Display for Miss {
+impl fmt::Display for LimitViolation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let list = |what: &str, names: &[String]| {
             let first: Vec<String> = names.iter().take(MAX_NAMES).map(|name| format!("\"{name}\"")).collect();

@@ -5,7 +5,7 @@ use super::error::StaticsError;
 use super::forward::forward;
 use super::inverse::determinate;
 use super::model::StaticModel;
-use super::nearest::nearest;
+use super::nearest_pose::nearest;
 use super::tension::{TensionRule, distribute};
 use crate::robot::{Pose, Robot, State};
 use std::cmp::Ordering;
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 pub struct Rest {
     /// The equilibrium.
     pub equilibrium: Equilibrium,
-    /// The pose asked, where fewer cables than freedoms hold only the nearest to it, and how far that is [m], by
+    /// The pose asked, where fewer cables than degrees of freedom hold only the nearest to it, and how far that is [m], by
     /// [`distance`](super::distance).
     pub instead_of: Option<(Pose, f64)>,
     /// The rule that the tensions were chosen by, where there was a choice.
@@ -36,7 +36,7 @@ pub struct Rest {
 /// let mut robot = Robot::from_toml(funicular_robots::COGIRO)?;
 /// robot.state = State::Pose(Pose::new([1.0, 2.0, 1.5], [0.0; 3]));
 /// let rest = statics::rest(&robot, StaticModel::Catenary, None)?;
-/// assert_eq!(rest.rule, Some(TensionRule::Lowest)); // eight cables for six freedoms leave a choice
+/// assert_eq!(rest.rule, Some(TensionRule::Lowest)); // eight cables for six degrees of freedom leave a choice
 /// assert!(rest.instead_of.is_none() && rest.equilibrium.residual < 1e-10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -115,7 +115,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
 
 /// Number of cables, compared with the number of degrees of freedom.
 fn cables_to_freedoms(robot: &Robot) -> Ordering {
-    robot.cables.len().cmp(&robot.platform.freedoms.count())
+    robot.cables.len().cmp(&robot.platform.motion.count())
 }
 
 /// Refuses a tension rule where the tensions follow from the state alone.
@@ -123,8 +123,8 @@ fn refuse_rule_without_choice(robot: &Robot) -> Result<(), StaticsError> {
     let choice = cables_to_freedoms(robot) == Ordering::Greater;
     match &robot.state {
         State::Pose(_) if !choice => {
-            let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-            Err(StaticsError::NothingToChoose { cables, freedoms })
+            let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+            Err(StaticsError::NothingToChoose { cables, dof })
         }
         State::Lengths(_) => Err(StaticsError::RuleOfLengths),
         State::Pose(_) | State::Unknown => Ok(()),

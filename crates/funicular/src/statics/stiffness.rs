@@ -2,7 +2,7 @@
 
 use super::drag::drag_stiffness;
 use super::equilibrium::{Equilibrium, Stability};
-use crate::math::{Mat3, Mat6, Vec3, inertia, symmetric_part};
+use crate::math::{Mat3, Mat6, Vec3, symmetric, symmetric_part};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
 
@@ -38,9 +38,9 @@ pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> 
         whole += turn;
     }
 
-    let freedoms = &robot.platform.freedoms;
-    let n = freedoms.count();
-    let mut reduced = freedoms.reduced_matrix(&whole);
+    let motion = &robot.platform.motion;
+    let n = motion.count();
+    let mut reduced = motion.reduced_matrix(&whole);
     (n..6).for_each(|k| reduced[(k, k)] = 1.0);
     let compliance = reduced.try_inverse()?;
     Some((0..n).map(|k| 1.0 / compliance[(k, k)]).collect())
@@ -59,12 +59,12 @@ pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item =
 
 pub(super) fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let coordinates = Coordinates::of(robot);
-    let values = inertia::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());
+    let values = symmetric::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());
     // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();
     match directions {
-        0 => Stability::Stable { least_stiffness: values[0] },
-        _ => Stability::Unstable { least_stiffness: if values[0] < -zero { values[0] } else { 0.0 }, directions },
+        0 => Stability::Stable { min_stiffness: values[0] },
+        _ => Stability::Unstable { min_stiffness: if values[0] < -zero { values[0] } else { 0.0 }, directions },
     }
 }

@@ -1,4 +1,4 @@
-//! Pose to unstrained lengths and tensions for more cables than freedoms: of all tensions that hold the platform, those
+//! Pose to unstrained lengths and tensions for more cables than degrees of freedom: of all tensions that hold the platform, those
 //! within the limits that a rule prefers.
 //!
 //! The unknown of every cable is its tension τ parallel to the chord. The balance is linear in them but for the small
@@ -7,12 +7,12 @@
 //! which has one or two dimensions in most robots: it takes microseconds, a general solver a tenth of a millisecond.
 //! With many cables it is solved in the space of the cables instead, see [`room`].
 
-mod balance;
+mod active_set;
 mod bounds;
-mod line;
-mod polyhedron;
+mod cable_at_pose;
+mod feasible_set;
+mod null_space;
 mod proof;
-mod room;
 mod search;
 mod stiffest;
 
@@ -23,10 +23,10 @@ use super::ideal;
 use super::model::StaticModel;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
-use line::Line;
+use cable_at_pose::Line;
 use search::Search;
 
-/// Which of all possible tensions a robot with more cables than freedoms shall have.
+/// Which of all possible tensions a robot with more cables than degrees of freedom shall have.
 ///
 /// What a rule weighs is the tension τ of each cable parallel to its chord, (10a), which is between those of its ends;
 /// limits hold for the whole cable, both ends included.
@@ -58,7 +58,7 @@ impl TensionRule {
 }
 
 /// The unstrained lengths and tensions that hold the platform at a pose, the tensions within the limits of the robot
-/// file and chosen by a rule. More cables than freedoms; with as many, [`inverse`](super::inverse) has the only answer.
+/// file and chosen by a rule. More cables than degrees of freedom; with as many, [`inverse`](super::inverse) has the only answer.
 ///
 /// The balance holds to [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT), the limits to a millionth, and the rule's
 /// optimum to a millionth of the tensions (of the stiffness for [`TensionRule::Stiffest`], whose optimum is local where cables sag).
@@ -88,12 +88,12 @@ pub fn distribute(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
-    if cables < freedoms {
-        return Err(StaticsError::InverseCableCount { cables, freedoms });
+    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+    if cables < dof {
+        return Err(StaticsError::InverseCableCount { cables, dof });
     }
 
-    robot.platform.freedoms.check(pose)?;
+    robot.platform.motion.check(pose)?;
     for cable in &robot.cables {
         if cable.chord_w(pose).norm() == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
@@ -147,7 +147,7 @@ fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) 
     }
 
     if *rule == TensionRule::Stiffest && model == StaticModel::Ideal {
-        return Err(StaticsError::NothingToStiffen);
+        return Err(StaticsError::StiffestNeedsElastic);
     }
     if *rule == TensionRule::Stiffest && robot.cables.len() > MAX_CABLES_TO_STIFFEN {
         return Err(StaticsError::TooManyToStiffen { cables: robot.cables.len(), limit: MAX_CABLES_TO_STIFFEN });

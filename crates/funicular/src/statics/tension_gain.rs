@@ -1,7 +1,7 @@
 //! Nearness to a singular pose: how much tension a load may take.
 
 use super::equilibrium::Equilibrium;
-use crate::math::{DMat, Mat6, Vec6, inertia};
+use crate::math::{DMat, Mat6, Vec6, symmetric};
 use crate::platform::Coordinates;
 use crate::robot::Robot;
 
@@ -9,10 +9,10 @@ use crate::robot::Robot;
 /// (a force of 1 N, a moment of ℓ N m, or both in part), 1 over the least singular value of the scaled unit wrenches. The
 /// nearer to a singular pose, the larger.
 ///
-/// Slack cables balance nothing. `None` where the others are fewer than the freedoms, infinite at a singular pose.
+/// Slack cables balance nothing. `None` where the others are fewer than the degrees of freedom, infinite at a singular pose.
 pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
-    let n = robot.platform.freedoms.count();
-    let (values, _) = inertia::eigen(&wrench_gram(robot, equilibrium)?, n);
+    let n = robot.platform.motion.count();
+    let (values, _) = symmetric::eigen(&wrench_gram(robot, equilibrium)?, n);
     // Squares below the rounding of their sum are none.
     let least = if values[0] > 1e-14 * values[n - 1] { values[0] } else { 0.0 };
     Some(1.0 / least.sqrt())
@@ -21,7 +21,7 @@ pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
 /// Whether [`tension_gain`] is above a limit; in a fraction of its time.
 pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, limit: f64) -> bool {
     let Some(mut gram) = wrench_gram(robot, equilibrium) else { return false };
-    let n = robot.platform.freedoms.count();
+    let n = robot.platform.motion.count();
     for k in 0..6 {
         gram[(k, k)] += if k < n { -1.0 / (limit * limit) } else { 1.0 };
     }
@@ -42,7 +42,7 @@ pub fn inverse_condition(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
 }
 
 /// Sum of the squares of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None`
-/// where they are fewer than the freedoms.
+/// where they are fewer than the degrees of freedom.
 fn wrench_gram(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     let coordinates = Coordinates::of(robot);
     let (mut gram, mut pulling) = (Mat6::zeros(), 0);

@@ -4,11 +4,11 @@
 //! the tension in the middle of each bar (the bar's own stretch would give it with an error of EA (κh)²/24, which is
 //! large in a stiff rope).
 
-mod closed_form;
-mod exact;
+mod catenary_dynamic;
+mod shallow_dynamic;
 
-use funicular::cable::closed_form::ClosedForm;
-use funicular::cable::exact::Exact;
+use funicular::cable::catenary_dynamic::CatenaryDynamic;
+use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::{DMat, Vec3};
@@ -92,7 +92,7 @@ fn cable((span, rise, ratio): (f64, f64, f64)) -> Catenary {
 fn the_exact_cable_is_the_limit_of_ever_more_bars() {
     for given in CABLES {
         let cable = cable(given);
-        let exact = Exact::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let exact = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
         let (coarse, fine) = (Bars::new(&cable, MASS_PER_LENGTH, 60), Bars::new(&cable, MASS_PER_LENGTH, 120));
         for frequency in [0.2, 0.9, 2.3, 3.6] {
             let omega = frequency * TAU;
@@ -125,7 +125,7 @@ fn the_exact_cable_is_the_limit_of_ever_more_bars() {
 fn the_exact_cable_has_as_many_clamped_modes_as_the_bars() {
     for given in CABLES {
         let cable = cable(given);
-        let exact = Exact::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let exact = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
         let mut ours: Vec<f64> =
             exact.in_plane.poles.iter().chain(&exact.out_of_plane.poles).map(|pole| pole.sqrt()).collect();
         ours.sort_by(f64::total_cmp);
@@ -155,7 +155,7 @@ fn the_closed_form_agrees_with_the_bars_where_sag_is_shallow() {
         );
         assert!(sag.ratio() < 0.02, "{}", sag.ratio());
         let axes = LocalAxes::of_chord(&Vec3::zeros(), &Vec3::new(given.0, 0.0, given.1), &Vec3::z());
-        let form = ClosedForm::new(sag, axes, Damping::Ratio(0.0), false);
+        let form = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), false);
         let bars = Bars::new(&cable, MASS_PER_LENGTH, 120).clamped();
         let closed = form.clamped_frequencies_below(LIMIT);
         assert!(closed.len() > 3);
@@ -184,9 +184,9 @@ fn the_warning_about_deep_sag_says_how_far_the_closed_form_is_off() {
             if with(middle).1.ratio() < ratio { low = middle } else { high = middle }
         }
         let (cable, sag) = with(low);
-        let exact = Exact::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let exact = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
         let axes = LocalAxes::of_chord(&Vec3::zeros(), &Vec3::new(cos, 0.0, sin), &Vec3::z());
-        let closed = ClosedForm::new(sag, axes, Damping::Ratio(0.0), true).clamped_frequencies_below(LIMIT)[0];
+        let closed = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), true).clamped_frequencies_below(LIMIT)[0];
         closed / exact.in_plane.poles[0].sqrt() - 1.0
     };
     for (degrees, ratio, expected) in [

@@ -10,16 +10,16 @@ use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::Damping;
 
 const EXACT: Linearisation =
-    Linearisation { cable_model: CableModel::Exact, assembly: Assembly::Consistent, in_plane_only: false };
+    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false };
 
 #[test]
 fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {
     let robot = independent_robot("insa-4mm-10.55kg");
     let rest = at_rest(&robot);
-    let closed = Linearisation { cable_model: CableModel::ClosedForm, ..EXACT };
+    let closed = Linearisation { cable_model: CableModel::ShallowDynamic, ..EXACT };
     let dynamics = Dynamics::about(&robot, &rest, closed, 5.0).unwrap();
     let refused = CableStations::new(&robot, &rest, &dynamics, 0, &[0.5], false).unwrap_err();
-    assert!(refused.to_string().contains("needs the model `exact`"), "{refused}");
+    assert!(refused.to_string().contains("needs the model `catenary-dynamic`"), "{refused}");
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 5.0).unwrap();
     let middle = Signal::OnCable { cable: 0, fraction: 0.5, direction_w: Vec3::z() };
     let make = || Port::all(&robot, &rest, &dynamics, &[middle], true).unwrap().remove(0);

@@ -131,7 +131,7 @@ fn pose_and_forces_follow_every_number_of_the_robot_at_held_lengths() {
 fn lengths_follow_every_number_of_the_robot_at_a_held_pose() {
     let mut compared = 0;
     for (name, robot, rest) in robots() {
-        let square = robot.cables.len() == robot.platform.freedoms.count();
+        let square = robot.cables.len() == robot.platform.motion.count();
         for (what, change, step) in changes(&robot) {
             let found = at_held_pose(&robot, &rest, &change);
             if !square {
@@ -169,7 +169,7 @@ fn list(robot: &Robot, rest: &Equilibrium, cable_model: CableModel, below_hz: f6
 fn natural_frequencies_follow_every_number_of_the_robot() {
     let mut compared = [0; 2];
     for (r, (name, robot, rest)) in robots().into_iter().enumerate() {
-        for (m, cable_model) in [CableModel::Exact, CableModel::CatenaryTangent].into_iter().enumerate() {
+        for (m, cable_model) in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic].into_iter().enumerate() {
             let below_hz = if m == 0 { 6.0 } else { 12.0 };
             let Some((dynamics, modes)) = list(&robot, &rest, cable_model, below_hz) else { continue };
             // Alone, so that the order of the list is that of the modes while the robot changes.
@@ -268,11 +268,11 @@ fn what_has_no_derivative_is_refused() {
     };
     let change = RobotChange::of_mass(&robot);
     let by = at_held_lengths(&robot, &rest, &change).unwrap();
-    let (dynamics, modes) = list(&robot, &rest, CableModel::ClosedForm, 5.0).unwrap();
+    let (dynamics, modes) = list(&robot, &rest, CableModel::ShallowDynamic, 5.0).unwrap();
     let error = frequencies::frequency(&robot, &rest, &dynamics, &modes[0], &change, &by).unwrap_err().to_string();
     assert!(error.contains("need the cable model"), "{error}");
 
-    let (dynamics, mut modes) = list(&robot, &rest, CableModel::Exact, 5.0).unwrap();
+    let (dynamics, mut modes) = list(&robot, &rest, CableModel::CatenaryDynamic, 5.0).unwrap();
     modes[0].multiplicity = 2;
     let error = frequencies::frequency(&robot, &rest, &dynamics, &modes[0], &change, &by).unwrap_err().to_string();
     assert!(error.contains("2 modes share the frequency"), "{error}");

@@ -2,9 +2,9 @@
 
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes;
-use funicular::robot::{Freedoms, Robot, State};
+use funicular::robot::{PlatformMotion, Robot, State};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel, TensionRule};
-use funicular::validity;
+use funicular::warnings;
 use serde_json::Value;
 
 /// A robot of the library, or the reader's message.
@@ -77,16 +77,12 @@ fn every_robot_of_the_library_rests_stably_within_its_limits() {
         for (cable, state) in robot.cables.iter().zip(&rest.cables) {
             let hanging = &state.hanging.as_ref().unwrap().catenary;
             let limits = cable.limits();
-            assert!(hanging.least_tension() >= limits.minimum.unwrap_or(0.0), "{name}, cable {}", cable.name);
-            assert!(
-                hanging.greatest_tension() <= limits.maximum.unwrap_or(f64::INFINITY),
-                "{name}, cable {}",
-                cable.name
-            );
+            assert!(hanging.min_tension() >= limits.minimum.unwrap_or(0.0), "{name}, cable {}", cable.name);
+            assert!(hanging.max_tension() <= limits.maximum.unwrap_or(f64::INFINITY), "{name}, cable {}", cable.name);
         }
         // The lengths of the paper's robots are of ideal cables under more load; there the program has to warn.
         if !name.starts_with("yuan2014") {
-            assert_eq!(validity::of_statics(&robot, &rest), [], "{name}");
+            assert_eq!(warnings::of_statics(&robot, &rest), [], "{name}");
         }
     }
 }
@@ -95,7 +91,7 @@ fn every_robot_of_the_library_rests_stably_within_its_limits() {
 fn at_the_pose_of_its_state_every_redundant_robot_has_tensions_by_every_rule() {
     let mut redundant = 0;
     for (name, robot, rest) in library() {
-        if robot.cables.len() <= robot.platform.freedoms.count() {
+        if robot.cables.len() <= robot.platform.motion.count() {
             continue;
         }
         redundant += 1;
@@ -134,7 +130,7 @@ fn the_lowest_frequencies_of_fast_are_among_those_that_were_measured() {
     // Li, Sun, Li, Yao, Universe 2024, 10(12), 450: 0.12 to 0.2 Hz over the telescope's poses. The rope is assumed, so
     // this is no validation; a wrong sag or mass would be far outside.
     let (_, robot, rest) = library().into_iter().find(|(name, ..)| name == "fast").unwrap();
-    assert_eq!(robot.platform.freedoms, Freedoms::Rigid);
+    assert_eq!(robot.platform.motion, PlatformMotion::Rigid);
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 0.3).unwrap();
     let found = modes::below(&dynamics, 0.3);
     assert!(found.modes.len() >= 6);
@@ -161,5 +157,5 @@ fn the_library_has_the_published_numbers() {
         assert!((at_origin[(i, j)] - value).abs() < 0.02, "({i}, {j}): {} against {value}", at_origin[(i, j)]);
     }
     let point = read("sap2000-8-cable-point-mass", funicular_robots::SAP2000_8_CABLE_POINT_MASS);
-    assert_eq!((point.cables.len(), point.platform.freedoms), (8, Freedoms::PointMass));
+    assert_eq!((point.cables.len(), point.platform.motion), (8, PlatformMotion::PointMass));
 }

@@ -2,11 +2,11 @@
 
 mod damped;
 mod first;
-mod track;
+mod tracking;
 
 use crate::random::any_robot;
 use funicular::cable::CableModel;
-use funicular::cable::exact::ExactError;
+use funicular::cable::catenary_dynamic::ExactError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{Mat6, Vec3, rotation};
 use funicular::modes::{self, Kind};
@@ -30,7 +30,7 @@ fn yuan() -> (Robot, Equilibrium) {
 #[test]
 fn constant_models_give_the_eigenvalues_of_stiffness_and_mass() {
     let (robot, rest) = yuan();
-    for cable_model in [CableModel::Spring, CableModel::StaticSag, CableModel::CatenaryTangent] {
+    for cable_model in [CableModel::Spring, CableModel::ShallowStatic, CableModel::CatenaryStatic] {
         let dynamics =
             Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 20.0).unwrap();
         let found = modes::below(&dynamics, 100.0);
@@ -149,12 +149,12 @@ proptest! {
         exact in any::<bool>(),
     ) {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        let (cable_model, limit) = if exact { (CableModel::Exact, 6.0) } else { (CableModel::ClosedForm, 12.0) };
+        let (cable_model, limit) = if exact { (CableModel::CatenaryDynamic, 6.0) } else { (CableModel::ShallowDynamic, 12.0) };
         let linearisation = Linearisation { cable_model, in_plane_only, ..Default::default() };
         let dynamics = match Dynamics::about(&robot, &rest, linearisation, limit) {
             Ok(dynamics) => dynamics,
             // Very slack and heavy cables have hundreds of resonances there: refused with a reason.
-            Err(DynamicsError::Exact { reason: ExactError::TooFine { .. }, .. }) => return Ok(()),
+            Err(DynamicsError::CatenaryDynamic { reason: ExactError::TooFine { .. }, .. }) => return Ok(()),
             Err(other) => return Err(TestCaseError::fail(other.to_string())),
         };
         let found = modes::below(&dynamics, limit);
@@ -173,7 +173,7 @@ proptest! {
 #[test]
 fn a_list_beyond_the_resolution_of_exact_cables_is_not_certified() {
     let (robot, rest) = yuan();
-    let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Default::default() };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, 5.0).unwrap();
     assert!(modes::below(&dynamics, 5.0).certified);
     assert!(!modes::below(&dynamics, 6.0).certified);

@@ -5,7 +5,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Mat6, Vec3, Vec6};
 use funicular::modes;
-use funicular::robot::{Freedoms, Load, Pose, Robot, State};
+use funicular::robot::{Load, PlatformMotion, Pose, Robot, State};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel, TensionRule};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -49,7 +49,7 @@ fn a_force_at_the_centre_of_mass_is_weight() {
 fn a_pulled_bifilar_pendulum_swings_faster_and_its_lever_counts() {
     let (mass, inertia, length, pull, lever) = (6.0, 0.35, 2.0, 40.0, 0.3);
     let text = format!(
-        "name = \"swing\"\n[platform]\nfreedoms = \"planar-xz\"\nmass_kg = {mass}\ninertia_kg_m2 = {inertia}\n\
+        "name = \"swing\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = {mass}\ninertia_kg_m2 = {inertia}\n\
          [materials.rope]\naxial_stiffness_n = 3e9\nmass_kg_per_m = 0\n\
          [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [0, 0, {length}]\nattachment_m = [0, 0, 0]\n\
          [loads]\nforce_n = [0, 0, {}]\npoint_m = [0, 0, {}]\n",
@@ -57,7 +57,7 @@ fn a_pulled_bifilar_pendulum_swings_faster_and_its_lever_counts() {
     );
     let robot = Robot::from_toml(&text).unwrap();
     let rest = statics::forward(&robot, &[length], StaticModel::Spring, None).unwrap();
-    let linearisation = Linearisation { cable_model: CableModel::CatenaryTangent, ..Default::default() };
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() };
     let found = modes::below(&Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap(), 20.0);
     // The body turns under the force alone, its centre swings under force and weight: two pendulums.
     let tension: f64 = mass * 9.81 + pull;
@@ -126,7 +126,7 @@ proptest! {
             point_p: Vec3::from(point),
         };
         let robot = robot.with_load(load);
-        prop_assert_eq!(robot.platform.freedoms, Freedoms::Rigid);
+        prop_assert_eq!(robot.platform.motion, PlatformMotion::Rigid);
         let Ok(rest) = statics::forward(&robot, &lengths, StaticModel::Catenary, None) else {
             return Err(TestCaseError::reject("a moment may spin a robot whose cables hang"));
         };
@@ -149,7 +149,7 @@ proptest! {
         let symmetric = (slope + slope.transpose()) * 0.5;
         prop_assert!((symmetric - k).amax() < 2e-4 * k.amax().max(forces), "{}", symmetric - k);
         if matches!(rest.stability, Stability::Stable { .. }) {
-            let dynamics = Dynamics::about(&robot, &rest, Linearisation { cable_model: CableModel::CatenaryTangent, ..Default::default() }, 1.0).unwrap();
+            let dynamics = Dynamics::about(&robot, &rest, Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() }, 1.0).unwrap();
             let stiffness = dynamics.stiffness(0.0).map(|z| z.re);
             prop_assert!((stiffness - k).amax() < 1e-9 * k.amax().max(forces));
         }

@@ -61,7 +61,7 @@ fn the_vector_kernel_equals_plain_elimination() {
 #[test]
 fn at_rest_the_response_is_the_compliance_and_far_up_it_is_the_mass() {
     let (robot, rest) = load(ROBOTS[0]);
-    let linearisation = Linearisation { cable_model: CableModel::CatenaryTangent, ..Default::default() };
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();
     let compliance = statics::tangent_stiffness(&robot, &rest).unwrap().try_inverse().unwrap();
     let still = response::receptances(&dynamics, &[0.0]).unwrap()[0].map(|z| z.re);
@@ -108,7 +108,7 @@ fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
     }
     let linearisation = Linearisation {
         cable_model: CableModel::Spring,
-        assembly: funicular::dynamics::Assembly::Paper,
+        assembly: funicular::dynamics::Assembly::WithoutGeometricStiffness,
         in_plane_only: false,
     };
     let mut dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();

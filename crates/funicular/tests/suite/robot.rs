@@ -1,5 +1,5 @@
 //! The robot: its file, the motion of its platform, wind and other loads along its cables.
 
-mod freedoms;
+mod motion;
 mod spec;
 mod wind;

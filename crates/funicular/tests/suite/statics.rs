@@ -1,11 +1,11 @@
 //! Equilibria, one file per question as in the sources, and the robots that several of them use.
 
-mod all;
 mod energy;
+mod equilibria;
 mod forward;
 mod ideal;
 mod inverse;
-mod nearest;
+mod nearest_pose;
 mod residual;
 mod stiffness;
 mod tension;

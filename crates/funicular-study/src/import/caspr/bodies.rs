@@ -1,6 +1,6 @@
 //! The file of bodies: one link, its joint, its inertia, its pose.
 
-use crate::import::draft::{DraftFreedoms, rotation_xyz};
+use crate::import::draft::{DraftMotion, rotation_xyz};
 use crate::import::text::{self, clean};
 use crate::import::xml::{Xml, children, tag};
 use anyhow::{Result, bail};
@@ -15,7 +15,7 @@ pub(super) struct Body {
     pub(super) inertia_p: Option<Mat3>,
     /// From the joint, body axes [m].
     pub(super) center_of_mass_p: Vec3,
-    pub(super) freedoms: DraftFreedoms,
+    pub(super) motion: DraftMotion,
     /// `None` where the file has no coordinates of the joint.
     pub(super) pose: Option<Pose>,
     pub(super) place: String,
@@ -25,7 +25,7 @@ pub(super) struct Body {
 
 /// What a kind of joint lets the body do, and where the body is at its coordinates.
 struct Joint {
-    freedoms: DraftFreedoms,
+    motion: DraftMotion,
     /// Number of coordinates.
     count: usize,
     /// Translation [m] and rotation from the base.
@@ -34,35 +34,35 @@ struct Joint {
 
 /// The kinds of joint that are a platform, by their names in CASPR, the old ones too.
 fn joint_of(kind: &str) -> Option<Joint> {
-    let planar = |plane| DraftFreedoms::Planar { plane };
+    let planar = |plane| DraftMotion::Planar { plane };
     Some(match kind {
         "SPATIAL_EULER_XYZ" => Joint {
-            freedoms: DraftFreedoms::Rigid,
+            motion: DraftMotion::Rigid,
             count: 6,
             place: |q| (Vec3::new(q[0], q[1], q[2]), rotation_xyz(q[3], q[4], q[5])),
         },
         "SPATIAL_QUATERNION" | "SPATIAL" => Joint {
-            freedoms: DraftFreedoms::Rigid,
+            motion: DraftMotion::Rigid,
             count: 7,
             place: |q| (Vec3::new(q[0], q[1], q[2]), from_quaternion(q[3], &Vec3::new(q[4], q[5], q[6]))),
         },
         "T_XYZ" => Joint {
-            freedoms: DraftFreedoms::PointMass,
+            motion: DraftMotion::PointMass,
             count: 3,
             place: |q| (Vec3::new(q[0], q[1], q[2]), Rotation::identity()),
         },
         "PLANAR_XY" => Joint {
-            freedoms: planar("xy"),
+            motion: planar("xy"),
             count: 3,
             place: |q| (Vec3::new(q[0], q[1], 0.0), rotation_xyz(0.0, 0.0, q[2])),
         },
         "PLANAR_XZ" => Joint {
-            freedoms: planar("xz"),
+            motion: planar("xz"),
             count: 3,
             place: |q| (Vec3::new(q[0], 0.0, q[1]), rotation_xyz(0.0, q[2], 0.0)),
         },
         "PLANAR_YZ" => Joint {
-            freedoms: planar("yz"),
+            motion: planar("yz"),
             count: 3,
             place: |q| (Vec3::new(0.0, q[0], q[1]), rotation_xyz(q[2], 0.0, 0.0)),
         },
@@ -101,7 +101,7 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
         bail!(xml.error(parent, format!("<num> is {parent_link}; the only link has to hang on the base, link 0")));
     }
     let joint_node = xml.required(link, "joint")?;
-    let (freedoms, place) = joint(xml, joint_node)?;
+    let (motion, place) = joint(xml, joint_node)?;
     let location = xml.child_vector(parent, "location")?;
     let physical = xml.required(link, "physical")?;
     let center_of_mass_p = xml.child_vector(physical, "com_location")?;
@@ -127,7 +127,7 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
         mass,
         inertia_p,
         center_of_mass_p,
-        freedoms,
+        motion,
         pose: place.map(|(translation, rot_wp)| Pose { position_w: location + translation, rot_wp }),
         place: xml.place(physical),
         assumed,
@@ -135,8 +135,8 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
     })
 }
 
-/// The freedoms of a joint, and where it is if the file says so.
-fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Option<(Vec3, Rotation)>)> {
+/// The degrees of freedom of a joint, and where it is if the file says so.
+fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>)> {
     let kind = node.attribute("type").unwrap_or_default().trim();
     let Some(joint) = joint_of(kind) else {
         let which = match kind.split('_').next().unwrap_or_default() {
@@ -162,7 +162,7 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Option<(Vec3, Rotation
     }
     let text = node.attribute("q_initial").map(str::trim).filter(|text| !text.is_empty());
     // Models of before 2017 have none.
-    let Some(text) = text else { return Ok((joint.freedoms, None)) };
+    let Some(text) = text else { return Ok((joint.motion, None)) };
     let q = text::numbers(text).map_err(|wrong| xml.error(node, format!("attribute `q_initial` holds {wrong}")))?;
     if q.len() != joint.count {
         let count = joint.count;
@@ -171,7 +171,7 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftFreedoms, Option<(Vec3, Rotation
     if joint.count == 7 && q[3..].iter().all(|part| *part == 0.0) {
         bail!(xml.error(node, "attribute `q_initial` holds the quaternion zero, which is no orientation"));
     }
-    Ok((joint.freedoms, Some((joint.place)(&q))))
+    Ok((joint.motion, Some((joint.place)(&q))))
 }
 
 /// The mass; zero, which stands in files that nobody filled in, is none.

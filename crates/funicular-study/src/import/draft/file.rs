@@ -1,6 +1,6 @@
 //! The draft as the text of a robot file.
 
-use super::{Draft, DraftCable, DraftFreedoms, DraftRope, DraftState};
+use super::{Draft, DraftCable, DraftMotion, DraftRope, DraftState};
 use crate::import::text::clean;
 use anyhow::{Result, anyhow};
 use funicular::math::{Mat3, Vec3, rotation};
@@ -57,11 +57,11 @@ impl Draft {
         line(format!("gravity_m_s2 = {}", vector(&self.gravity_w)));
         line("\n[platform]".to_owned());
         line(format!("mass_kg = {}", float(self.platform.mass.unwrap_or_default())));
-        match self.platform.freedoms {
-            DraftFreedoms::PointMass => line("freedoms = \"point-mass\"".to_owned()),
-            of @ (DraftFreedoms::Rigid | DraftFreedoms::Planar { .. }) => {
-                if let DraftFreedoms::Planar { plane } = of {
-                    line(format!("freedoms = \"planar-{plane}\""));
+        match self.platform.motion {
+            DraftMotion::PointMass => line("motion = \"point-mass\"".to_owned()),
+            of @ (DraftMotion::Rigid | DraftMotion::Planar { .. }) => {
+                if let DraftMotion::Planar { plane } = of {
+                    line(format!("motion = \"planar-{plane}\""));
                     // The plane of a planar robot is the one that its pose is in.
                     if let (DraftState::Pose(pose), Some(across)) = (&self.state, of.across()) {
                         line(format!("plane_offset_m = {}", float(pose.position_w[across])));
@@ -115,7 +115,7 @@ impl Draft {
         let mut line = |key: &str, value: String| {
             let _ = write!(text, "\n{key} = {value}");
         };
-        if self.platform.freedoms != DraftFreedoms::PointMass {
+        if self.platform.motion != DraftMotion::PointMass {
             line("attachment_m", vector(&cable.attachment_p));
         }
         if let Some(length) = cable.unstrained_length {

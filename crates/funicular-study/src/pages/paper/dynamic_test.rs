@@ -52,7 +52,7 @@ const IDENTIFIED: [Identified; 3] = [
         center_of_mass: [-0.018, 0.019, 0.0],
         inertia: [0.196, 0.140, 0.201],
         damping_ratio: 0.027,
-        note: "best fit found to static sag and spring; ξ as in A",
+        note: "best fit found to shallow-static and spring; ξ as in A",
     },
     Identified {
         name: "B",
@@ -103,7 +103,8 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let input = along(Vec3::z());
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
     let with = |cable_model| -> anyhow::Result<(Modes, Curve)> {
-        let linearisation = Linearisation { cable_model, assembly: Assembly::Paper, in_plane_only: true };
+        let linearisation =
+            Linearisation { cable_model, assembly: Assembly::WithoutGeometricStiffness, in_plane_only: true };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, BELOW_HZ)?;
         let found = modes::below(&dynamics, BELOW_HZ);
         let at = (&dynamics, sampled(BELOW_HZ, &found.modes));
@@ -111,8 +112,8 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
             Curve::of(model_name(cable_model), model_style(cable_model), at, &input, &outputs, Quantity::Acceleration)?;
         Ok((found, curve))
     };
-    let (natural, dynamic) = with(CableModel::ClosedForm)?;
-    let (static_sag, sag_curve) = with(CableModel::StaticSag)?;
+    let (natural, dynamic) = with(CableModel::ShallowDynamic)?;
+    let (static_sag, sag_curve) = with(CableModel::ShallowStatic)?;
     let (spring, spring_curve) = with(CableModel::Spring)?;
     let peaks = peaks(&dynamic.frequencies_hz, &dynamic.values, PROMINENCE_DB);
     let sags = rest.cables.iter().enumerate().map(|(i, state)| Sag::of(&robot, i, state).ratio()).collect();
@@ -216,8 +217,8 @@ pub(crate) fn lists(outcomes: &[Outcome]) -> Vec<Table> {
             &peaks,
         ),
         list(
-            "table-static-sag",
-            "quasi-static sagging model. Ours: natural frequencies with static sag",
+            "table-shallow-static",
+            "quasi-static sagging model. Ours: natural frequencies with shallow-static",
             &STATIC_SAG,
             &sag,
         ),

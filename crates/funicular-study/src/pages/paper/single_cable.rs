@@ -3,7 +3,7 @@
 use super::published::{FIG2_PRINTED, FINITE_ELEMENTS};
 use crate::pages::figure::{Figure, axis, colour, line, points, with};
 use crate::pages::table::{Table, fixed};
-use funicular::cable::closed_form::ClosedForm;
+use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::Vec3;
 use funicular::robot::Damping;
@@ -32,23 +32,23 @@ enum End {
     Upper,
 }
 
-fn cable(mass_per_length: f64, end: End) -> ClosedForm {
+fn cable(mass_per_length: f64, end: End) -> ShallowDynamic {
     let (sin, cos) = INCLINATION_DEG.to_radians().sin_cos();
     let sag = Sag::new(CHORD, cos, TENSION, AXIAL_STIFFNESS, mass_per_length, mass_per_length * GRAVITY);
     let towards_other = Vec3::new(cos, 0.0, sin) * if end == End::Lower { 1.0 } else { -1.0 };
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &towards_other, &Vec3::z());
-    ClosedForm::new(sag, axes, Damping::Ratio(DAMPING), false)
+    ShallowDynamic::new(sag, axes, Damping::Ratio(DAMPING), false)
 }
 
 /// |K11|: force along the horizontal for a motion along it [N/m].
-fn horizontal(cable: &ClosedForm, frequency_hz: f64) -> f64 {
+fn horizontal(cable: &ShallowDynamic, frequency_hz: f64) -> f64 {
     let k = cable.damped(frequency_hz * TAU);
     let (e, n) = (cable.axes.e.x, cable.axes.n.x);
     (k.axial * (e * e) + k.coupling * (2.0 * e * n) + k.normal * (n * n)).norm()
 }
 
 /// The same without damping, with its sign.
-fn horizontal_undamped(cable: &ClosedForm, frequency_hz: f64) -> f64 {
+fn horizontal_undamped(cable: &ShallowDynamic, frequency_hz: f64) -> f64 {
     let k = cable.undamped(frequency_hz * TAU);
     let (e, n) = (cable.axes.e.x, cable.axes.n.x);
     k.axial * (e * e) + k.coupling * (2.0 * e * n) + k.normal * (n * n)

@@ -1,6 +1,6 @@
 //! Rows of a sweep on their way into pictures: counted and binned all of them, kept as many as a page carries.
 
-use crate::sweep::{CODES, Chunk, Column, Kind, MOST_POINTS, Steps, SweepRows, Values, axes_of};
+use crate::sweep::{CODES, Chunk, Column, Kind, MAX_POINTS, Steps, SweepRows, Values, axes_of};
 use anyhow::{Context as _, Result, bail};
 use serde_json::Value;
 
@@ -60,8 +60,8 @@ pub(super) struct Series {
     /// How many rows have a number, of all.
     pub(super) count: usize,
     /// Least and greatest, with their rows.
-    pub(super) least: (f64, usize),
-    pub(super) greatest: (f64, usize),
+    pub(super) min: (f64, usize),
+    pub(super) max: (f64, usize),
     /// Of all rows, in equal steps between least and greatest.
     pub(super) bins: [usize; BINS],
     /// Kept ones; NaN where there is none.
@@ -136,7 +136,7 @@ impl Rows {
         let coordinates = columns.iter().take_while(|column| column.kind == Kind::Real).count();
         let head = columns.get(coordinates..coordinates + 3);
         if head.is_none_or(|head| head.iter().map(|c| c.kind).ne([Kind::Flag, Kind::Text, Kind::Text]))
-            || record.rows > MOST_POINTS
+            || record.rows > MAX_POINTS
         {
             bail!(damaged);
         }
@@ -164,8 +164,8 @@ impl Rows {
             unit: column.unit.to_string(),
             about: column.about.clone(),
             count: 0,
-            least: (f64::INFINITY, 0),
-            greatest: (f64::NEG_INFINITY, 0),
+            min: (f64::INFINITY, 0),
+            max: (f64::NEG_INFINITY, 0),
             bins: [0; BINS],
             values: vec![f64::NAN; kept],
         });
@@ -209,11 +209,11 @@ impl Rows {
             for (i, value) in values.iter().enumerate() {
                 let Some(value) = value.filter(|value| value.is_finite()) else { continue };
                 series.count += 1;
-                if value < series.least.0 {
-                    series.least = (value, first + i);
+                if value < series.min.0 {
+                    series.min = (value, first + i);
                 }
-                if value > series.greatest.0 {
-                    series.greatest = (value, first + i);
+                if value > series.max.0 {
+                    series.max = (value, first + i);
                 }
             }
         }
@@ -247,7 +247,7 @@ impl Rows {
             for (series, column) in self.series.iter_mut().zip(of_series) {
                 let value = real(*column, row);
                 if value.is_finite() {
-                    series.bins[bin(value, series.least.0, series.greatest.0)] += 1;
+                    series.bins[bin(value, series.min.0, series.max.0)] += 1;
                 }
                 if let Some(slot) = slot {
                     series.values[slot] = value;
@@ -351,8 +351,8 @@ fn code_of(status: Option<&str>) -> u8 {
 }
 
 /// The bar of a value.
-fn bin(value: f64, least: f64, greatest: f64) -> usize {
-    let part = (value - least) / (greatest - least);
+fn bin(value: f64, min: f64, max: f64) -> usize {
+    let part = (value - min) / (max - min);
     if part.is_finite() { ((part * BINS as f64) as usize).min(BINS - 1) } else { 0 }
 }
 

@@ -44,8 +44,8 @@ impl Slices {
             "quantities": rows.series.iter().map(|series| json!({
                 "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit), "unit": series.unit,
                 "count": series.count, "bins": series.bins.to_vec(),
-                "least": if series.count > 0 { series.least.0 } else { 0.0 },
-                "greatest": if series.count > 0 { series.greatest.0 } else { 0.0 },
+                "min": if series.count > 0 { series.min.0 } else { 0.0 },
+                "max": if series.count > 0 { series.max.0 } else { 0.0 },
             })).collect::<Vec<_>>(),
             "statuses": rows.counts.iter().map(|count| json!({
                 "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code),
@@ -85,14 +85,14 @@ fn colour_of(code: u8) -> &'static str {
         "no-frequency" => "#f5d9a0",
         "not-certified" => "#faecc9",
         "no-comparison" => "#e3d9ee",
-        "would-push" => colour::VERMILION,
-        "beyond-limits" => colour::PURPLE,
+        "negative-tension" => colour::VERMILION,
+        "tension-limits" => colour::PURPLE,
         "not-found" => "#8b2f6b",
         "not-converged" => colour::BLACK,
         "singular" => colour::BLUE,
         "out-of-plane" => colour::GREEN,
         "coinciding-ends" => colour::ORANGE,
-        "bad-robot" => "#7a4b1e",
+        "invalid-robot" => "#7a4b1e",
         _ => colour::GREY,
     }
 }

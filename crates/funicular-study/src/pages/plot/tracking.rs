@@ -5,7 +5,7 @@ use crate::Watch;
 use crate::sweep::{PreparedSweep, Quantity, Record, SweepRows, lowest_modes};
 use crate::text::counted;
 use funicular::modes::Mode;
-use funicular::modes::track::{Tracked, branches};
+use funicular::modes::tracking::{Tracked, branches};
 
 /// Maximum number of rows whose modes are computed again to be followed: a minute of work.
 const MAX_TRACKED: usize = 2000;

@@ -62,7 +62,7 @@ pub fn about(
 fn response(request: &request::ReportRequest, robot: &Robot) -> Result<(Input, Output)> {
     const Z: usize = 2;
     let (force, acceleration) =
-        if robot.platform.freedoms.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };
+        if robot.platform.motion.components().contains(&Z) { ("fz", "az") } else { ("fx", "ax") };
     let input = request::input(request.input.as_deref().unwrap_or(force))?;
     let output = request::output(request.output.as_deref().unwrap_or(acceleration))?;
     Ok((input, output))

@@ -115,11 +115,11 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
 /// The static stiffness of catenaries, consistently assembled.
 pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
     let stiffness = tangent_with_drag(robot, equilibrium)?;
-    let possible = robot.platform.freedoms.components();
+    let possible = robot.platform.motion.components();
     let motions = ["δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"];
     let wrenches = ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"];
     let columns: Vec<&str> = std::iter::once("<").chain(possible.iter().map(|&i| motions[i])).collect();
-    let units = if robot.platform.freedoms.can_turn() {
+    let units = if robot.platform.motion.can_turn() {
         " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
     } else {
         ""
@@ -146,7 +146,7 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
 
 /// Every mode.
 pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
-    let (turns, possible) = (robot.platform.freedoms.can_turn(), robot.platform.freedoms.components());
+    let (turns, possible) = (robot.platform.motion.can_turn(), robot.platform.motion.components());
     let mut columns =
         vec!["no.", "frequency|Hz", "damping|%", "<kind", "platform energy|%", "<strongest cables|share of the energy"];
     columns.extend(possible.iter().map(|&i| ["δx|m", "δy|m", "δz|m", "θx|rad", "θy|rad", "θz|rad"][i]));

@@ -1,4 +1,4 @@
-//! Several exact cables side by side at one frequency, each condensed onto its platform end and one more function.
+//! Several catenary-dynamic cables side by side at one frequency, each condensed onto its platform end and one more function.
 //!
 //! The first natural frequency of a robot is not above the first clamped one of any of its cables, so that a mesh of
 //! modest degree resolves every cable, and one factorisation a frequency costs less than the clamped modes. The unknowns
@@ -24,10 +24,10 @@ use pulp::Simd;
 use std::array::from_fn;
 
 /// Most degrees of an element. Robots take up to 20.
-pub(super) const MOST_DEGREES: usize = 32;
+pub(super) const MAX_DEGREES: usize = 32;
 
 /// Most Legendre terms of C, those of the smallest ellipse.
-const MOST_TERMS: usize = 45;
+const MAX_TERMS: usize = 45;
 
 /// Coefficients of C below this part are left out.
 const TRUNCATION: f64 = 1e-13;
@@ -58,13 +58,13 @@ pub(super) struct Kept {
     pub(super) plane: [Lane; 6],
     pub(super) across: [Lane; 3],
     /// Least pivot of what was eliminated: positive if nothing of it has a natural frequency below.
-    pub(super) least_pivot: Lane,
+    pub(super) min_pivot: Lane,
 }
 
 impl Default for Kept {
     /// Zero, of nothing eliminated.
     fn default() -> Self {
-        Self { plane: Default::default(), across: Default::default(), least_pivot: [f64::INFINITY; LANES] }
+        Self { plane: Default::default(), across: Default::default(), min_pivot: [f64::INFINITY; LANES] }
     }
 }
 
@@ -84,7 +84,7 @@ impl Abreast {
     fn of(cables: &[(&Catenary, f64)], meshes: &[Mesh], members: &[usize]) -> Self {
         let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
-        let terms = terms.min(MOST_TERMS);
+        let terms = terms.min(MAX_TERMS);
 
         // Elements of all cables in one list.
         let mut elements = Vec::with_capacity(2 * LANES);
@@ -185,22 +185,22 @@ impl pulp::WithSimd for Factorise<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> Kept {
         let Self { cables: Abreast { packs, chains, .. }, x, degree } = self;
         if chains.is_empty() {
-            let mut least_pivot = [f64::INFINITY; LANES];
+            let mut min_pivot = [f64::INFINITY; LANES];
             let element = &mut packs[0];
-            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut least_pivot);
+            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut min_pivot);
             return Kept {
                 plane: from_fn(|k| element.plane_factor[k].0),
                 across: from_fn(|k| element.across_factor[k].0),
-                least_pivot,
+                min_pivot,
             };
         }
-        let mut least_pivots = Vec::with_capacity(packs.len());
+        let mut min_pivots = Vec::with_capacity(packs.len());
         for element in packs.iter_mut() {
-            let mut least_pivot = [f64::INFINITY; LANES];
-            element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut least_pivot);
-            least_pivots.push(least_pivot);
+            let mut min_pivot = [f64::INFINITY; LANES];
+            element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut min_pivot);
+            min_pivots.push(min_pivot);
         }
-        node_elimination::condense(chains, packs, &least_pivots)
+        node_elimination::condense(chains, packs, &min_pivots)
     }
 }
 
@@ -253,7 +253,7 @@ impl pulp::WithSimd for Mass<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cable::exact::Exact;
+    use crate::cable::catenary_dynamic::CatenaryDynamic;
     use crate::catenary::Rope;
     use proptest::prelude::*;
 
@@ -283,8 +283,8 @@ mod tests {
         ) {
             const MASS: f64 = 0.067;
             let cables: Vec<Catenary> = shapes.into_iter().map(cable).collect();
-            let oracles: Vec<Exact> = cables.iter().map(|c| Exact::new(c, MASS, 60.0).unwrap()).collect();
-            let first = |e: &Exact| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
+            let oracles: Vec<CatenaryDynamic> = cables.iter().map(|c| CatenaryDynamic::new(c, MASS, 60.0).unwrap()).collect();
+            let first = |e: &CatenaryDynamic| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
             let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
             let pairs: Vec<_> = cables.iter().map(|c| (c, MASS)).collect();
             let mut groups = Abreast::groups(&pairs).unwrap();
@@ -297,7 +297,7 @@ mod tests {
             for (k, lane, i) in places {
                 let (abreast, kept, exact) = (&groups[k], &kept[k], &oracles[i]);
                 let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
-                prop_assert!(kept.least_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
+                prop_assert!(kept.min_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
                 let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
                 let k = exact.undamped(x.sqrt());
                 let [c, s] = abreast.axis(lane);
@@ -325,7 +325,7 @@ mod tests {
         ) {
             const MASS: f64 = 0.067;
             let catenary = cable(shape);
-            let exact = Exact::new(&catenary, MASS, 20.0).unwrap();
+            let exact = CatenaryDynamic::new(&catenary, MASS, 20.0).unwrap();
             let x = part * exact.in_plane.poles[0].min(exact.out_of_plane.poles[0]);
             let abreast = &mut Abreast::groups(&[(&catenary, MASS)]).unwrap()[0];
             let mut work = |x: f64| {

@@ -1,6 +1,6 @@
 //! The cables of a pencil, side by side in groups: as a matrix about rest, and with all unknowns.
 
-use super::batched_cable::{ACROSS, Abreast, IN_PLANE, Kept, MOST_DEGREES, place};
+use super::batched_cable::{ACROSS, Abreast, IN_PLANE, Kept, MAX_DEGREES, place};
 use crate::math::simd::{LANES, Lane};
 use std::array::from_fn;
 
@@ -47,7 +47,7 @@ impl Reduced {
     pub(super) fn follow(&mut self, groups: &mut [Abreast], x: f64) -> bool {
         let cut = groups.iter_mut().enumerate().filter(|(_, group)| group.is_cut());
         let tangents: Vec<_> = cut.map(|(i, group)| (i, tangent(group, x))).collect();
-        let below = tangents.iter().all(|(_, (stiffness, _))| stiffness.least_pivot.iter().all(|pivot| *pivot > 0.0));
+        let below = tangents.iter().all(|(_, (stiffness, _))| stiffness.min_pivot.iter().all(|pivot| *pivot > 0.0));
         if below {
             for (i, (stiffness, mass)) in tangents {
                 (self.stiffness[i], self.mass[i]) = (stiffness, mass);
@@ -94,7 +94,7 @@ impl Cables for Reduced {
         into.extend(self.stiffness.iter().zip(&self.mass).map(|(k, m)| Kept {
             plane: from_fn(|entry| from_fn(|i| k.plane[entry][i] - x * m.plane[entry][i])),
             across: from_fn(|entry| from_fn(|i| k.across[entry][i] - x * m.across[entry][i])),
-            least_pivot: k.least_pivot,
+            min_pivot: k.min_pivot,
         }));
     }
 
@@ -143,7 +143,7 @@ impl Cables for Whole<'_> {
 
     fn refine(&mut self) {
         for degree in &mut self.degrees {
-            *degree = (*degree + 2).min(MOST_DEGREES);
+            *degree = (*degree + 2).min(MAX_DEGREES);
         }
     }
 }

@@ -37,14 +37,14 @@ impl pulp::WithSimd for Factorise<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Factor {
         let Self { pencil, kept, x } = self;
-        let n = pencil.freedoms;
+        let n = pencil.dof;
         let mut d = pencil.constant - pencil.mass * x;
         let mut negative = 0;
         let mut all = Vec::with_capacity(kept.len());
         for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
             // Signs of the pivots of what each cable has eliminated.
             for lane in 0..cables.len() {
-                let pivots = [k.least_pivot[lane], k.least_pivot[lane], k.plane[5][lane], k.across[2][lane]];
+                let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.plane[5][lane], k.across[2][lane]];
                 negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
             }
 
@@ -120,7 +120,7 @@ impl Factor {
 
     #[inline(always)]
     pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &Pencil, force: &Motion, into: &mut Motion) {
-        let n = pencil.freedoms;
+        let n = pencil.dof;
         let mut v = *force.platform();
 
         // Bubbles to platform.

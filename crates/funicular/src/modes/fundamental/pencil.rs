@@ -9,15 +9,15 @@ use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, Still};
 use crate::math::simd::{LANES, Line, Part, sum};
 use crate::math::{Mat6, Vec6};
-use crate::robot::{Freedoms, Robot};
+use crate::robot::{PlatformMotion, Robot};
 use crate::statics::Equilibrium;
 use pulp::Simd;
 use std::array::from_fn;
 
 /// A robot about its equilibrium.
 pub(super) struct Pencil {
-    pub(super) freedoms: usize,
-    motions: Freedoms,
+    pub(super) dof: usize,
+    motions: PlatformMotion,
     ell: f64,
     /// Stiffness of what has no frequency, and mass of the platform; scaled, in the platform's coordinates.
     pub(super) constant: Mat6,
@@ -33,7 +33,7 @@ pub(super) struct Pencil {
 }
 
 /// Tangents that are drawn before all unknowns are looked at, and the relative change of x that ends it.
-const MOST_TANGENTS: usize = 3;
+const MAX_TANGENTS: usize = 3;
 const CLOSE_ENOUGH: f64 = 0.2;
 
 impl Pencil {
@@ -76,9 +76,9 @@ impl Pencil {
         }
 
         let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
-        let (freedoms, cable_count) = (coordinates.count(), robot.cables.len());
-        let (motions, ell) = (coordinates.freedoms(), coordinates.ell());
-        Some(Self { freedoms, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
+        let (dof, cable_count) = (coordinates.count(), robot.cables.len());
+        let (motions, ell) = (coordinates.motion(), coordinates.ell());
+        Some(Self { dof, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
     }
 
     /// None if the equilibrium is unstable, or the search does not end.
@@ -110,7 +110,7 @@ impl Pencil {
     /// comes out far too high.
     fn nearer(&self, mut near: Found, start: &mut Reduced, groups: &mut [Abreast]) -> Option<Found> {
         let mut x = 0.7 * near.square;
-        for _ in 0..MOST_TANGENTS {
+        for _ in 0..MAX_TANGENTS {
             if start.follow(groups, x) {
                 let metric = start.mass.clone();
                 near.motions.truncate(1);
@@ -134,7 +134,7 @@ impl Pencil {
             if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
         };
         let mut motion = Motion::any(masses.len());
-        *motion.platform_mut() = from_fn(|i| if i < self.freedoms { part(i) } else { 0.0 });
+        *motion.platform_mut() = from_fn(|i| if i < self.dof { part(i) } else { 0.0 });
         let mut next = 6;
         for (group, (mass, members)) in masses.iter().zip(&self.members).enumerate() {
             for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.plane[5], &mass.across[2]]) {

@@ -28,7 +28,7 @@ pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
 pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
 
 /// Evaluations after which the slow way is faster.
-const MOST_EVALUATIONS: usize = 40;
+const MAX_EVALUATIONS: usize = 40;
 
 /// Motions that go along where frequencies are close to each other.
 const BLOCK: usize = 3;
@@ -115,7 +115,7 @@ pub(super) fn lowest(
     let mut kept = Vec::with_capacity(metric.len());
     let mut claim: Option<Claim> = None;
 
-    for _ in 0..MOST_EVALUATIONS {
+    for _ in 0..MAX_EVALUATIONS {
         // Bracket: the eigenvalues below the shift are counted.
         cables.kept(x, &mut kept);
         let factor = Factor::of(pencil, &kept, x);

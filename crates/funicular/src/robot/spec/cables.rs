@@ -5,7 +5,7 @@ use super::materials::Materials;
 use super::read::{Key, Reader, Section, Value, is_zero, shortened};
 use crate::math::Vec3;
 use crate::robot::parameters::Range as Limits;
-use crate::robot::{Anchor, Cable, Freedoms, Pose};
+use crate::robot::{Anchor, Cable, PlatformMotion, Pose};
 use crate::suggest::nearest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -75,7 +75,7 @@ pub(super) fn read(
     reader: &mut Reader,
     root: &Section,
     materials: Option<&Materials>,
-    freedoms: Option<Freedoms>,
+    motion: Option<PlatformMotion>,
 ) -> Option<Vec<CableEntry>> {
     let value = reader.required(root, "cables")?;
     let DeValue::Array(array) = value.get_ref() else {
@@ -103,7 +103,7 @@ pub(super) fn read(
             _ => format!("[[cables]] number {}", i + 1),
         };
         let section = reader.open(label, value.span(), table, KEYS);
-        entries.push(read_one(reader, &section, materials, freedoms, &mut names));
+        entries.push(read_one(reader, &section, materials, motion, &mut names));
     }
     (entries.len() == array.len()).then_some(entries)
 }
@@ -112,7 +112,7 @@ fn read_one(
     reader: &mut Reader,
     section: &Section,
     materials: Option<&Materials>,
-    freedoms: Option<Freedoms>,
+    motion: Option<PlatformMotion>,
     names: &mut BTreeMap<String, Range<usize>>,
 ) -> CableEntry {
     let name = reader.required(section, "name").and_then(|value| {
@@ -138,7 +138,7 @@ fn read_one(
         known.clone()
     });
     let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector(section, "anchor_m", value));
-    let attachment = attachment(reader, section, freedoms);
+    let attachment = attachment(reader, section, motion);
     let own_limits = limits::read(reader, section);
     if let (Some(own), Some(material)) = (own_limits, &material) {
         // Against what it shares with its rope: each alone may be right and both together not.
@@ -180,19 +180,19 @@ fn unknown_material(reader: &mut Reader, material: &str, materials: &Materials, 
 }
 
 /// The attachment; a point mass has all of them at its own point.
-fn attachment(reader: &mut Reader, section: &Section, freedoms: Option<Freedoms>) -> Option<[f64; 3]> {
-    let value = match freedoms {
-        Some(Freedoms::Rigid | Freedoms::Planar(_)) => reader.required(section, "attachment_m")?,
+fn attachment(reader: &mut Reader, section: &Section, motion: Option<PlatformMotion>) -> Option<[f64; 3]> {
+    let value = match motion {
+        Some(PlatformMotion::Rigid | PlatformMotion::Planar(_)) => reader.required(section, "attachment_m")?,
         _ => match section.get("attachment_m") {
             Some(value) => value,
             None => return Some([0.0; 3]),
         },
     };
     let attachment = reader.vector(section, "attachment_m", value)?;
-    if freedoms == Some(Freedoms::PointMass) && !is_zero(&attachment) {
+    if motion == Some(PlatformMotion::PointMass) && !is_zero(&attachment) {
         reader
             .issue(value.span(), "all cables of a point mass end in one point, `attachment_m` must be zero or absent")
-            .help("remove the line, or set `freedoms = \"rigid\"` in [platform]");
+            .help("remove the line, or set `motion = \"rigid\"` in [platform]");
         return None;
     }
     Some(attachment)

@@ -1,7 +1,7 @@
 //! `[materials.NAME]`: what a rope is made of. Unused ones are welcome: a file may offer several ropes to choose from.
 
 use super::limits;
-use super::read::{Key, LARGEST, Reader, SMALLEST, Section};
+use super::read::{Key, MAX_NUMBER, MIN_NUMBER, Reader, Section};
 use crate::math::Vec3;
 use crate::robot::parameters::Range;
 use crate::robot::{Damping, Material};
@@ -240,14 +240,14 @@ impl StiffnessKeys {
 
 /// Both factors may be in the limits and the product not.
 fn product_in_limits(reader: &mut Reader, section: &Section, stiffness: f64) -> Option<f64> {
-    if (SMALLEST..=LARGEST).contains(&stiffness) {
+    if (MIN_NUMBER..=MAX_NUMBER).contains(&stiffness) {
         return Some(stiffness);
     }
     let span = section.get("youngs_modulus_pa").map_or(section.span.clone(), toml::Spanned::span);
     reader
         .issue(
             span,
-            format!("the axial stiffness is {stiffness:e} N, it must be between {SMALLEST:e} and {LARGEST:e} N"),
+            format!("the axial stiffness is {stiffness:e} N, it must be between {MIN_NUMBER:e} and {MAX_NUMBER:e} N"),
         )
         .help("check the units: Pa, and m or m²");
     None

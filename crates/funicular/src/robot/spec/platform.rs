@@ -1,9 +1,9 @@
-//! `[platform]`: mass, freedoms, and an inertia tensor that a body can have.
+//! `[platform]`: mass, degrees of freedom, and an inertia tensor that a body can have.
 
-use super::read::{Key, Reader, SMALLEST, Section, Value, is_zero, known, shortened};
+use super::read::{Key, MIN_NUMBER, Reader, Section, Value, is_zero, known, shortened};
 use crate::math::{Mat3, Vec3, symmetric_part};
 use crate::robot::parameters::Range;
-use crate::robot::{Freedoms, Plane, Platform};
+use crate::robot::{Plane, Platform, PlatformMotion};
 use crate::suggest::nearest;
 use toml::de::DeValue;
 
@@ -18,7 +18,7 @@ const FLAT: f64 = 1e-6;
 /// Keys of `[platform]`.
 pub(super) const KEYS: &[Key] = &[
     Key::number("mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
-    Key::other("freedoms", r#"freedoms = "rigid""#),
+    Key::other("motion", r#"motion = "rigid""#),
     Key::vector(
         "plane_normal",
         "plane_normal = [0.0, 1.0, 0.0]",
@@ -75,16 +75,16 @@ pub(super) const KEYS: &[Key] = &[
     .or([0.0; 3]),
 ];
 
-/// What `freedoms` may be.
+/// What `motion` may be.
 const WORDS: [&str; 6] = ["rigid", "point-mass", "planar-xy", "planar-xz", "planar-yz", "planar"];
 
-/// The freedoms, `None` where the file's word is unknown. Silent where there is no `[platform]`: [`read`] speaks of it.
-pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> {
+/// The degrees of freedom, `None` where the file's word is unknown. Silent where there is no `[platform]`: [`read`] speaks of it.
+pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMotion> {
     let Some(DeValue::Table(table)) = root.get("platform").map(toml::Spanned::get_ref) else {
-        return Some(Freedoms::default());
+        return Some(PlatformMotion::default());
     };
     let (normal, offset) = (table.get("plane_normal"), table.get("plane_offset_m"));
-    let word = match table.get("freedoms") {
+    let word = match table.get("motion") {
         Some(value) => known_word(reader, value)?,
         None => "rigid",
     };
@@ -97,24 +97,24 @@ pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> 
     if word != "planar"
         && let Some(value) = normal
     {
-        let help = "set `freedoms = \"planar\"`, or remove the line";
-        reader.issue(value.span(), format!("`plane_normal` goes with `freedoms = \"planar\"`, not {word}")).help(help);
+        let help = "set `motion = \"planar\"`, or remove the line";
+        reader.issue(value.span(), format!("`plane_normal` goes with `motion = \"planar\"`, not {word}")).help(help);
         return None;
     }
     if axis.is_none() && word != "planar" {
         if let Some(value) = offset {
             reader
                 .issue(value.span(), "`plane_offset_m` is of a planar platform")
-                .help("remove the line, or set `freedoms = \"planar-xz\"`");
+                .help("remove the line, or set `motion = \"planar-xz\"`");
             return None;
         }
-        return Some(if word == "rigid" { Freedoms::Rigid } else { Freedoms::PointMass });
+        return Some(if word == "rigid" { PlatformMotion::Rigid } else { PlatformMotion::PointMass });
     }
     let normal_w = match (axis, normal) {
         (Some(axis), _) => axis,
         (None, Some(value)) => {
             let three = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
-            if three.norm() < SMALLEST {
+            if three.norm() < MIN_NUMBER {
                 reader
                     .issue(value.span(), "`plane_normal` has no direction")
                     .help("give the normal of the plane, any length");
@@ -123,9 +123,9 @@ pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> 
             three
         }
         (None, None) => {
-            let span = table.get("freedoms").map_or(0..0, toml::Spanned::span);
+            let span = table.get("motion").map_or(0..0, toml::Spanned::span);
             reader
-                .issue(span, "`freedoms = \"planar\"` needs the normal of its plane")
+                .issue(span, "`motion = \"planar\"` needs the normal of its plane")
                 .help("add `plane_normal = [0.0, 1.0, 0.0]`, or write \"planar-xy\", \"planar-xz\" or \"planar-yz\"");
             return None;
         }
@@ -134,15 +134,15 @@ pub(super) fn freedoms(reader: &mut Reader, root: &Section) -> Option<Freedoms> 
         Some(value) => reader.number_as(known(KEYS, "plane_offset_m"), value)?,
         None => 0.0,
     };
-    Plane::new(normal_w, offset).map(Freedoms::Planar)
+    Plane::new(normal_w, offset).map(PlatformMotion::Planar)
 }
 
 fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
-    let word = reader.text("freedoms", value)?;
+    let word = reader.text("motion", value)?;
     let known = WORDS.into_iter().find(|known| *known == word);
     if known.is_none() {
         let suggestion = nearest(&word, WORDS).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
-        reader.issue(value.span(), format!("`freedoms` is \"{}\", which is unknown", shortened(&word))).help(format!(
+        reader.issue(value.span(), format!("`motion` is \"{}\", which is unknown", shortened(&word))).help(format!(
             "write \"rigid\", \"point-mass\", \"planar-xy\", \"planar-xz\", \"planar-yz\", or \"planar\" with a \
              `plane_normal`{suggestion}"
         ));
@@ -151,21 +151,21 @@ fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
 }
 
 /// The platform.
-pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedoms>) -> Option<Platform> {
+pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>) -> Option<Platform> {
     let value = reader.required(root, "platform")?;
     let table = reader.table("platform", "[platform]", value)?;
     let section = reader.open("[platform]", value.span(), table, KEYS);
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
-    let inertia = match freedoms {
-        Some(Freedoms::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
-        Some(Freedoms::Planar(plane)) => {
+    let inertia = match motion {
+        Some(PlatformMotion::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
+        Some(PlatformMotion::Planar(plane)) => {
             reader.required(&section, "inertia_kg_m2").and_then(|v| planar_inertia(reader, v, &plane))
         }
-        Some(Freedoms::PointMass) => {
+        Some(PlatformMotion::PointMass) => {
             if let Some(value) = section.get("inertia_kg_m2") {
                 reader
                     .issue(value.span(), "a point mass has no inertia tensor, `inertia_kg_m2` must be absent")
-                    .help("remove the line, or set `freedoms = \"rigid\"`");
+                    .help("remove the line, or set `motion = \"rigid\"`");
             }
             Some(Mat3::zeros())
         }
@@ -174,10 +174,10 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
     let center_of_mass = match section.get("center_of_mass_m") {
         Some(value) => {
             let center = reader.vector(&section, "center_of_mass_m", value);
-            if freedoms == Some(Freedoms::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
+            if motion == Some(PlatformMotion::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
                 reader
                     .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
-                    .help("remove the line, or set `freedoms = \"rigid\"`");
+                    .help("remove the line, or set `motion = \"rigid\"`");
             }
             center
         }
@@ -189,10 +189,10 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
     };
     let translational = damping(reader, &section, "translational_damping_n_s_m");
     let rotational = damping(reader, &section, "rotational_damping_n_m_s");
-    if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| freedoms == Some(Freedoms::PointMass)) {
+    if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| motion == Some(PlatformMotion::PointMass)) {
         reader
             .issue(value.span(), "a point mass does not turn, `rotational_damping_n_m_s` must be absent")
-            .help("remove the line, or set `freedoms = \"rigid\"`");
+            .help("remove the line, or set `motion = \"rigid\"`");
     }
     Some(Platform {
         translational_damping_p: translational?,
@@ -201,7 +201,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, freedoms: Option<Freedom
         inertia_p: inertia?,
         drag_area: drag_area?,
         center_of_mass_p: Vec3::from(center_of_mass?),
-        freedoms: freedoms?,
+        motion: motion?,
     })
 }
 
@@ -282,7 +282,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     let [least, middle, largest] = moments;
     let shown = format!("its principal moments are {}, {} and {} kg m²", short(least), short(middle), short(largest));
     // Below 1e-12 of the largest, the sign of the least moment is rounding.
-    if least < SMALLEST * largest.max(1.0) {
+    if least < MIN_NUMBER * largest.max(1.0) {
         reader
             .issue(value.span(), format!("`inertia_kg_m2` is not positive definite: {shown}"))
             .help("give the tensor about the centre of mass in platform axes; its off-diagonal entries are −∫xy dm");

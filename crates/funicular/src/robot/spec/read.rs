@@ -7,7 +7,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-pub(super) use crate::robot::parameters::{LARGEST, SMALLEST};
+pub(super) use crate::robot::parameters::{MAX_NUMBER, MIN_NUMBER};
 
 /// Characters of a user's text that a message repeats.
 const QUOTED: usize = 40;
@@ -317,15 +317,15 @@ impl<'t> Reader<'t> {
         let number: f64 = number.unwrap_or(f64::INFINITY);
         let limit = if number.is_nan() || (number.is_infinite() && self.written(value.span()).contains("inf")) {
             Some("it must be finite".to_owned())
-        } else if number.abs() > LARGEST {
-            Some(format!("the limit is {LARGEST:e} in magnitude"))
+        } else if number.abs() > MAX_NUMBER {
+            Some(format!("the limit is {MAX_NUMBER:e} in magnitude"))
         } else if range == Limits::Positive && number <= 0.0 {
             Some("it must be positive".to_owned())
         } else if range.is_not_negative() && number < 0.0 {
             Some("it must not be negative".to_owned())
-        } else if range.is_one_sided() && number != 0.0 && number < SMALLEST {
+        } else if range.is_one_sided() && number != 0.0 && number < MIN_NUMBER {
             let or_zero = if range == Limits::Positive { "" } else { "zero or " };
-            Some(format!("it must be {or_zero}at least {SMALLEST:e}"))
+            Some(format!("it must be {or_zero}at least {MIN_NUMBER:e}"))
         } else {
             None
         };

@@ -2,18 +2,18 @@
 //!
 //! Every wall bounds one tension (and a height common to all), so nothing of the size of the null space is needed: what
 //! the active-set method asks for are projections, and a projection on the balance of the tensions that are not held
-//! is a system of as many equations as freedoms. A step costs time in proportion to the number of cables; with a basis
+//! is a system of as many equations as degrees of freedom. A step costs time in proportion to the number of cables; with a basis
 //! of the null space it costs its square, and a wall dropped its cube. Theory, equations (40a) and (40b).
 
-use super::balance::Solutions;
-use super::polyhedron::{DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, Walls, worst};
-use crate::math::{Mat6, Vec6, inertia};
+use super::active_set::{DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, Walls, worst};
+use super::null_space::Solutions;
+use crate::math::{Mat6, Vec6, symmetric};
 
 /// Inequalities `sign σ_i + lift t ≥ level` for tensions σ that satisfy the balance, and a height t.
 pub(super) struct Bounds {
     /// For each cable its row of an orthonormal basis of the balance.
     balance: Vec<Vec6>,
-    freedoms: usize,
+    dof: usize,
     /// There is a height, the last component of a point.
     lifted: bool,
     rows: Vec<Row>,
@@ -55,14 +55,14 @@ struct Row {
 impl Bounds {
     /// All tensions that satisfy the balance, with a height if `lifted`.
     pub(super) fn new(solutions: &Solutions, lifted: bool) -> Self {
-        let (cables, freedoms) = (solutions.particular.len(), solutions.freedoms());
+        let (cables, dof) = (solutions.particular.len(), solutions.dof());
         let balance: Vec<Vec6> = (0..cables).map(|i| solutions.balance(i)).collect();
         let right = balance.iter().zip(&solutions.particular).map(|(balance, p)| balance * *p).sum();
         Self {
             balance,
             right,
             restored: 0,
-            freedoms,
+            dof,
             lifted,
             rows: Vec::new(),
             active: Vec::new(),
@@ -95,7 +95,7 @@ impl Bounds {
     /// What may still move: the tensions that are not held, and the height with all tensions that follow it.
     fn free(&self) -> Free {
         let rises = self.lifted && self.pin.is_none();
-        let mut gram = Mat6::from_fn(|i, j| if i == j && i >= self.freedoms { 1.0 } else { 0.0 });
+        let mut gram = Mat6::from_fn(|i, j| if i == j && i >= self.dof { 1.0 } else { 0.0 });
         let (mut following, mut weight) = (Vec6::zeros(), 1.0);
         for (balance, holder) in self.balance.iter().zip(&self.holder) {
             match holder {
@@ -124,14 +124,14 @@ impl Bounds {
         let upward = lift + held.map_or(0.0, |at| self.slope(at) * sign);
 
         // The projection on the balance of all that; repeated, which takes away the rounding of the first time.
-        let (mut prices, mut height) = (Vec6::zeros(), 0.0);
+        let (mut multipliers, mut height) = (Vec6::zeros(), 0.0);
         for pass in 0..3 {
-            height = if rises { (upward - following.dot(&prices)) / weight } else { 0.0 };
+            height = if rises { (upward - following.dot(&multipliers)) / weight } else { 0.0 };
             let mut unbalanced = following * height;
             for i in 0..cables {
                 self.rest[i] = match self.holder[i] {
                     None => {
-                        let rest = part(i) - self.balance[i].dot(&prices);
+                        let rest = part(i) - self.balance[i].dot(&multipliers);
                         unbalanced += self.balance[i] * rest;
                         rest
                     }
@@ -140,7 +140,7 @@ impl Bounds {
                 };
             }
             if pass < 2 {
-                prices += inverse * unbalanced;
+                multipliers += inverse * unbalanced;
             }
         }
         if self.lifted {
@@ -154,7 +154,7 @@ impl Bounds {
         for i in 0..cables {
             if let Some(at) = self.holder[i] {
                 let row = self.rows[self.active[at]];
-                self.shares[at] = row.sign * (part(i) - self.rest[i] - self.balance[i].dot(&prices));
+                self.shares[at] = row.sign * (part(i) - self.rest[i] - self.balance[i].dot(&multipliers));
                 lacking -= row.lift * self.shares[at];
             }
         }
@@ -185,7 +185,7 @@ impl Bounds {
 
 impl Walls for Bounds {
     fn dimension(&self) -> usize {
-        self.balance.len() - self.freedoms + usize::from(self.lifted)
+        self.balance.len() - self.dof + usize::from(self.lifted)
     }
 
     fn most_violated<M: Magnitude>(&self, x: &[M], tolerance: f64) -> Option<(usize, M)> {
@@ -230,11 +230,11 @@ impl Walls for Bounds {
 
         // The least motion along the active walls that does it.
         let Free { rises, following, weight, inverse } = self.free();
-        let prices = inverse * lacking;
-        let height = if rises { following.dot(&prices) / weight } else { 0.0 };
+        let multipliers = inverse * lacking;
+        let height = if rises { following.dot(&multipliers) / weight } else { 0.0 };
         for (i, x) in x.iter_mut().take(cables).enumerate() {
             let change = match self.holder[i] {
-                None => self.balance[i].dot(&prices),
+                None => self.balance[i].dot(&multipliers),
                 Some(at) => self.slope(at) * height,
             };
             *x = x.plus_near(change);
@@ -266,7 +266,7 @@ fn inverse_of(matrix: &Mat6) -> Mat6 {
     if let Some(factor) = matrix.cholesky() {
         return factor.inverse();
     }
-    let (values, vectors) = inertia::eigen(matrix, 6);
+    let (values, vectors) = symmetric::eigen(matrix, 6);
     let zero = f64::EPSILON * values.iter().fold(0.0, |most: f64, value| most.max(*value));
     let parts = values.iter().zip(&vectors).filter(|(value, _)| **value > zero);
     parts.map(|(value, vector)| vector * (vector.transpose() / *value)).sum()
@@ -274,17 +274,17 @@ fn inverse_of(matrix: &Mat6) -> Mat6 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balance::Solutions;
-    use super::super::room::{Found, Room};
+    use super::super::feasible_set::{Found, Room};
+    use super::super::null_space::Solutions;
     use crate::math::Vec6;
     use proptest::prelude::*;
 
     /// Bounds of one cable: lower and upper, how fast both draw in with the height, and a floor that does not.
     type Bound = (f64, f64, f64, f64, f64);
 
-    fn solutions(columns: &[[f64; 6]], right: &[f64; 6], freedoms: usize, directions: bool) -> Option<Solutions> {
+    fn solutions(columns: &[[f64; 6]], right: &[f64; 6], dof: usize, directions: bool) -> Option<Solutions> {
         let columns: Vec<Vec6> = columns.iter().map(|column| Vec6::from_column_slice(column)).collect();
-        Solutions::of(&columns, &vec![1.0; columns.len()], &Vec6::from_column_slice(right), freedoms, directions)
+        Solutions::of(&columns, &vec![1.0; columns.len()], &Vec6::from_column_slice(right), dof, directions)
     }
 
     /// The walls of tensions with a height as the rules build them: floors, and a ceiling of the height.
@@ -377,15 +377,15 @@ mod tests {
             right in prop::array::uniform6(-6.0f64..6.0),
             start in prop::collection::vec(-3.0f64..3.0, 24),
             count in 8usize..24,
-            freedoms in prop::sample::select(vec![3usize, 6]),
+            dof in prop::sample::select(vec![3usize, 6]),
         ) {
             let (columns, bounds) = (&columns[..count], &bounds[..count]);
-            let few = solutions(columns, &right, freedoms, true);
-            let many = solutions(columns, &right, freedoms, false);
+            let few = solutions(columns, &right, dof, true);
+            let many = solutions(columns, &right, dof, false);
             prop_assert_eq!(few.is_some(), many.is_some());
             let (Some(few), Some(many)) = (few, many) else { return Ok(()) };
             let start_at = |i: usize| start[i];
-            let right = &right[..freedoms];
+            let right = &right[..dof];
             let nearest = |all| room(all, bounds, false).nearest(start_at, 0.0, 1e-12);
             let highest = |all| room(all, bounds, true).highest(start_at, 1e-12);
             let climbing = |all| room(all, bounds, true).nearest(start_at, 0.1, 1e-12);

@@ -5,10 +5,10 @@
 //! within the limits balance the platform, however the cables sag: (39a). The greatest shares are each a search in one
 //! variable, along the true curve of the cable.
 
-use super::line::Line;
-use super::polyhedron::Polyhedron;
+use super::active_set::Polyhedron;
+use super::cable_at_pose::Line;
 use crate::math::{Vec3, Vec6};
-use crate::robot::Freedoms;
+use crate::robot::PlatformMotion;
 
 /// Limit of intervals that are halved for one direction.
 const MAX_HALVINGS: usize = 100;
@@ -42,9 +42,9 @@ impl Reach {
         Self { ends }
     }
 
-    fn seen(&self, y: &Vec6, freedoms: &Freedoms) -> Seen {
+    fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> Seen {
         let line = &self.ends[0];
-        let in_direction = |force_w: &Vec3| y.dot(&freedoms.reduced(&line.wrench(force_w)));
+        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&line.wrench(force_w)));
         let upward = in_direction(&line.hanging.axes_w().1);
         let sin = line.sin();
         Seen {
@@ -88,11 +88,11 @@ struct Point {
 }
 
 impl Point {
-    fn of(line: &Line, y: &Vec6, seen: &Seen, freedoms: &Freedoms) -> Self {
-        let wrench = freedoms.reduced(&line.wrench(&line.force().0));
+    fn of(line: &Line, y: &Vec6, seen: &Seen, motion: &PlatformMotion) -> Self {
+        let wrench = motion.reduced(&line.wrench(&line.force().0));
         let straight = seen.along * line.tau();
         let length = line.length().map(|value| seen.of_length * value);
-        let slope = y.dot(&freedoms.reduced(&line.column()));
+        let slope = y.dot(&motion.reduced(&line.column()));
         let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
         Self { tau: line.tau(), wrench, straight, bend, length }
     }
@@ -154,7 +154,7 @@ pub(super) struct Verdict {
 pub(super) struct Claim<'a> {
     pub reaches: &'a [Reach],
     pub load: Vec6,
-    pub freedoms: Freedoms,
+    pub motion: PlatformMotion,
 }
 
 impl Claim<'_> {
@@ -164,7 +164,7 @@ impl Claim<'_> {
     /// next direction has all of these sets on the right side, with the widest least angle (cutting planes). There is
     /// none if the load lies in the convex hull of what these tensions balance; then no direction is a proof.
     pub(super) fn refuted(&self, first: &Vec6) -> Verdict {
-        let n = self.freedoms.count();
+        let n = self.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
         let mut verdict = Verdict { proved: false, farthest: Vec::new() };
@@ -205,9 +205,9 @@ impl Claim<'_> {
     /// Whether one direction proves it, and the points of the cables with the greatest shares in it.
     fn examine(&self, y: &Vec6) -> (bool, Vec<Point>) {
         let mut parts: Vec<Part> = Vec::with_capacity(self.reaches.len());
-        let seen: Vec<Seen> = self.reaches.iter().map(|reach| reach.seen(y, &self.freedoms)).collect();
+        let seen: Vec<Seen> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
         for (cable, reach) in self.reaches.iter().enumerate() {
-            let end = |k: usize| Point::of(&reach.ends[k], y, &seen[cable], &self.freedoms);
+            let end = |k: usize| Point::of(&reach.ends[k], y, &seen[cable], &self.motion);
             parts.push(Part { cable, ends: [end(0), end(1)] });
         }
         let mut best: Vec<Point> = parts.iter().map(Part::best).collect();
@@ -236,7 +236,7 @@ impl Claim<'_> {
             let Part { cable, ends: [from, to] } = parts[widest];
             let mut line = self.reaches[cable].ends[0].clone();
             line.set((from.tau * to.tau).sqrt());
-            let middle = Point::of(&line, y, &seen[cable], &self.freedoms);
+            let middle = Point::of(&line, y, &seen[cable], &self.motion);
             if middle.share() > best[cable].share() {
                 best[cable] = middle;
             }

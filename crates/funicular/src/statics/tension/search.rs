@@ -1,19 +1,19 @@
 //! The iteration: linearise the balance and the limits, solve the linear problem exactly, repeat.
 
-use super::balance::Solutions;
-use super::line::{Line, Tension};
-use super::polyhedron::Active;
+use super::active_set::Active;
+use super::cable_at_pose::{Line, Tension};
+use super::feasible_set::{Found, MANY, Room};
+use super::null_space::Solutions;
 use super::proof::{Claim, Reach};
-use super::room::{Found, MANY, Room};
 use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
 use crate::statics::error::StaticsError;
-use crate::statics::limits::{Limit, Miss};
+use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::residual::scaled_residual;
 
 /// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
-const MOST_ITERATIONS: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 
 /// Change of the tensions, over their size, at which the iteration ends.
 const STILL: f64 = 1e-10;
@@ -26,7 +26,7 @@ const VIOLATION: f64 = 1e-9;
 
 /// Least slope of a tension by τ. At the slackest (v up to 1.2) the greatest tension of a level cable is about at its
 /// minimum (v = 1.1997), its slope next to zero or below, and a limit by it would be on the wrong side.
-const LEAST_SLOPE: f64 = 1e-3;
+const MIN_SLOPE: f64 = 1e-3;
 
 /// Limit of further starts where neither tensions within the limits nor a proof that there are none is found.
 const MAX_STARTS: usize = 12;
@@ -68,7 +68,7 @@ pub(super) struct Bound {
 struct Step {
     tau: Vec<f64>,
     /// Multipliers of the balance.
-    prices: Vec6,
+    multipliers: Vec6,
 }
 
 /// Tensions whose least distance from the limits is greatest.
@@ -80,12 +80,12 @@ struct Level {
     height: f64,
     held_by: Vec<(usize, Limit)>,
     /// Multipliers of the balance; zero where the distance is in units of the widths.
-    prices: Vec6,
+    multipliers: Vec6,
 }
 
 /// A limited growth of the least distance from the limits [N].
 #[derive(Debug, Clone, Copy)]
-struct Climb {
+struct ProximalStep {
     from: f64,
     by: f64,
 }
@@ -97,7 +97,7 @@ struct Climb {
 /// step). Its fixed points are the same.
 #[derive(Debug)]
 struct Stride {
-    climb: Option<Climb>,
+    climb: Option<ProximalStep>,
     last_change: f64,
     setbacks: usize,
 }
@@ -114,7 +114,7 @@ impl Stride {
             self.setbacks += 1;
             if self.setbacks > 1 {
                 let by = self.climb.map_or(change * size, |climb| 0.3 * climb.by);
-                self.climb = Some(Climb { from: height, by });
+                self.climb = Some(ProximalStep { from: height, by });
             }
         }
         if let Some(climb) = &mut self.climb {
@@ -186,15 +186,15 @@ impl<'a> Search<'a> {
         let coordinates = Coordinates::of(self.robot);
         let (wrench, scale) = balance(self.robot, self.pose, self.lines.iter().map(Line::force));
         let residual = scaled_residual(&coordinates, &wrench, scale);
-        let freedoms = &self.robot.platform.freedoms;
+        let motion = &self.robot.platform.motion;
         let mut right = -coordinates.reduce(&wrench);
-        let columns: Vec<Vec6> = self.lines.iter().map(|line| freedoms.reduced(&line.column())).collect();
+        let columns: Vec<Vec6> = self.lines.iter().map(|line| motion.reduced(&line.column())).collect();
         for (column, line) in columns.iter().zip(&self.lines) {
             right += column * line.tau();
         }
         let limits = self.lines.iter().map(|line| {
             let [least, greatest] = [line.least(), line.greatest()]
-                .map(|tension| Tension { slope: tension.slope.max(LEAST_SLOPE), ..tension });
+                .map(|tension| Tension { slope: tension.slope.max(MIN_SLOPE), ..tension });
             let lower = line.tau() + (line.range.minimum - least.value) / least.slope;
             let upper = line.tau() + (line.range.maximum - greatest.value) / greatest.slope;
             [Bound { at: lower, rate: 1.0 / least.slope }, Bound { at: upper, rate: 1.0 / greatest.slope }]
@@ -209,15 +209,15 @@ impl<'a> Search<'a> {
     }
 
     pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
-        let freedoms = self.robot.platform.freedoms.count();
-        Solutions::of(&linear.columns, scales, &linear.right, freedoms, true).ok_or(StaticsError::Singular)
+        let dof = self.robot.platform.motion.count();
+        Solutions::of(&linear.columns, scales, &linear.right, dof, true).ok_or(StaticsError::Singular)
     }
 
     /// The same for [`Room`], which can do without directions where they are many.
     fn room_for(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
-        let freedoms = self.robot.platform.freedoms.count();
-        let few = self.lines.len() < MANY + freedoms;
-        Solutions::of(&linear.columns, scales, &linear.right, freedoms, few).ok_or(StaticsError::Singular)
+        let dof = self.robot.platform.motion.count();
+        let few = self.lines.len() < MANY + dof;
+        Solutions::of(&linear.columns, scales, &linear.right, dof, few).ok_or(StaticsError::Singular)
     }
 
     /// Violation of inequalities that is rounding.
@@ -236,17 +236,17 @@ impl<'a> Search<'a> {
         // Deeply sagging cables that overstep go on by shorter steps, until the last setback is well behind.
         let (mut part, mut last_change, mut setback) = (1.0_f64, f64::INFINITY, f64::INFINITY);
 
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             self.iterations += 1;
 
             let linear = self.linearise();
 
             // Bend of each cable's line, from the last step.
-            if let Some((tau, columns, prices)) = &last {
+            if let Some((tau, columns, multipliers)) = &last {
                 for (i, line) in self.lines.iter().enumerate() {
                     let moved = line.tau() - tau[i];
                     if moved.abs() > 1e-7 * self.size {
-                        let bend = (linear.columns[i] - columns[i]).dot(prices) / moved;
+                        let bend = (linear.columns[i] - columns[i]).dot(multipliers) / moved;
                         scales[i] = (1.0 - bend).clamp(0.1, 100.0).sqrt();
                     }
                 }
@@ -254,7 +254,7 @@ impl<'a> Search<'a> {
 
             // The linear problem.
             let Some(step) = self.step(&linear, target, &scales)? else {
-                self.least_violation()?;
+                self.min_violation()?;
                 last = None;
                 if self.rescued.is_some() {
                     // From where another start has led, shorter steps.
@@ -279,7 +279,7 @@ impl<'a> Search<'a> {
 
             let before = self.tensions();
             let after: Vec<f64> = before.iter().zip(&step.tau).map(|(from, to)| from + part * (to - from)).collect();
-            last = Some((before, linear.columns, step.prices));
+            last = Some((before, linear.columns, step.multipliers));
             self.set(&after);
         }
         Err(self.unsettled(last_change, STILL))
@@ -314,8 +314,8 @@ impl<'a> Search<'a> {
             let (i, sign) = rows[held.row];
             pressed[i] += sign * held.multiplier;
         }
-        let prices = solutions.prices(|i| sigma[i] - aim(i) - pressed[i]);
-        Ok(Some(Step { tau: sigma.iter().zip(scales).map(|(sigma, scale)| sigma / scale).collect(), prices }))
+        let multipliers = solutions.multipliers(|i| sigma[i] - aim(i) - pressed[i]);
+        Ok(Some(Step { tau: sigma.iter().zip(scales).map(|(sigma, scale)| sigma / scale).collect(), multipliers }))
     }
 
     /// Tensions as far from the limits as possible, in parts of the distance between them.
@@ -324,18 +324,18 @@ impl<'a> Search<'a> {
         let mut stride = Stride::default();
         let mut reach = 1.0;
 
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
             let level = self.level(&linear, Some(&widths), &self.tensions(), stride.climb)?;
 
             if level.distance < -VIOLATION {
-                self.least_violation()?;
+                self.min_violation()?;
                 stride = Stride::default();
                 if self.rescued.is_some() {
                     // From where another start has led, next to the limits, shorter steps each time.
                     reach *= 0.3;
-                    stride.climb = Some(Climb { from: 0.0, by: reach * self.size });
+                    stride.climb = Some(ProximalStep { from: 0.0, by: reach * self.size });
                 }
                 continue;
             }
@@ -381,14 +381,14 @@ impl<'a> Search<'a> {
     ///
     /// What violates the limits least may be a local optimum where cables sag. The pose is refused for good only if a
     /// direction proves it, see [`Claim`]; else the search begins again elsewhere.
-    fn least_violation(&mut self) -> Result<(), StaticsError> {
+    fn min_violation(&mut self) -> Result<(), StaticsError> {
         if let Some(tau) = self.rescued.clone() {
             self.set(&tau);
             return Ok(());
         }
 
         let minima: Vec<f64> = self.lines.iter_mut().map(Line::at_minimum).collect();
-        let mut level = self.least_violation_above(&minima)?;
+        let mut level = self.min_violation_above(&minima)?;
         if level.distance >= -VIOLATION * self.size {
             // There are such tensions; the next linear problem knows.
             return Ok(());
@@ -396,7 +396,7 @@ impl<'a> Search<'a> {
 
         let slackest: Vec<f64> = self.lines.iter().map(|line| line.slackest).collect();
         if level.tau.iter().zip(&slackest).all(|(tau, slackest)| tau > slackest)
-            && let Ok(hung) = self.least_violation_above(&slackest)
+            && let Ok(hung) = self.min_violation_above(&slackest)
             && hung.distance < -VIOLATION * self.size
         {
             level = hung;
@@ -404,10 +404,10 @@ impl<'a> Search<'a> {
 
         // The direction of the limits' multipliers proves it nearly always.
         let reaches: Vec<Reach> = self.lines.iter().zip(&minima).map(|(line, tau)| Reach::of(line, *tau)).collect();
-        let freedoms = self.robot.platform.freedoms;
+        let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
-        let claim = Claim { reaches: &reaches, load, freedoms };
-        let verdict = claim.refuted(&level.prices);
+        let claim = Claim { reaches: &reaches, load, motion };
+        let verdict = claim.refuted(&level.multipliers);
         if verdict.proved {
             return Err(StaticsError::BeyondLimits(self.miss(&level)));
         }
@@ -418,7 +418,7 @@ impl<'a> Search<'a> {
             starts += 1;
             let start = if k == 0 { verdict.farthest.clone() } else { self.spread(&reaches, k) };
             self.set(&start);
-            let Ok(found) = self.least_violation_above(&slackest) else { continue };
+            let Ok(found) = self.min_violation_above(&slackest) else { continue };
             if found.distance >= -VIOLATION * self.size {
                 self.set(&found.tau);
                 self.rescued = Some(found.tau);
@@ -447,12 +447,12 @@ impl<'a> Search<'a> {
     }
 
     /// The least violation when cables are continued by their tangents below these tensions.
-    fn least_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
+    fn min_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
         let mut here = self.tensions();
         let mut stride = Stride::default();
         let mut mildest: Option<Level> = None;
 
-        for iteration in 0..MOST_ITERATIONS {
+        for iteration in 0..MAX_ITERATIONS {
             self.iterations += 1;
             let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
             self.set(&hung);
@@ -469,7 +469,7 @@ impl<'a> Search<'a> {
 
             stride.next(change, self.size, level.height);
             here.clone_from(&level.tau);
-            if iteration > MOST_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| level.height > mildest.height) {
+            if iteration > MAX_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| level.height > mildest.height) {
                 mildest = Some(level);
             }
         }
@@ -488,7 +488,7 @@ impl<'a> Search<'a> {
         linear: &Linear,
         widths: Option<&[f64]>,
         here: &[f64],
-        climb: Option<Climb>,
+        climb: Option<ProximalStep>,
     ) -> Result<Level, StaticsError> {
         let solutions = self.room_for(linear, &vec![1.0; self.lines.len()])?;
         // The height is in N either way.
@@ -537,7 +537,7 @@ impl<'a> Search<'a> {
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
         held_by.sort_by_key(|(i, _)| *i);
-        let mut prices = Vec6::zeros();
+        let mut multipliers = Vec6::zeros();
         if widths.is_none() {
             let mut pressed = vec![0.0; self.lines.len()];
             for held in &held {
@@ -545,12 +545,12 @@ impl<'a> Search<'a> {
                     pressed[i] += if limit == Limit::Minimum { held.multiplier } else { -held.multiplier };
                 }
             }
-            prices = solutions.prices(|i| -pressed[i]);
+            multipliers = solutions.multipliers(|i| -pressed[i]);
         }
-        Ok(Level { tau, height, distance: height / unit, held_by, prices })
+        Ok(Level { tau, height, distance: height / unit, held_by, multipliers })
     }
 
-    fn miss(&mut self, level: &Level) -> Miss {
+    fn miss(&mut self, level: &Level) -> LimitViolation {
         let mut held_by = level.held_by.clone();
         if held_by.is_empty() {
             // The last step was a short one, which no limit has stopped: those that bind there are asked for again.
@@ -563,11 +563,19 @@ impl<'a> Search<'a> {
             let of = held_by.iter().filter(|(_, which)| *which == limit);
             of.map(|(i, _)| self.robot.cables[*i].name.clone()).collect()
         };
-        Miss { by: -level.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
+        LimitViolation { by: -level.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
     }
 
     fn unsettled(&self, change: f64, limit: f64) -> StaticsError {
         let (p, residual) = (self.pose.position_w, self.linearise().residual);
-        StaticsError::Unsettled { iterations: self.iterations, change, limit, residual, x: p.x, y: p.y, z: p.z }
+        StaticsError::TensionsNotConverged {
+            iterations: self.iterations,
+            change,
+            limit,
+            residual,
+            x: p.x,
+            y: p.y,
+            z: p.z,
+        }
     }
 }

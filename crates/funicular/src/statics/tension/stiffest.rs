@@ -3,11 +3,11 @@
 //! The least eigenvalue has a second-order model that costs the eigenvectors of one 6×6 matrix, see [`model`]; so the
 //! optimum is found by Newton's method, one small program a step. Where that does not arrive, cutting planes do.
 
-mod cuts;
+mod cutting_planes;
 mod model;
 
 use super::search::Search;
-use crate::math::{Mat6, inertia, symmetric_part};
+use crate::math::{Mat6, symmetric, symmetric_part};
 use crate::platform::Coordinates;
 use crate::statics::error::StaticsError;
 use crate::statics::stiffness::assembled;
@@ -17,16 +17,16 @@ use model::{Model, Step};
 const GAIN: f64 = 3e-8;
 
 /// Most steps of Newton's method, which takes a handful, more where eigenvalues meet.
-const MOST_STEPS: usize = 40;
+const MAX_STEPS: usize = 40;
 
 /// Least part of a step that is tried.
-const LEAST_PART: f64 = 1e-3;
+const MIN_STEP: f64 = 1e-3;
 
 /// Tensions within the limits that make the robot stiffest.
 pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
     search.near_middle()?;
     survey(search)?;
-    if climb(search) { Ok(()) } else { cuts::search(search) }
+    if climb(search) { Ok(()) } else { cutting_planes::search(search) }
 }
 
 /// Moves to the stiffest of a few tensions: the present ones and those half-way from them to the limits, forth and back
@@ -35,7 +35,7 @@ fn survey(search: &mut Search<'_>) -> Result<(), StaticsError> {
     let linear = search.linearise();
     let middle = search.tensions();
     let solutions = search.solutions(&linear, &vec![1.0; middle.len()])?;
-    let mut best = (least_eigenvalue(search), middle.clone());
+    let mut best = (min_eigenvalue(search), middle.clone());
     for k in 0..solutions.redundancy() {
         for sign in [1.0, -1.0] {
             let direction: Vec<f64> = solutions.direction(k).iter().map(|n| sign * n).collect();
@@ -48,7 +48,7 @@ fn survey(search: &mut Search<'_>) -> Result<(), StaticsError> {
             let there: Vec<f64> = middle.iter().zip(&direction).map(|(tau, n)| tau + 0.5 * room * n).collect();
             search.set(&there);
             if is_above(search, best.0) {
-                best = (least_eigenvalue(search), there);
+                best = (min_eigenvalue(search), there);
             }
         }
     }
@@ -74,20 +74,20 @@ impl Start {
 
 /// Newton's method from the present tensions; whether it arrives.
 fn climb(search: &mut Search<'_>) -> bool {
-    let freedoms = search.robot().platform.freedoms.count();
+    let dof = search.robot().platform.motion.count();
     let mut last: Option<Start> = None;
     let mut part = 1.0;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         search.count();
         let stiffness = present(search);
-        let eigen = inertia::eigen(&stiffness, freedoms);
+        let eigen = symmetric::eigen(&stiffness, dof);
         // A loss this large is not the balance's, which is still off by a little: the model need not be made.
         let lost = last.as_ref().is_some_and(|last| eigen.0[0] < last.value - last.step.gain);
         let here = if lost { None } else { Model::here(search, &stiffness, eigen) };
         let enough = |last: &Start, value: f64| value >= last.value + 0.1 * part * last.step.gain;
         let Some(here) = here.filter(|here| last.as_ref().is_none_or(|last| enough(last, here.value))) else {
             part *= 0.3;
-            let Some(last) = last.as_ref().filter(|_| part >= LEAST_PART) else { return false };
+            let Some(last) = last.as_ref().filter(|_| part >= MIN_STEP) else { return false };
             last.go(search, part);
             continue;
         };
@@ -113,19 +113,19 @@ fn present(search: &Search<'_>) -> Mat6 {
         (line.hanging.tangent_w(), force, lever)
     });
     let total = Coordinates::of(search.robot()).scale_matrix(&assembled(search.robot(), search.pose(), cables));
-    search.robot().platform.freedoms.reduced_matrix(&symmetric_part(&total))
+    search.robot().platform.motion.reduced_matrix(&symmetric_part(&total))
 }
 
-fn least_eigenvalue(search: &Search<'_>) -> f64 {
-    inertia::eigenvalues(&present(search), search.robot().platform.freedoms.count())[0]
+fn min_eigenvalue(search: &Search<'_>) -> f64 {
+    symmetric::eigenvalues(&present(search), search.robot().platform.motion.count())[0]
 }
 
 /// Whether the least eigenvalue is above a value; in a fraction of its time.
 fn is_above(search: &Search<'_>, value: f64) -> bool {
-    let freedoms = search.robot().platform.freedoms.count();
+    let dof = search.robot().platform.motion.count();
     let mut above = present(search);
     for k in 0..6 {
-        above[(k, k)] += if k < freedoms { -value } else { 1.0 };
+        above[(k, k)] += if k < dof { -value } else { 1.0 };
     }
     above.cholesky().is_some()
 }
@@ -180,10 +180,10 @@ mod tests {
         for (robot, pose) in cases([(0.0, 820e3); 3]).chain(cases([(0.0, 2e3); 3])) {
             let Some(mut search) = begun(&robot, &pose) else { continue };
             assert!(climb(&mut search), "{}: {pose:?}", robot.name);
-            let values = inertia::eigenvalues(&present(&search), robot.platform.freedoms.count());
+            let values = symmetric::eigenvalues(&present(&search), robot.platform.motion.count());
             let mut oracle = begun(&robot, &pose).unwrap();
-            cuts::search(&mut oracle).unwrap();
-            let gap = values[0] / least_eigenvalue(&oracle) - 1.0;
+            cutting_planes::search(&mut oracle).unwrap();
+            let gap = values[0] / min_eigenvalue(&oracle) - 1.0;
             assert!(gap.abs() < 1e-7, "{}: {gap:e} at {pose:?}", robot.name);
             tried += 1;
             meeting += usize::from(values[1] < values[0] * (1.0 + 1e-6));
@@ -197,12 +197,12 @@ mod tests {
         let (mut tried, mut ratios) = (0, 0.0);
         for (robot, pose) in cases([(0.064, 820e3), (0.064, 820e3), (0.0256, 2e6)]) {
             let Some(mut oracle) = begun(&robot, &pose) else { continue };
-            cuts::search(&mut oracle).unwrap();
+            cutting_planes::search(&mut oracle).unwrap();
             let mut found = begun(&robot, &pose).unwrap();
             found.near_middle().unwrap();
             survey(&mut found).unwrap();
             assert!(climb(&mut found), "{}: {pose:?}", robot.name);
-            ratios += least_eigenvalue(&found) / least_eigenvalue(&oracle);
+            ratios += min_eigenvalue(&found) / min_eigenvalue(&oracle);
             tried += 1;
         }
         assert!(tried > 150 && ratios > f64::from(tried) * (1.0 - 1e-6), "{tried} {ratios}");

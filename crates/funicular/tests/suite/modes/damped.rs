@@ -16,7 +16,7 @@ fn changed(id: &str, change: impl Fn(&mut Robot)) -> (Robot, Equilibrium) {
 }
 
 const EXACT: Linearisation =
-    Linearisation { cable_model: CableModel::Exact, assembly: Assembly::Consistent, in_plane_only: false };
+    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false };
 
 #[test]
 fn damping_to_first_order_is_off_by_a_few_thousandths() {
@@ -39,7 +39,7 @@ fn the_closed_form_has_a_damped_partner_for_every_mode_too() {
                 cable.material.damping = Damping::Ratio(0.01);
             }
         });
-        let closed = Linearisation { cable_model: CableModel::ClosedForm, ..EXACT };
+        let closed = Linearisation { cable_model: CableModel::ShallowDynamic, ..EXACT };
         let dynamics = Dynamics::about(&robot, &rest, closed, 12.0).unwrap();
         let undamped = modes::below(&dynamics, 12.0);
         let damped = modes::damped::of(&dynamics, &undamped);

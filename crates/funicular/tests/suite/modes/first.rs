@@ -99,7 +99,7 @@ proptest! {
 /// A plate in the xz plane on four cables that cross each other, two of them from below, at rest.
 fn plate(rope_mass: f64) -> (Robot, Equilibrium) {
     let robot = Robot::from_toml(&format!(
-        "name = \"plate\"\n[platform]\nfreedoms = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
+        "name = \"plate\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
          [materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = {rope_mass}\n\
          [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 3.0]\nattachment_m = [-0.3, 0.0, -0.2]\n\
          [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, 3.2]\nattachment_m = [0.3, 0.0, -0.2]\n\

@@ -8,7 +8,7 @@ pub(crate) mod robots;
 
 use bars::Bars;
 use funicular::cable::CableModel;
-use funicular::cable::exact::ExactError;
+use funicular::cable::catenary_dynamic::ExactError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{DMat, Vec3};
 use funicular::modes::{self, Modes};
@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 const EXACT: Linearisation = Linearisation {
-    cable_model: CableModel::Exact,
+    cable_model: CableModel::CatenaryDynamic,
     assembly: funicular::dynamics::Assembly::Consistent,
     in_plane_only: false,
 };
@@ -111,7 +111,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
             rest
         }
         Err(StaticsError::CableCount { .. }) if sample.kind == Kind::TooFewCables => {
-            return Err("fewer cables than freedoms");
+            return Err("fewer cables than degrees of freedom");
         }
         Err(refused) => {
             fault(format!("forward statics: {refused}"));
@@ -130,7 +130,10 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
     let limit = sample.below_hz * TAU;
     let dynamics = match Dynamics::about(&sample.robot, &rest, EXACT, sample.below_hz) {
         Ok(dynamics) => dynamics,
-        Err(DynamicsError::NoTension { cable, .. } | DynamicsError::Exact { cable, reason: ExactError::NoTension }) => {
+        Err(
+            DynamicsError::NoTension { cable, .. }
+            | DynamicsError::CatenaryDynamic { cable, reason: ExactError::NoTension },
+        ) => {
             let i = sample.robot.cables.iter().position(|c| c.name == cable).unwrap();
             let hanging = rest.cables[i].hanging.as_ref().unwrap();
             if hanging.catenary.horizontal_force() > 1e-6 * hanging.catenary.weight() {
@@ -138,7 +141,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
             }
             return Err("a cable without tension");
         }
-        Err(DynamicsError::Exact { reason: ExactError::TooFine { .. }, .. }) => {
+        Err(DynamicsError::CatenaryDynamic { reason: ExactError::TooFine { .. }, .. }) => {
             if sample.kind != Kind::FarTooHigh {
                 fault(format!("{} Hz are too many", sample.below_hz));
             }
@@ -210,7 +213,7 @@ fn rest_of(sample: &Sample) -> Result<(Equilibrium, bool, bool), StaticsError> {
     }
     let here = gap(&rest.pose, pose) < 1e-6 * lengths[0];
     // By differences of the wrench, so without the program's tangent.
-    let (n, radius) = (robot.platform.freedoms.count(), robot.platform_length());
+    let (n, radius) = (robot.platform.motion.count(), robot.platform_length());
     let step = 1e-6 * radius;
     let wrench_at = |i: usize, step: f64| {
         let unit = |k: usize| if i == k { step } else { 0.0 };

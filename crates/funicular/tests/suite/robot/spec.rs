@@ -1,6 +1,6 @@
 //! Robot files: broken ones are refused with one clear message at the right line.
 
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::{PlatformMotion, Robot};
 
 /// A file with lengths; the broken files below are this one with one change. Line 1 is `name`.
 const ROBOT: &str = r#"name = "test robot"
@@ -45,11 +45,11 @@ fn robot_with_pose() -> String {
 
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
-/// A point mass with a pose; `freedoms` is line 4, `[state]` line 13.
+/// A point mass with a pose; `motion` is line 4, `[state]` line 13.
 const POINT: &str = r#"name = "point"
 [platform]
 mass_kg = 1.0
-freedoms = "point-mass"
+motion = "point-mass"
 center_of_mass_m = [0, 0, 0]
 [materials.cord]
 axial_stiffness_n = 1e4
@@ -395,12 +395,12 @@ fn a_point_mass_has_neither_size_nor_orientation() {
                 12,
             ),
             ("angles", "[state]\n", "[state]\nroll_pitch_yaw_deg = [0, 0, 1]\n", "has no orientation", 14),
-            ("unknown word", "\"point-mass\"", "\"point\"", "`freedoms` is \"point\", which is unknown", 4),
+            ("unknown word", "\"point-mass\"", "\"point\"", "`motion` is \"point\", which is unknown", 4),
             ("rigid without inertia", "\"point-mass\"", "\"rigid\"\ninertia_kg_m2 = [1,1,1]", "no `attachment_m`", 10),
         ],
     );
     let zero = POINT.replace("\"cord\"\n", "\"cord\"\nattachment_m = [0, 0.0, -0.0]\n");
-    assert_eq!(Robot::from_toml(&zero).unwrap().platform.freedoms, Freedoms::PointMass);
+    assert_eq!(Robot::from_toml(&zero).unwrap().platform.motion, PlatformMotion::PointMass);
 }
 
 #[test]
@@ -411,7 +411,7 @@ fn the_help_says_what_to_do() {
     };
     assert_eq!(
         help("mass_kg = 10.0", "mas_kg = 10.0"),
-        "did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, \
+        "did you mean `mass_kg`? keys here are `mass_kg`, `motion`, `plane_normal`, `plane_offset_m`, \
          `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`"
     );
     assert!(
@@ -436,7 +436,7 @@ fn the_rendered_error_looks_as_a_user_expects() {
 5 | mas_kg = 10.0
   | ^^^^^^
   |
-  = help: did you mean `mass_kg`? keys here are `mass_kg`, `freedoms`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
+  = help: did you mean `mass_kg`? keys here are `mass_kg`, `motion`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
 
 error: two cables are called "left"
   --> robots/mine.toml:27:8

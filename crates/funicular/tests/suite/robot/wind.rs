@@ -52,7 +52,7 @@ fn a_load_along_the_cables_is_weight_by_another_name() {
         let (x, y) = (Sag::of(&robot, i, x), Sag::of(&loaded, i, y));
         assert!((x.lambda2 / y.lambda2 - 1.0).abs() < 1e-8 && x.ratio() > 0.0);
     }
-    for model in [CableModel::ClosedForm, CableModel::Exact] {
+    for model in [CableModel::ShallowDynamic, CableModel::CatenaryDynamic] {
         let [x, y] = [(&robot, &a), (&loaded, &b)].map(|(robot, rest)| frequencies(robot, rest, model, 8.0));
         assert_eq!(x.len(), y.len());
         assert!(x.iter().zip(&y).all(|(x, y)| (x / y - 1.0).abs() < 1e-8), "{model}");
@@ -134,8 +134,9 @@ fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
     let step = 1e-6;
     let by = |k: usize| {
         let wrench = |sign: f64| {
-            let motion = Vec6::ith(k, sign * step);
-            let pose = rest.pose.moved(&motion.fixed_rows::<3>(0).into(), &motion.fixed_rows::<3>(3).into());
+            let displacement = Vec6::ith(k, sign * step);
+            let pose =
+                rest.pose.moved(&displacement.fixed_rows::<3>(0).into(), &displacement.fixed_rows::<3>(3).into());
             statics::wrench(&dead, &pose, &lengths, StaticModel::Catenary).unwrap()
         };
         (wrench(-1.0) - wrench(1.0)) / (2.0 * step)
@@ -173,7 +174,7 @@ fn a_massless_rope_in_wind_bows_with_it() {
     let across = (Vec3::y() - e * e.y).normalize();
     assert!(middle.dot(&across) > 0.0 && middle.cross(&across).norm() < 0.05 * middle.norm(), "{middle}");
     // It has no vibrations of its own, but the platform has six on its bowed ropes.
-    assert_eq!(frequencies(&robot, &rest, CableModel::Exact, 200.0).len(), 6);
+    assert_eq!(frequencies(&robot, &rest, CableModel::CatenaryDynamic, 200.0).len(), 6);
 }
 
 /// Load vector and force are functions of the load alone when ends and length are held: the derivative by central
@@ -212,19 +213,20 @@ fn the_end_force_follows_the_load_as_its_derivative_says() {
 /// fourth order; in the platform's coordinates.
 fn by_differences(robot: &Robot, rest: &Equilibrium, step: f64) -> Mat6 {
     let lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
-    let freedoms = &robot.platform.freedoms;
+    let motion = &robot.platform.motion;
     let by = |k: usize| {
-        if k >= freedoms.count() {
+        if k >= motion.count() {
             return Vec6::zeros();
         }
         let wrench = |n: f64| {
-            let motion = freedoms.expanded(&Vec6::ith(k, n * step));
-            let pose = rest.pose.moved(&motion.fixed_rows::<3>(0).into(), &motion.fixed_rows::<3>(3).into());
-            freedoms.reduced(&statics::wrench(robot, &pose, &lengths, rest.model).unwrap())
+            let displacement = motion.expanded(&Vec6::ith(k, n * step));
+            let pose =
+                rest.pose.moved(&displacement.fixed_rows::<3>(0).into(), &displacement.fixed_rows::<3>(3).into());
+            motion.reduced(&statics::wrench(robot, &pose, &lengths, rest.model).unwrap())
         };
         ((wrench(-1.0) - wrench(1.0)) * 8.0 - (wrench(-2.0) - wrench(2.0))) / (12.0 * step)
     };
-    freedoms.expanded_matrix(&Mat6::from_columns(&std::array::from_fn::<_, 6, _>(by)))
+    motion.expanded_matrix(&Mat6::from_columns(&std::array::from_fn::<_, 6, _>(by)))
 }
 
 /// A robot's text with ropes that the wind pulls at: a drag coefficient after every line that gives a rope's mass.
@@ -303,7 +305,7 @@ fn without_a_drag_that_turns_the_tangent_is_the_symmetric_one_to_the_bit() {
 /// warning comes where it is above one per cent and not below.
 #[test]
 fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one_per_cent() {
-    use funicular::validity::{self, Warning};
+    use funicular::warnings::{self, Warning};
     let (mut seen, mut unseen) = (0, 0);
     for (name, robot, _) in windy_robots() {
         let mut last = 0.0;
@@ -313,21 +315,21 @@ fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one
             let effect = statics::drag_effect(&robot, &rest).unwrap();
             assert!(effect > last, "{name} {speed}: {effect} {last}");
             last = effect;
-            let warned =
-                validity::of_dynamics(&robot, &rest, CableModel::Exact, 1.0).contains(&Warning::DragTurns { effect });
-            assert_eq!(warned, effect > validity::DRAG_TURN_LIMIT, "{name} {speed}: {effect}");
+            let warned = warnings::of_dynamics(&robot, &rest, CableModel::CatenaryDynamic, 1.0)
+                .contains(&Warning::DragTurns { effect });
+            assert_eq!(warned, effect > warnings::DRAG_TURN_LIMIT, "{name} {speed}: {effect}");
             *(if warned { &mut seen } else { &mut unseen }) += 1;
 
             // Displacements under unit loads, both ways; the unit diagonal stands for what the platform cannot do.
-            let (n, ell) = (robot.platform.freedoms.count(), robot.platform_length());
+            let (n, ell) = (robot.platform.motion.count(), robot.platform_length());
             let [held, whole] = [statics::tangent_stiffness(&robot, &rest), statics::tangent_with_drag(&robot, &rest)]
-                .map(|k| robot.platform.freedoms.reduced_matrix(&k.unwrap()))
+                .map(|k| robot.platform.motion.reduced_matrix(&k.unwrap()))
                 .map(|mut k| {
                     (n..6).for_each(|i| k[(i, i)] = 1.0);
                     k.try_inverse().unwrap()
                 });
             let size = |x: Vec6| {
-                let turns = |k: usize| robot.platform.freedoms.is_rotation(k);
+                let turns = |k: usize| robot.platform.motion.is_rotation(k);
                 Vec6::from_fn(|k, _| if turns(k) { ell * x[k] } else { x[k] }).norm()
             };
             for k in 0..n {

@@ -70,7 +70,7 @@ fn too_few_cables_and_lengths_that_do_not_fit_are_refused_with_numbers() {
     let pose = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);
     let mut few = robot.clone();
     few.cables.truncate(5);
-    assert!(text(statics::inverse(&few, &pose, StaticModel::Catenary)).contains("5 cables for 6 freedoms"));
+    assert!(text(statics::inverse(&few, &pose, StaticModel::Catenary)).contains("5 cables for 6 degrees of freedom"));
     let mut bad = lengths.clone();
     bad[2] = -1.0;
     assert!(text(statics::forward(&robot, &bad, StaticModel::Catenary, None)).contains("is -1 m"));

@@ -21,7 +21,8 @@ fn rigid_cables_leave_a_pose_that_closes_the_lengths_and_balances() {
 fn ideal_cables_of_lengths_that_would_have_to_push_are_refused() {
     let (robot, _) = load(YUAN_4MM);
     let pose = Pose::new([0.0, 3.0, 0.6], [0.0; 3]);
-    let Err(StaticsError::WouldPush { cable, tension }) = statics::inverse(&robot, &pose, StaticModel::Ideal) else {
+    let Err(StaticsError::NegativeTension { cable, tension }) = statics::inverse(&robot, &pose, StaticModel::Ideal)
+    else {
         panic!("too near to the edge")
     };
     let lengths: Vec<f64> = robot.cables.iter().map(|cable| cable.chord_w(&pose).norm()).collect();
@@ -29,7 +30,9 @@ fn ideal_cables_of_lengths_that_would_have_to_push_are_refused() {
     let StaticsError::LengthsPush { cable: by_lengths, tension: its, x, .. } = &error else { panic!("{error}") };
     assert!(*by_lengths == cable && (its - tension).abs() < 1e-6 * tension.abs() && x.abs() < 1e-9, "{error}");
     assert!(
-        error.is_no_solution() && error.code() == "would-push" && error.to_string().contains("choose other lengths")
+        error.is_no_solution()
+            && error.code() == "negative-tension"
+            && error.to_string().contains("choose other lengths")
     );
 
     let point = funicular::pose_error::PoseErrorPoint::at_mass(&robot, &lengths, robot.platform.mass);
@@ -46,7 +49,7 @@ fn ideal_cables_that_are_too_few_are_refused() {
         statics::nearest(&robot, &pose, StaticModel::Ideal).unwrap_err(),
         statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap_err(),
     ] {
-        assert!(matches!(error, StaticsError::InverseCableCount { cables: 4, freedoms: 6 }));
+        assert!(matches!(error, StaticsError::InverseCableCount { cables: 4, dof: 6 }));
     }
     assert!(
         statics::forward(&robot, &[5.0; 4], StaticModel::Ideal, None).unwrap_err().to_string().contains("exactly 6")

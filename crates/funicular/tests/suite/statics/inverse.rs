@@ -31,7 +31,7 @@ fn pose_to_lengths_and_back_is_the_identity() {
                         assert!(gap < 1e-8, "{i} {model:?}: {gap:e}");
                     }
                 }
-                Err(StaticsError::WouldPush { tension, .. }) => {
+                Err(StaticsError::NegativeTension { tension, .. }) => {
                     assert!(tension <= 0.0 && model == StaticModel::Spring, "of sagging cables that is no proof");
                 }
                 Err(StaticsError::NotFound { tension, starts, residual, .. }) => {
@@ -147,7 +147,7 @@ fn what_is_not_found_for_sagging_cables_is_not_said_to_be_impossible() {
     let text = error.to_string();
     assert!(text.starts_with("no tensions found that hold this pose: straight, cable \""), "{text}");
     assert!(text.contains(" would need -") && text.contains("more than 2 times as long as its chord"), "{text}");
-    assert!(error.is_no_solution() && error.code() == "would-push");
+    assert!(error.is_no_solution() && error.code() == "negative-tension");
 
     // Beside poses that are held by slack ropes, their weight might do, and they are searched for.
     let beside = (0..100).flat_map(|index| (1..20).map(move |step| (index, step)));
@@ -169,5 +169,5 @@ fn what_is_not_found_for_sagging_cables_is_not_said_to_be_impossible() {
     let mut massless = robot;
     massless.cables.iter_mut().for_each(|cable| cable.material.mass_per_length = 0.0);
     let error = statics::inverse(&massless, &far, StaticModel::Catenary).unwrap_err();
-    assert!(matches!(error, StaticsError::WouldPush { tension, .. } if tension < 0.0), "{error}");
+    assert!(matches!(error, StaticsError::NegativeTension { tension, .. } if tension < 0.0), "{error}");
 }

@@ -7,7 +7,7 @@ mod rules;
 mod straight;
 
 use funicular::math::Vec3;
-use funicular::robot::{Freedoms, Pose, Robot, TensionLimits};
+use funicular::robot::{PlatformMotion, Pose, Robot, TensionLimits};
 use funicular::statics::{self, Equilibrium, Stability};
 
 const COGIRO: &str = funicular_robots::COGIRO;
@@ -90,7 +90,7 @@ fn check(robot: &Robot, held: &Equilibrium) {
         assert!(least >= limits.minimum.unwrap() * (1.0 - 1e-6), "{least} < {:?}", limits.minimum);
         assert!(greatest <= limits.maximum.unwrap() * (1.0 + 1e-6), "{greatest} > {:?}", limits.maximum);
     }
-    if robot.platform.freedoms == Freedoms::PointMass {
+    if robot.platform.motion == PlatformMotion::PointMass {
         turning = Vec3::zeros();
     }
     let left = force.norm().max(turning.norm() / robot.platform_length()) / size;
@@ -104,9 +104,9 @@ fn tau(held: &Equilibrium) -> Vec<f64> {
         .collect()
 }
 
-fn least_stiffness(held: &Equilibrium) -> f64 {
+fn min_stiffness(held: &Equilibrium) -> f64 {
     match held.stability {
-        Stability::Stable { least_stiffness } | Stability::Unstable { least_stiffness, .. } => least_stiffness,
+        Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => min_stiffness,
         Stability::Rigid => panic!("elastic"),
     }
 }

@@ -10,7 +10,7 @@ fn the_tension_gain_grows_towards_a_singular_pose_and_is_warned_of() {
         let (sin, cos) = degrees.to_radians().sin_cos();
         // Loaded so that all tensions are 10 N.
         let text = format!(
-            "name = \"three\"\ngravity_m_s2 = [-10, {}, {}]\n[platform]\nmass_kg = 1\nfreedoms = \"point-mass\"\n\
+            "name = \"three\"\ngravity_m_s2 = [-10, {}, {}]\n[platform]\nmass_kg = 1\nmotion = \"point-mass\"\n\
              [materials.r]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0\n\
              [[cables]]\nname = \"1\"\nmaterial = \"r\"\nanchor_m = [5, 0, 0]\n\
              [[cables]]\nname = \"2\"\nmaterial = \"r\"\nanchor_m = [0, 0, 5]\n\
@@ -26,7 +26,7 @@ fn the_tension_gain_grows_towards_a_singular_pose_and_is_warned_of() {
         let gain = statics::tension_gain(&robot, &held).unwrap();
         assert!((gain * (1.0 - cos).sqrt() - 1.0).abs() < 1e-9, "{gain}");
         let warnings: Vec<String> =
-            funicular::validity::of_statics(&robot, &held).iter().map(ToString::to_string).collect();
+            funicular::warnings::of_statics(&robot, &held).iter().map(ToString::to_string).collect();
         assert_eq!(
             warnings.iter().any(|warning| warning.starts_with("the pose is nearly singular")),
             warned,

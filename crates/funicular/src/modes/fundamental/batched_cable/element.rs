@@ -169,7 +169,7 @@ impl Element {
         x: f64,
         degree: usize,
         (plane_kept, across_kept): (usize, usize),
-        least_pivot: &mut Lane,
+        min_pivot: &mut Lane,
     ) {
         self.refine::<S, H>(simd, degree);
         let functions = degree + H - 1;
@@ -178,8 +178,8 @@ impl Element {
         plane_factor.resize(place(2 * functions, 0), Line::ZERO);
         across_factor.resize(place(functions, 0), Line::ZERO);
         for part in Part::all(simd) {
-            factor::<S, 2, H>(part, plane, plane_factor, functions, &inertia, plane_kept, least_pivot);
-            factor::<S, 1, H>(part, across, across_factor, functions, &inertia, across_kept, least_pivot);
+            factor::<S, 2, H>(part, plane, plane_factor, functions, &inertia, plane_kept, min_pivot);
+            factor::<S, 1, H>(part, across, across_factor, functions, &inertia, across_kept, min_pivot);
         }
         self.functions = functions;
     }
@@ -238,7 +238,7 @@ fn factor<S: Simd, const D: usize, const H: usize>(
     functions: usize,
     inertia: &Lane,
     kept: usize,
-    least_pivot: &mut Lane,
+    min_pivot: &mut Lane,
 ) {
     for (entry, k) in matrix.iter_mut().zip(stiffness) {
         part.set(entry, part.of(k));
@@ -260,13 +260,13 @@ fn factor<S: Simd, const D: usize, const H: usize>(
     let odd = (n - kept) % ABREAST;
     let first = n - odd;
     match odd {
-        1 => eliminate::<S, 1>(part, matrix, first, least_pivot),
-        2 => eliminate::<S, 2>(part, matrix, first, least_pivot),
-        3 => eliminate::<S, 3>(part, matrix, first, least_pivot),
+        1 => eliminate::<S, 1>(part, matrix, first, min_pivot),
+        2 => eliminate::<S, 2>(part, matrix, first, min_pivot),
+        3 => eliminate::<S, 3>(part, matrix, first, min_pivot),
         _ => {}
     }
     for t in (kept..first).step_by(ABREAST).rev() {
-        eliminate::<S, ABREAST>(part, matrix, t, least_pivot);
+        eliminate::<S, ABREAST>(part, matrix, t, min_pivot);
     }
 }
 
@@ -275,7 +275,7 @@ const ABREAST: usize = 4;
 
 /// Eliminates unknowns t, t + 1, … t + R − 1, the last of those that are left.
 #[inline(always)]
-fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usize, least_pivot: &mut Lane) {
+fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usize, min_pivot: &mut Lane) {
     let (above, mut rest) = matrix[..place(t + R, 0)].split_at_mut(place(t, 0));
     let mut rows: [&mut [Line]; R] = from_fn(|r| {
         let (row, further) = std::mem::take(&mut rest).split_at_mut(t + r + 1);
@@ -287,7 +287,7 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
     let mut inverses = [part.splat(0.0); R];
     for r in (0..R).rev() {
         let (lower, row) = rows.split_at_mut(r);
-        inverses[r] = part.neg(invert_pivot(part, row[0], t + r, least_pivot));
+        inverses[r] = part.neg(invert_pivot(part, row[0], t + r, min_pivot));
         for (k, lower) in lower.iter_mut().enumerate() {
             let factor = part.mul(part.of(&row[0][t + k]), inverses[r]);
             for (entry, a) in lower.iter_mut().zip(&*row[0]) {
@@ -337,11 +337,11 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
 }
 
 #[inline(always)]
-fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Line], at: usize, least_pivot: &mut Lane) -> S::f64s {
+fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Line], at: usize, min_pivot: &mut Lane) -> S::f64s {
     let pivot = part.of(&row[at]);
-    let least = part.of(least_pivot);
+    let least = part.of(min_pivot);
     let lower = part.simd.less_than_f64s(pivot, least);
-    part.set(least_pivot, part.simd.select_f64s(lower, pivot, least));
+    part.set(min_pivot, part.simd.select_f64s(lower, pivot, least));
     let inverse = part.inverse(pivot);
     part.set(&mut row[at], inverse);
     inverse

@@ -1,7 +1,7 @@
 //! Integrals over [−1, 1] of hats and bubbles, and Gauss's rules.
 
 use super::element::place;
-use super::{MOST_DEGREES, MOST_TERMS};
+use super::{MAX_DEGREES, MAX_TERMS};
 use crate::math::legendre;
 use std::sync::LazyLock;
 
@@ -18,7 +18,7 @@ impl Masses {
         let first = -1.0 / 6f64.sqrt();
         let second = 1.0 / (3.0 * 10f64.sqrt());
         let (mut entries, mut ends) = (Vec::new(), Vec::new());
-        for f in 0..MOST_DEGREES + hats - 1 {
+        for f in 0..MAX_DEGREES + hats - 1 {
             match (f + 1).saturating_sub(hats) {
                 0 if f == 1 => entries.push((1, 0, 1.0 / 3.0)),
                 0 => {}
@@ -68,14 +68,14 @@ impl Triples {
 /// By Adams's product: `P_k P_j = Σ_r a_r a_{k−r} a_{j−r}/a_{k+j−r} (2l + 1)/(2l + 2r + 1) P_l`, l = k + j − 2r,
 /// a_r = (2r − 1)!!/r!; a sum of positive terms.
 pub(super) static TRIPLES: LazyLock<Triples> = LazyLock::new(|| {
-    let mut a = vec![1.0_f64; 2 * MOST_DEGREES];
+    let mut a = vec![1.0_f64; 2 * MAX_DEGREES];
     for r in 1..a.len() {
         a[r] = a[r - 1] * (2.0 * r as f64 - 1.0) / r as f64;
     }
     let (mut starts, mut values) = (vec![0], Vec::new());
     // Of the orthonormal polynomials; the hat's slope is −1/2.
     let scale = |k: usize| if k == 0 { -0.5 } else { (k as f64 + 0.5).sqrt() };
-    for k in 0..MOST_DEGREES {
+    for k in 0..MAX_DEGREES {
         for j in 0..=k {
             for r in (0..=j).rev() {
                 let l = k + j - 2 * r;
@@ -98,7 +98,7 @@ pub(super) struct Rule {
 
 /// Gauss's rules of 1, 2, … points.
 pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
-    (1..=MOST_TERMS)
+    (1..=MAX_TERMS)
         .map(|count| {
             let (points, weights): (Vec<f64>, Vec<f64>) = legendre::gauss(count).into_iter().unzip();
             let polynomials: Vec<_> = points.iter().map(|xi| legendre::orthonormal(*xi, count - 1)).collect();

@@ -1,6 +1,6 @@
 //! Where cables are cut into elements, so that C is smooth on each.
 
-use crate::cable::exact::{ellipse, has_tension};
+use crate::cable::catenary_dynamic::{ellipse, has_tension};
 use crate::catenary::Catenary;
 
 /// Smallest Bernstein ellipse of an element: see [`ellipse`]. What [`GROWTH`] leaves is larger.

@@ -33,8 +33,8 @@ impl Chain {
     }
 
     /// Eliminates the nodes between elements that are condensed onto their ends; writes the lane of `into`.
-    fn condense(&mut self, packs: &[Element], least_pivots: &[Lane], lane: usize, into: &mut Kept) {
-        let mut least = self.of(least_pivots).fold(f64::INFINITY, f64::min);
+    fn condense(&mut self, packs: &[Element], min_pivots: &[Lane], lane: usize, into: &mut Kept) {
+        let mut least = self.of(min_pivots).fold(f64::INFINITY, f64::min);
 
         let entry = |factor: fn(&Element) -> &Lanes, e: usize, row: usize, column: usize| {
             let at = self.first + e;
@@ -64,7 +64,7 @@ impl Chain {
             into[lane] = k[(0, 0)];
         }
 
-        into.least_pivot[lane] = least;
+        into.min_pivot[lane] = least;
     }
 
     /// Puts the motion of all nodes, as it follows from that of the kept unknowns, into the ends of the elements.
@@ -122,7 +122,7 @@ impl<const D: usize> Nodes<D> {
         entry: impl Fn(usize, usize, usize) -> f64,
         elements: usize,
         kept: usize,
-        least_pivot: &mut f64,
+        min_pivot: &mut f64,
     ) -> [Block<D>; 3] {
         let part =
             |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
@@ -141,7 +141,7 @@ impl<const D: usize> Nodes<D> {
 
         // From the anchor towards the kept node.
         for node in (kept + 1..elements).rev() {
-            inverse[node] = inverted(&own[node], least_pivot);
+            inverse[node] = inverted(&own[node], min_pivot);
             let before = next[node - 1];
             own[node - 1] -= before * inverse[node] * before.transpose();
         }
@@ -150,7 +150,7 @@ impl<const D: usize> Nodes<D> {
         end.clear();
         end.extend([Block::zeros(), next[0]]);
         for node in 1..kept {
-            inverse[node] = inverted(&own[node], least_pivot);
+            inverse[node] = inverted(&own[node], min_pivot);
             let (to_end, to_next) = (end[node] * inverse[node], next[node].transpose() * inverse[node]);
             own[0] -= to_end * end[node].transpose();
             own[node + 1] -= to_next * next[node];
@@ -174,9 +174,9 @@ impl<const D: usize> Nodes<D> {
 }
 
 /// By the last unknown, then the first; D is 1 or 2.
-fn inverted<const D: usize>(block: &Block<D>, least_pivot: &mut f64) -> Block<D> {
+fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
     let mut note = |pivot: f64| {
-        *least_pivot = if pivot < *least_pivot { pivot } else { *least_pivot };
+        *min_pivot = if pivot < *min_pivot { pivot } else { *min_pivot };
         1.0 / pivot
     };
     let last = D - 1;
@@ -194,12 +194,12 @@ fn inverted<const D: usize>(block: &Block<D>, least_pivot: &mut f64) -> Block<D>
 }
 
 /// What is left of the nodes of chains, whose elements are condensed onto their ends.
-pub(super) fn condense(chains: &mut [Chain], packs: &[Element], least_pivots: &[Lane]) -> Kept {
+pub(super) fn condense(chains: &mut [Chain], packs: &[Element], min_pivots: &[Lane]) -> Kept {
     let mut kept = Kept::default();
     // Where there is no cable, pivots are to be divided by.
     (kept.plane[5], kept.across[2]) = ([1.0; LANES], [1.0; LANES]);
     for (lane, chain) in chains.iter_mut().enumerate() {
-        chain.condense(packs, least_pivots, lane, &mut kept);
+        chain.condense(packs, min_pivots, lane, &mut kept);
     }
     kept
 }

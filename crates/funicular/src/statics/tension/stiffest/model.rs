@@ -5,9 +5,9 @@
 //! balance and the other eigenvectors add. With r = 1 it is the Taylor series; a larger r keeps it true where
 //! eigenvalues meet.
 
-use super::super::balance::Solutions;
-use super::super::line::{Line, Rates};
-use super::super::polyhedron::Polyhedron;
+use super::super::active_set::Polyhedron;
+use super::super::cable_at_pose::{Line, Rates};
+use super::super::null_space::Solutions;
 use super::super::search::{Linear, Search};
 use crate::math::{DMat, Mat6, Vec6};
 
@@ -18,7 +18,7 @@ const NEAR: f64 = 0.08;
 const FALL: f64 = 0.3;
 
 /// Most cuts of a step in which eigenvalues meet.
-const MOST_CUTS: usize = 40;
+const MAX_CUTS: usize = 40;
 
 /// How little the height of a cut is held back, in parts of what the step promises: what the rounding of the far point,
 /// which is the inverse of this, leaves of the height must be small as well.
@@ -78,7 +78,7 @@ impl Model {
         stiffness: &Mat6,
         (values, vectors): (Vec<f64>, Vec<Vec6>),
     ) -> Option<Self> {
-        let freedoms = &search.robot().platform.freedoms;
+        let motion = &search.robot().platform.motion;
         let linear = search.linearise();
         let tau = search.tensions();
         let solutions = search.solutions(&linear, &vec![1.0; tau.len()]).ok()?;
@@ -94,9 +94,9 @@ impl Model {
         let turned: Vec<Vec<Vec6>> = vectors[..count]
             .iter()
             .map(|q| {
-                let motion = freedoms.expanded(q);
+                let displacement = motion.expanded(q);
                 let cables = search.lines().iter().zip(&rates);
-                cables.map(|(line, rates)| freedoms.reduced(&line.applied(&rates.first, &motion))).collect()
+                cables.map(|(line, rates)| motion.reduced(&line.applied(&rates.first, &displacement))).collect()
             })
             .collect();
 
@@ -134,8 +134,8 @@ impl Model {
     /// What the least eigenvalue is made of here, from what it was made of where the last step ended.
     pub(super) fn weights(&self, last: Option<&Weights>) -> Weights {
         let mut weights: Weights = Vec::new();
-        for (weight, motion) in last.into_iter().flatten() {
-            let kept: Vec6 = self.components(motion).iter().zip(&self.vectors).map(|(x, q)| q * *x).sum();
+        for (weight, displacement) in last.into_iter().flatten() {
+            let kept: Vec6 = self.components(displacement).iter().zip(&self.vectors).map(|(x, q)| q * *x).sum();
             let size = kept.norm();
             if size > 0.5 {
                 weights.push((*weight, kept / size));
@@ -152,8 +152,8 @@ impl Model {
     }
 
     /// The part of every eigenvector that is kept, that makes up a motion.
-    fn components(&self, motion: &Vec6) -> Vec<f64> {
-        self.vectors.iter().take(self.turned.len()).map(|q| q.dot(motion)).collect()
+    fn components(&self, displacement: &Vec6) -> Vec<f64> {
+        self.vectors.iter().take(self.turned.len()).map(|q| q.dot(displacement)).collect()
     }
 
     /// H for a least eigenvalue made of these motions.
@@ -161,14 +161,14 @@ impl Model {
         let d = self.solutions.redundancy();
         let kept = self.turned.len();
         let mut curvature = DMat::zeros(d, d);
-        for (weight, motion) in weights {
-            let components = self.components(motion);
+        for (weight, displacement) in weights {
+            let components = self.components(displacement);
             let turned: Vec<Vec6> = (0..self.tau.len())
                 .map(|i| components.iter().zip(&self.turned).map(|(x, turned)| turned[i] * *x).sum())
                 .collect();
-            let motion: Vec6 = components.iter().zip(&self.vectors).map(|(x, q)| q * *x).sum();
+            let displacement: Vec6 = components.iter().zip(&self.vectors).map(|(x, q)| q * *x).sum();
 
-            let bends = self.bends(search, &motion, &turned);
+            let bends = self.bends(search, &displacement, &turned);
 
             // What the other eigenvectors give way: −2 bbᵀ over the gap.
             let others: Vec<(f64, Vec<f64>)> = (kept..self.values.len())
@@ -194,15 +194,15 @@ impl Model {
 
     /// Second derivative of a motion's stiffness by every tension. The prices of the balance turn its curvature, which
     /// takes the tensions off the directions, into stiffness.
-    fn bends(&self, search: &Search<'_>, motion: &Vec6, turned: &[Vec6]) -> Vec<f64> {
-        let freedoms = &search.robot().platform.freedoms;
-        let expanded = freedoms.expanded(motion);
-        let prices = self.solutions.prices(|i| turned[i].dot(motion));
+    fn bends(&self, search: &Search<'_>, displacement: &Vec6, turned: &[Vec6]) -> Vec<f64> {
+        let motion = &search.robot().platform.motion;
+        let expanded = motion.expanded(displacement);
+        let multipliers = self.solutions.multipliers(|i| turned[i].dot(displacement));
         let cables = search.lines().iter().zip(&self.rates);
         cables
             .map(|(line, rates)| {
                 let stiffness = line.applied(&rates.second, &expanded).dot(&expanded);
-                stiffness - freedoms.reduced(&line.wrench(&rates.second.force_w)).dot(&prices)
+                stiffness - motion.reduced(&line.wrench(&rates.second.force_w)).dot(&multipliers)
             })
             .collect()
     }
@@ -296,7 +296,7 @@ impl Model {
         }
 
         let mut best: Option<Cut> = None;
-        for _ in 0..MOST_CUTS {
+        for _ in 0..MAX_CUTS {
             let mut point = vec![0.0; d];
             point.push(1.0 / scale);
 

@@ -6,7 +6,7 @@
 //! eigenvalues of `K − ω² M`.
 
 use funicular::math::{DMat, Mat3, Mat6, Vec3, Vec6, skew};
-use funicular::robot::{Freedoms, Robot};
+use funicular::robot::{PlatformMotion, Robot};
 use funicular::statics::{CableState, Equilibrium};
 use std::f64::consts::PI;
 
@@ -46,7 +46,7 @@ struct Span {
 #[derive(Debug)]
 pub(crate) struct Bars {
     rows: Vec<Row>,
-    freedoms: usize,
+    dof: usize,
     /// Of the platform about its origin, world axes: lever arms of static forces, and mass.
     platform_stiffness: Mat6,
     platform_mass: Mat6,
@@ -96,14 +96,14 @@ impl Bars {
         platform_mass += motion_of_com.transpose() * motion_of_com * robot.platform.mass;
         let mut block = platform_mass.fixed_view_mut::<3, 3>(3, 3);
         block += rot.matrix() * robot.platform.inertia_p * rot.matrix().transpose();
-        let freedoms = match robot.platform.freedoms {
-            Freedoms::Rigid => 6,
-            Freedoms::PointMass => 3,
-            Freedoms::Planar(_) => panic!("the random robots have none"),
+        let dof = match robot.platform.motion {
+            PlatformMotion::Rigid => 6,
+            PlatformMotion::PointMass => 3,
+            PlatformMotion::Planar(_) => panic!("the random robots have none"),
         };
         let longest = rest.cables.iter().map(|c| c.lever_w.norm()).fold(0.0, f64::max);
         let length = if longest > 0.0 { longest } else { 1.0 };
-        let mut all = Self { rows, freedoms, platform_stiffness, platform_mass, length, softening: 1.0 };
+        let mut all = Self { rows, dof, platform_stiffness, platform_mass, length, softening: 1.0 };
         all.softening = all.softening();
         all
     }
@@ -140,10 +140,10 @@ impl Bars {
         if taken < 1.0 { 1.0 / (1.0 - taken.max(0.0)) } else { f64::INFINITY }
     }
 
-    /// The platform's freedoms, rotations times a length.
+    /// The platform's degrees of freedom, rotations times a length.
     fn scaled(&self, matrix: &Mat6) -> DMat {
         let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / self.length };
-        DMat::from_fn(self.freedoms, self.freedoms, |i, j| matrix[(i, j)] * scale(i) * scale(j))
+        DMat::from_fn(self.dof, self.dof, |i, j| matrix[(i, j)] * scale(i) * scale(j))
     }
 
     /// `K − ω² M` of the cables condensed onto the platform, and the number of negative pivots on the way.
@@ -178,12 +178,12 @@ impl Bars {
     /// Stiffness and mass of all nodes and the platform, of which the anchors are held.
     fn dense(&self) -> (DMat, DMat) {
         let inner: usize = self.rows.iter().map(|row| 3 * (row.bars.len() - 1)).sum();
-        let size = self.freedoms + inner;
+        let size = self.dof + inner;
         let (mut stiffness, mut mass) = (DMat::zeros(size, size), DMat::zeros(size, size));
-        let platform = |matrix: &Mat6| matrix.view((0, 0), (self.freedoms, self.freedoms)).clone_owned();
-        stiffness.view_mut((0, 0), (self.freedoms, self.freedoms)).copy_from(&platform(&self.platform_stiffness));
-        mass.view_mut((0, 0), (self.freedoms, self.freedoms)).copy_from(&platform(&self.platform_mass));
-        let mut next = self.freedoms;
+        let platform = |matrix: &Mat6| matrix.view((0, 0), (self.dof, self.dof)).clone_owned();
+        stiffness.view_mut((0, 0), (self.dof, self.dof)).copy_from(&platform(&self.platform_stiffness));
+        mass.view_mut((0, 0), (self.dof, self.dof)).copy_from(&platform(&self.platform_mass));
+        let mut next = self.dof;
         for row in &self.rows {
             // World motion of every node over all unknowns.
             let count = row.bars.len();
@@ -192,7 +192,7 @@ impl Bars {
                 if k == 0 {
                     for (component, axis) in row.axes_w.iter().enumerate() {
                         let vector = vector(axis, &row.lever_w);
-                        (0..self.freedoms).for_each(|i| of_all[(component, i)] = vector[i]);
+                        (0..self.dof).for_each(|i| of_all[(component, i)] = vector[i]);
                     }
                 } else if k < count {
                     (0..3).for_each(|d| of_all[(d, next + 3 * (k - 1) + d)] = 1.0);
@@ -213,7 +213,7 @@ impl Bars {
     }
 }
 
-/// Motion of a point on the lever arm along an axis, over the platform's six freedoms.
+/// Motion of a point on the lever arm along an axis, over the platform's six degrees of freedom.
 fn vector(axis: &Vec3, lever: &Vec3) -> Vec6 {
     let turn = lever.cross(axis);
     Vec6::new(axis.x, axis.y, axis.z, turn.x, turn.y, turn.z)

@@ -310,7 +310,7 @@ impl Draw {
         let load = DMat::from_fn(columns.nrows(), 1, |i, _| -load[i]);
         let wanted = self.decades(-0.5, 0.7) * weight;
         let start = DMat::from_fn(n, 1, |_, _| wanted * if places.symmetric { 0.5 } else { self.between(0.2, 1.0) });
-        // Fewer cables than freedoms balance no pose that is asked for.
+        // Fewer cables than degrees of freedom balance no pose that is asked for.
         let tensions = if n < rows {
             start
         } else {
@@ -385,7 +385,7 @@ fn head(index: u64, up: &Vec3, mass: f64, com: &Vec3, inertia: Option<[f64; 3]>,
             let com = position_of(&(rot.inverse() * com));
             writeln!(text, "inertia_kg_m2 = {inertia:?}\ncenter_of_mass_m = {com:?}").unwrap();
         }
-        None => text.push_str("freedoms = \"point-mass\"\n"),
+        None => text.push_str("motion = \"point-mass\"\n"),
     }
     text
 }
@@ -402,7 +402,7 @@ fn with_lengths(text: &str, lengths: &[f64]) -> String {
 /// Unstrained lengths with which the catenaries balance the platform at the pose, from about the tensions wanted.
 fn balanced(robot: &Robot, pose: &Pose, cables: &[Fit]) -> Option<Vec<f64>> {
     let n = cables.len();
-    let rows = robot.platform.freedoms.count();
+    let rows = robot.platform.motion.count();
     let radius = robot.platform_length();
     let up = robot.up_w();
     let mut columns = DMat::zeros(rows, n);

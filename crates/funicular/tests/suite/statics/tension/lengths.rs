@@ -16,11 +16,11 @@ fn lengths_found_put_the_platform_back() {
         for i in 0..150 {
             for rule in [TensionRule::Lowest, TensionRule::Middle] {
                 let Ok(held) = statics::distribute(&robot, &pose(i), StaticModel::Catenary, &rule) else { continue };
-                let Stability::Stable { least_stiffness } = held.stability else { continue };
+                let Stability::Stable { min_stiffness } = held.stability else { continue };
                 let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
                 let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose(i))).unwrap();
                 let gap = (back.pose.position_w - held.pose.position_w).norm();
-                assert!(gap < 1e-9, "{}: {gap:e}, least stiffness {least_stiffness}", robot.name);
+                assert!(gap < 1e-9, "{}: {gap:e}, least stiffness {min_stiffness}", robot.name);
                 stable += 1;
             }
         }

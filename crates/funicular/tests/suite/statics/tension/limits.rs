@@ -19,7 +19,7 @@ fn without_limits_no_cable_is_slacker_than_shallow_models_allow() {
     for cable in &held.cables {
         let hanging = cable.hanging.as_ref().unwrap();
         let weight = 0.064 * 9.81 * cable.chord();
-        assert!(hanging.catenary.least_tension() >= 2.5 * weight * (1.0 - 1e-6));
+        assert!(hanging.catenary.min_tension() >= 2.5 * weight * (1.0 - 1e-6));
     }
 }
 
@@ -78,7 +78,7 @@ proptest! {
                     prop_assert!(miss.minimum_of.len() + miss.maximum_of.len() > 0, "{miss}");
                 }
                 Err(StaticsError::Singular) => {}
-                Err(StaticsError::Unsettled { .. }) if minimum < weight => continue,
+                Err(StaticsError::TensionsNotConverged { .. }) if minimum < weight => continue,
                 Err(other) => prop_assert!(false, "{}: {other}", rule.name()),
             }
             verdicts.push(held.is_ok());

@@ -5,7 +5,7 @@ use crate::random::Draw;
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::{DMat, Vec3, Vec6};
 use funicular::robot::{Pose, Robot};
-use funicular::statics::{self, Miss, StaticModel, StaticsError, TensionRange, TensionRule};
+use funicular::statics::{self, LimitViolation, StaticModel, StaticsError, TensionRange, TensionRule};
 
 #[test]
 fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
@@ -17,7 +17,9 @@ fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
             let robot = cogiro(mass, minimum - way, maximum + way);
             statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest)
         };
-        let Err(StaticsError::BeyondLimits(Miss { by, minimum_of, maximum_of })) = verdict(0.0) else { continue };
+        let Err(StaticsError::BeyondLimits(LimitViolation { by, minimum_of, maximum_of })) = verdict(0.0) else {
+            continue;
+        };
         assert!(by > 0.0 && minimum_of.len() + maximum_of.len() > 0);
         // Minima may not become negative, and not less than what a heavy rope has anyway.
         if by < 40.0 {
@@ -90,8 +92,8 @@ fn length_between(robot: &Robot, i: usize, pose: &Pose, limits: [f64; 2], part: 
     };
     // No cable is taken slacker than weight over 2.4.
     let slackest = 1.0001 * weight_per_length * chord / 2.4;
-    let longest = until(&|curve| curve.least_tension() >= limits[0] && curve.parallel_tension() >= slackest);
-    let shortest = until(&|curve| curve.greatest_tension() > limits[1]);
+    let longest = until(&|curve| curve.min_tension() >= limits[0] && curve.parallel_tension() >= slackest);
+    let shortest = until(&|curve| curve.max_tension() > limits[1]);
     let [low, high] = [longest, shortest].map(|length| hang(length).parallel_tension());
     let wanted = low + (high - low) * part;
     (shortest < longest).then(|| until(&|curve| curve.parallel_tension() > wanted))
@@ -137,7 +139,7 @@ fn no_load_that_drawn_tensions_hold_is_refused() {
                     held += 1;
                 }
                 // That the best tensions were not reached is no statement about the pose.
-                Err(StaticsError::Unsettled { .. }) => unsettled += 1,
+                Err(StaticsError::TensionsNotConverged { .. }) => unsettled += 1,
                 Err(error) => panic!("{index}, {}: {error}", rule.name()),
             }
         }
@@ -200,6 +202,6 @@ fn a_miss_always_says_which_limits_are_in_the_way() {
         let text = error.to_string();
         assert!(text.contains("held by the m") && !text.contains("held by ;"), "{far:?}: {text}");
     }
-    let silent = Miss { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new() };
+    let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new() };
     assert_eq!(silent.to_string(), "by 1.0000 N");
 }

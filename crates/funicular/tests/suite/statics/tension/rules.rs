@@ -1,6 +1,6 @@
 //! What each rule promises: no other tensions that hold are better. Sagging ropes, many cables.
 
-use super::{POINT, changed, check, cogiro, cogiro_pose, least_stiffness, spread, tau};
+use super::{POINT, changed, check, cogiro, cogiro_pose, min_stiffness, spread, tau};
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Equilibrium, StaticModel, StaticsError, TensionRange, TensionRule};
@@ -16,7 +16,7 @@ fn cost(robot: &Robot, held: &Equilibrium, rule: &TensionRule) -> f64 {
         TensionRule::Middle => ranges
             .zip(&held.cables)
             .fold(f64::NEG_INFINITY, |most, (range, cable)| most.max(-range.margin(cable).relative().unwrap())),
-        TensionRule::Stiffest => -least_stiffness(held),
+        TensionRule::Stiffest => -min_stiffness(held),
     }
 }
 
@@ -76,7 +76,7 @@ fn a_point_mass_on_eight_cables_has_five_dimensions_of_choice() {
 /// A point mass on many cables (a random robot of ours), its anchors spread evenly on a tube by the golden angle.
 fn many_cables(cables: usize, maximum: f64) -> Robot {
     let mut text = String::from(
-        "name = \"many\"\n[platform]\nmass_kg = 400.0\nfreedoms = \"point-mass\"\n[materials.rope]\n\
+        "name = \"many\"\n[platform]\nmass_kg = 400.0\nmotion = \"point-mass\"\n[materials.rope]\n\
          axial_stiffness_n = 1e5\nmass_kg_per_m = 0.01\n",
     );
     for i in 0..cables {

@@ -1,8 +1,8 @@
 //! Straight cables: against the corners of the polytope of tensions, found by other means.
 
-use super::{check, cogiro, cogiro_pose, least_stiffness, seven_cables, seven_pose, spread, tau};
+use super::{check, cogiro, cogiro_pose, min_stiffness, seven_cables, seven_pose, spread, tau};
 use funicular::math::DMat;
-use funicular::robot::{Freedoms, Pose, Robot};
+use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular::statics::{self, StaticModel, StaticsError, TensionRange, TensionRule};
 
 /// Straight cables at a pose, by means that share nothing with the program but vectors: the tensions that hold the
@@ -17,7 +17,7 @@ struct Straight {
 impl Straight {
     fn at(robot: &Robot, pose: &Pose, limits: [f64; 2]) -> Self {
         let m = robot.cables.len();
-        let n = if robot.platform.freedoms == Freedoms::Rigid { 6 } else { 3 };
+        let n = if robot.platform.motion == PlatformMotion::Rigid { 6 } else { 3 };
         let mut a = DMat::zeros(m, m);
         for (i, cable) in robot.cables.iter().enumerate() {
             let lever = pose.rot_wp * cable.attachment_p;
@@ -194,7 +194,7 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
             continue;
         };
         check(&robot, &held);
-        let best = least_stiffness(&held);
+        let best = min_stiffness(&held);
         let corners = Straight::at(&robot, &pose, limits).corners();
         // Corners, and points all over between them.
         for k in 0..200 {
@@ -208,7 +208,7 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
                 .collect();
             let wanted = Straight::at(&robot, &pose, limits).tensions(&z);
             let other = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Closest(wanted)).unwrap();
-            assert!(least_stiffness(&other) <= best * (1.0 + 1e-7), "{} > {best}", least_stiffness(&other));
+            assert!(min_stiffness(&other) <= best * (1.0 + 1e-7), "{} > {best}", min_stiffness(&other));
             tried += 1;
         }
     }

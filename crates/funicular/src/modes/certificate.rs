@@ -10,7 +10,7 @@ use thiserror::Error;
 /// Most modes of one list that anyone reads; a thousand take some 40 ms.
 pub const MOST: usize = 20_000;
 /// Most modes whose damped partners are sought; these take some 5 s.
-const MOST_DAMPED: usize = 2_000;
+const MAX_DAMPED: usize = 2_000;
 
 /// More modes than a list is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -38,7 +38,7 @@ pub fn check_count(dynamics: &Dynamics, below_hz: f64, most: usize) -> Result<()
 
 impl Modes {
     /// What to say of a list that is not certified.
-    pub fn doubt(&self) -> Option<String> {
+    pub fn caveat(&self) -> Option<String> {
         if self.certified {
             return None;
         }
@@ -48,7 +48,7 @@ impl Modes {
         Some(match inexact {
             Some(mode) if modes.len() + unstable_directions == *count_below && mode.residual <= RESIDUAL_LIMIT => {
                 format!(
-                    "the list of {listed} is not certified, though the count confirms its number: the exact cables are \
+                    "the list of {listed} is not certified, though the count confirms its number: the catenary-dynamic cables are \
                      not resolved up to {below_hz} Hz; lower the limit"
                 )
             }
@@ -68,21 +68,21 @@ impl Modes {
 /// The damped partners of a list, unless it is too long for them, and what there is to say of that.
 pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedModes>, Option<String>) {
     let count = undamped.modes.len();
-    if count > MOST_DAMPED {
+    if count > MAX_DAMPED {
         let said = format!(
-            "damping ratios are of first order: {count} modes are more than the {MOST_DAMPED} whose complex frequencies \
+            "damping ratios are of first order: {count} modes are more than the {MAX_DAMPED} whose complex frequencies \
              are sought; lower the limit"
         );
         return (None, Some(said));
     }
     let damped = damped::of(dynamics, undamped);
-    let doubt = damped.doubt(undamped);
-    (Some(damped), doubt)
+    let caveat = damped.caveat(undamped);
+    (Some(damped), caveat)
 }
 
 impl DampedModes {
     /// What to say of the partners of an undamped list, beyond what there is to say of that list.
-    fn doubt(&self, undamped: &Modes) -> Option<String> {
+    fn caveat(&self, undamped: &Modes) -> Option<String> {
         match self.overdamped {
             0 if undamped.certified && !self.certified => Some(
                 "the damped list is not certified: one of its searches did not settle, or its count differs; damping \

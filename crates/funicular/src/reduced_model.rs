@@ -1,6 +1,6 @@
 //! A small second-order model of the whole robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
 //!
-//! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. In them the exact cable is
+//! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. In them the catenary-dynamic cable is
 //! no approximation (K is block diagonal, M couples the platform to each amplitude); what is approximated is that three
 //! modes of each cable stand for all those above the limit, and that damping in proportion to frequency has to become
 //! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 13.
@@ -40,7 +40,7 @@ pub struct Wanted {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Coordinate {
     /// Coordinate of the platform's motion about its origin ([m] or [rad]), in the order of
-    /// [`coordinate_names`](crate::robot::Freedoms::coordinate_names): of a rigid body δp and δθ in world axes.
+    /// [`coordinate_names`](crate::robot::PlatformMotion::coordinate_names): of a rigid body δp and δθ in world axes.
     Platform(usize),
     /// Amplitude of a clamped mode of a cable, of unit modal mass [m √kg].
     Clamped {
@@ -99,7 +99,7 @@ pub struct StateSpace {
 pub enum ReductionError {
     /// A cable is not exact.
     #[error(
-        "the reduced model is made of the modes of exact cables: choose the model `exact` (or one without vibration)"
+        "the reduced model is made of the modes of catenary-dynamic cables: choose the model `catenary-dynamic` (or one without vibration)"
     )]
     Model,
     /// A point on a cable.
@@ -136,7 +136,7 @@ pub fn reduce(
     outputs: &[(Signal, Quantity)],
     wanted: Wanted,
 ) -> Result<SecondOrder, ReductionError> {
-    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::Exact(_))) {
+    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
         return Err(ReductionError::Model);
     }
     // The answer of a cable to a force on itself has a kink, which the modes that are kept do not.
@@ -229,14 +229,14 @@ impl Channels {
     /// The row of a port over the coordinates.
     fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
         let mut row = vec![0.0; layout.coordinates.len()];
-        let coordinates = |vector: &Vec6| dynamics.coordinates().freedoms().reduced(vector);
+        let coordinates = |vector: &Vec6| dynamics.coordinates().motion().reduced(vector);
         match port {
             Port::Platform(vector) => {
-                row[..layout.freedoms].copy_from_slice(&coordinates(vector).as_slice()[..layout.freedoms]);
+                row[..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
             }
             Port::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
-                row[..layout.freedoms].copy_from_slice(&coordinates(&platform).as_slice()[..layout.freedoms]);
+                row[..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);
                 if let Some(term) = term {
                     let from = layout.first_of_term[term];
                     row[from..from + amplitudes.len()].copy_from_slice(&amplitudes);
@@ -249,14 +249,14 @@ impl Channels {
 
 /// Which coordinate stands where: the platform's, then for each cable its clamped modes in plane and across.
 struct Layout {
-    freedoms: usize,
+    dof: usize,
     first_of_term: Vec<usize>,
     coordinates: Vec<Coordinate>,
 }
 
 impl Layout {
-    fn new(freedoms: usize, cables: &[CableBlocks]) -> Self {
-        let mut coordinates: Vec<Coordinate> = (0..freedoms).map(Coordinate::Platform).collect();
+    fn new(dof: usize, cables: &[CableBlocks]) -> Self {
+        let mut coordinates: Vec<Coordinate> = (0..dof).map(Coordinate::Platform).collect();
         let mut first_of_term = Vec::with_capacity(cables.len());
         for blocks in cables {
             first_of_term.push(coordinates.len());
@@ -266,7 +266,7 @@ impl Layout {
                 frequency_hz: mode.pole.sqrt() / TAU,
             }));
         }
-        Self { freedoms, first_of_term, coordinates }
+        Self { dof, first_of_term, coordinates }
     }
 }
 
@@ -347,7 +347,7 @@ fn assembled(
     wanted: Wanted,
 ) -> Result<SecondOrder, ReductionError> {
     let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
-    let layout = Layout::new(dynamics.freedoms(), &cables);
+    let layout = Layout::new(dynamics.dof(), &cables);
     let n = layout.coordinates.len();
 
     let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), n);

@@ -2,7 +2,7 @@
 
 use crate::math::{Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, StraightCable};
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::robot::{PlatformMotion, Pose, Robot};
 
 /// Limit of steps. Only a start is wanted: the gaps need not vanish, because sagging cables are longer than the chord.
 const MAX_STEPS: usize = 20;
@@ -48,7 +48,7 @@ pub(super) fn pose_from_lengths(robot: &Robot, lengths: &[f64]) -> Pose {
 
     // In its plane, if it has one.
     let coordinates = Coordinates::of(robot);
-    if let Freedoms::Planar(plane) = coordinates.freedoms() {
+    if let PlatformMotion::Planar(plane) = coordinates.motion() {
         pose.position_w -= plane.normal_w() * plane.distance(&pose.position_w);
     }
 

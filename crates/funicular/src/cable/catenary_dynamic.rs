@@ -13,15 +13,15 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations a pole.
 //! Derivation: docs/theory.md, section 9.
 
+mod internal_motion;
 mod mesh;
 mod partition;
 mod poles;
-mod shape;
 
+pub(crate) use internal_motion::InternalMotion;
+pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
 pub use poles::PoleResidue;
-pub(crate) use shape::Swing;
-pub use shape::{Displacements, Stations};
 
 use super::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;
@@ -35,7 +35,7 @@ use thiserror::Error;
 
 /// One cable as poles and residues, in plane and out of plane.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Exact {
+pub struct CatenaryDynamic {
     /// In plane: components (horizontal, up) of the start, then of the end.
     pub in_plane: PoleResidue<4, 3>,
     /// Out of plane: start, then end.
@@ -57,7 +57,7 @@ pub enum ExactError {
     /// The frequency asked needs too fine a discretisation.
     #[error(
         "the frequency limit asked needs {unknowns} or more unknowns for one cable, at most {limit} are taken: lower the \
-         limit, or choose the model `closed-form`"
+         limit, or choose the model `shallow-dynamic`"
     )]
     TooFine {
         /// Unknowns needed.
@@ -67,11 +67,11 @@ pub enum ExactError {
     },
 }
 
-/// The platform end of an exact cable: its axes and its damping.
+/// The platform end of a catenary-dynamic cable: its axes and its damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactEnd {
     /// Poles and residues, the platform being the start.
-    pub exact: Exact,
+    pub exact: CatenaryDynamic,
     /// e horizontal towards the anchor, n up, b across.
     pub axes: LocalAxes,
     /// Damping of the rope.
@@ -96,7 +96,7 @@ impl ExactEnd {
         in_plane_only: bool,
         limit: f64,
     ) -> Result<Self, ExactError> {
-        let exact = Exact::new(&hanging.catenary, mass_per_length, limit)?;
+        let exact = CatenaryDynamic::new(&hanging.catenary, mass_per_length, limit)?;
         let (e, n) = hanging.axes_w();
         let axes = LocalAxes { e, n, b: e.cross(&n) };
         Ok(Self { exact, axes, damping, mass_per_length, in_plane_only, kept: None })
@@ -145,9 +145,9 @@ impl ExactEnd {
     }
 
     /// Minus the derivative of the undamped stiffness by ω² [kg].
-    pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
+    pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        self.with_out_of_plane(self.plane().moving_mass(x, 0..0), |across| across.moving_mass(x, 0..0))
+        self.with_out_of_plane(self.plane().effective_mass(x, 0..0), |across| across.effective_mass(x, 0..0))
     }
 
     /// Number of clamped-clamped frequencies below ω [rad/s].
@@ -192,15 +192,15 @@ impl ExactEnd {
             None => Default::default(),
         };
         let stiffness = self.with_out_of_plane(k, |_| k_across);
-        let moving_mass = self.with_out_of_plane(mass, |_| mass_across);
-        (stiffness, moving_mass, self.near_poles(plane, across))
+        let effective_mass = self.with_out_of_plane(mass, |_| mass_across);
+        (stiffness, effective_mass, self.near_poles(plane, across))
     }
 
     /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], the poles of
     /// [`beside_poles`](Self::beside_poles) being amplitudes of their own.
-    pub(crate) fn moving_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
+    pub(crate) fn effective_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
         let (plane, across) = self.near(x, width);
-        self.with_out_of_plane(self.plane().moving_mass(x, plane), |family| family.moving_mass(x, across))
+        self.with_out_of_plane(self.plane().effective_mass(x, plane), |family| family.effective_mass(x, across))
     }
 
     /// Places of the poles nearer to x than the fraction `width` of it, in plane and out of plane.
@@ -209,7 +209,7 @@ impl ExactEnd {
     }
 
     fn near_poles(&self, plane: Range<usize>, across: Range<usize>) -> Vec<NearPole> {
-        let Exact { in_plane, out_of_plane, .. } = &self.exact;
+        let CatenaryDynamic { in_plane, out_of_plane, .. } = &self.exact;
         let in_plane = plane.map(|index| {
             let [e, n, ..] = in_plane.participation[index];
             NearPole { direction: [e, n, 0.0], pole: in_plane.poles[index], across: false, index }
@@ -235,12 +235,12 @@ pub(crate) struct NearPole {
 }
 
 /// Most unknowns of one cable in its plane; they take about two seconds.
-const MOST_UNKNOWNS: usize = 1200;
+const MAX_UNKNOWNS: usize = 1200;
 
 /// Estimated relative error of the clamped frequencies that the discretisation is refined to.
 const WANTED_ERROR: f64 = 1e-11;
 
-impl Exact {
+impl CatenaryDynamic {
     /// Of a static cable, good for frequencies up to ω = `limit` [rad/s].
     ///
     /// # Errors
@@ -248,7 +248,7 @@ impl Exact {
     ///
     /// # Example
     /// ```
-    /// use funicular::cable::exact::Exact;
+    /// use funicular::cable::catenary_dynamic::Exact;
     /// use funicular::catenary::{Catenary, Rope};
     /// let rope = Rope { unstrained_length: 6.9, weight_per_length: 0.657, axial_stiffness: 251_327.0 };
     /// let cable = Catenary::between(5.54, 4.025, rope)?;
@@ -277,8 +277,8 @@ impl Exact {
         let mut mesh = Mesh::new(catenary, mass_per_length, limit, if loaded { &arc_lengths } else { &[] })?;
         loop {
             let unknowns = mesh.unknowns();
-            if unknowns > MOST_UNKNOWNS {
-                return Err(ExactError::TooFine { unknowns, limit: MOST_UNKNOWNS });
+            if unknowns > MAX_UNKNOWNS {
+                return Err(ExactError::TooFine { unknowns, limit: MAX_UNKNOWNS });
             }
 
             // Static stiffness of both ends.
@@ -293,7 +293,7 @@ impl Exact {
             let error = plane.error.max(across.error);
 
             // Taken if fine enough, or refined.
-            if error <= WANTED_ERROR || mesh.refined == MOST_REFINEMENTS {
+            if error <= WANTED_ERROR || mesh.refined == MAX_REFINEMENTS {
                 let (in_plane, out_of_plane) = (plane.ends, across.ends);
                 let exact = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() };
                 let (in_plane, out_of_plane) = (plane.stations, across.stations);
@@ -315,9 +315,9 @@ impl Exact {
     }
 
     /// Minus the derivative of the undamped stiffness by ω² in the same axes [kg].
-    pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
+    pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        local(self.in_plane.moving_mass(x, 0..0), self.out_of_plane.moving_mass(x, 0..0))
+        local(self.in_plane.effective_mass(x, 0..0), self.out_of_plane.effective_mass(x, 0..0))
     }
 }
 
@@ -327,4 +327,4 @@ fn local<T>([axial, coupling, normal]: [T; 3], [out_of_plane]: [T; 1]) -> LocalS
 }
 
 /// Refinements until the estimate is taken as it is; each adds a sixth of the degree and eight.
-const MOST_REFINEMENTS: usize = 4;
+const MAX_REFINEMENTS: usize = 4;

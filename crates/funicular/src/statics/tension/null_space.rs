@@ -2,13 +2,13 @@
 
 use crate::math::Vec6;
 
-/// Condition number of the balance beyond which the cables do not span the freedoms.
+/// Condition number of the balance beyond which the cables do not span the degrees of freedom.
 const SINGULAR: f64 = 1e10;
 
-/// The solutions σ of `Cᵀ σ = b`, C with a row a cable and a column a freedom: `σ = particular + N z`, N orthonormal.
+/// The solutions σ of `Cᵀ σ = b`, C with a row a cable and a column a degree of freedom: `σ = particular + N z`, N orthonormal.
 pub(super) struct Solutions {
     cables: usize,
-    freedoms: usize,
+    dof: usize,
     /// Orthogonal, by columns; the first ones span the rows of the balance, the others, if they are there, are N.
     basis: Vec<f64>,
     /// Upper triangle R of `C = basis R`, by columns.
@@ -18,21 +18,15 @@ pub(super) struct Solutions {
 }
 
 impl Solutions {
-    /// From the wrench per unit of every cable, its first `freedoms` components, each divided by its scale, and the
+    /// From the wrench per unit of every cable, its first `motion` components, each divided by its scale, and the
     /// wrench `b`. `None` at a singular pose. The `directions` N take memory in proportion to the square of the cables'
     /// number.
-    pub(super) fn of(
-        columns: &[Vec6],
-        scales: &[f64],
-        right: &Vec6,
-        freedoms: usize,
-        directions: bool,
-    ) -> Option<Self> {
+    pub(super) fn of(columns: &[Vec6], scales: &[f64], right: &Vec6, dof: usize, directions: bool) -> Option<Self> {
         let cables = columns.len();
 
         // The columns of the transposed balance.
-        let mut reflectors = vec![0.0; cables * freedoms];
-        for j in 0..freedoms {
+        let mut reflectors = vec![0.0; cables * dof];
+        for j in 0..dof {
             for i in 0..cables {
                 reflectors[j * cables + i] = columns[i][j] / scales[i];
             }
@@ -40,7 +34,7 @@ impl Solutions {
 
         // Householder's QR.
         let mut triangle = [[0.0; 6]; 6];
-        for j in 0..freedoms {
+        for j in 0..dof {
             let (done, rest) = reflectors.split_at_mut((j + 1) * cables);
             let here = &mut done[j * cables..];
             triangle[j][..j].copy_from_slice(&here[..j]);
@@ -58,33 +52,33 @@ impl Solutions {
         }
 
         // Q from the reflectors.
-        let mut basis = vec![0.0; cables * if directions { cables } else { freedoms }];
+        let mut basis = vec![0.0; cables * if directions { cables } else { dof }];
         for (k, column) in basis.chunks_exact_mut(cables).enumerate() {
             column[k] = 1.0;
-            for j in (0..freedoms).rev() {
+            for j in (0..dof).rev() {
                 reflect(&reflectors[j * cables + j..(j + 1) * cables], &mut column[j..]);
             }
         }
-        if condition(&triangle, freedoms) > SINGULAR {
+        if condition(&triangle, dof) > SINGULAR {
             return None;
         }
 
         // Rᵀ y = b.
         let mut y = [0.0; 6];
-        for j in 0..freedoms {
+        for j in 0..dof {
             y[j] = (right[j] - (0..j).map(|k| triangle[j][k] * y[k]).sum::<f64>()) / triangle[j][j];
         }
 
         let mut particular = vec![0.0; cables];
-        for (y, column) in y.iter().zip(basis.chunks_exact(cables)).take(freedoms) {
+        for (y, column) in y.iter().zip(basis.chunks_exact(cables)).take(dof) {
             particular.iter_mut().zip(column).for_each(|(p, q)| *p += y * q);
         }
-        Some(Self { cables, freedoms, basis, triangle, particular })
+        Some(Self { cables, dof, basis, triangle, particular })
     }
 
     /// Number of equations.
-    pub(super) fn freedoms(&self) -> usize {
-        self.freedoms
+    pub(super) fn dof(&self) -> usize {
+        self.dof
     }
 
     /// Whether N is there, which [`Self::part`], [`Self::direction`], [`Self::along`] and [`Self::at`] need.
@@ -94,7 +88,7 @@ impl Solutions {
 
     /// What cable `i` takes part in the balance with: a row of an orthonormal basis of C's columns.
     pub(super) fn balance(&self, i: usize) -> Vec6 {
-        Vec6::from_fn(|k, _| if k < self.freedoms { self.basis[k * self.cables + i] } else { 0.0 })
+        Vec6::from_fn(|k, _| if k < self.dof { self.basis[k * self.cables + i] } else { 0.0 })
     }
 
     /// The solution nearest to a vector.
@@ -102,7 +96,7 @@ impl Solutions {
         let mut nearest: Vec<f64> = (0..self.cables).map(sigma).collect();
         // Twice: the second time takes away the rounding of the first.
         for _ in 0..2 {
-            for column in self.basis.chunks_exact(self.cables).take(self.freedoms) {
+            for column in self.basis.chunks_exact(self.cables).take(self.dof) {
                 let along: f64 = column.iter().zip(&nearest).map(|(q, s)| q * s).sum();
                 nearest.iter_mut().zip(column).for_each(|(s, q)| *s -= along * q);
             }
@@ -113,22 +107,22 @@ impl Solutions {
 
     /// Number of directions.
     pub(super) fn redundancy(&self) -> usize {
-        self.cables - self.freedoms
+        self.cables - self.dof
     }
 
     /// What cable `i` takes part in each of the directions with: a row of N.
     pub(super) fn part(&self, i: usize) -> impl Iterator<Item = &f64> {
-        self.basis[self.freedoms * self.cables + i..].iter().step_by(self.cables)
+        self.basis[self.dof * self.cables + i..].iter().step_by(self.cables)
     }
 
     /// Direction `k`, a column of N.
     pub(super) fn direction(&self, k: usize) -> &[f64] {
-        &self.basis[(self.freedoms + k) * self.cables..][..self.cables]
+        &self.basis[(self.dof + k) * self.cables..][..self.cables]
     }
 
     /// Components `Nᵀ σ` of a vector along the directions.
     pub(super) fn along(&self, sigma: impl Fn(usize) -> f64) -> Vec<f64> {
-        self.basis[self.freedoms * self.cables..]
+        self.basis[self.dof * self.cables..]
             .chunks_exact(self.cables)
             .map(|column| column.iter().enumerate().map(|(i, q)| q * sigma(i)).sum())
             .collect()
@@ -137,19 +131,19 @@ impl Solutions {
     /// The solution with these components.
     pub(super) fn at(&self, z: &[f64]) -> Vec<f64> {
         let mut sigma = self.particular.clone();
-        for (z, column) in z.iter().zip(self.basis[self.freedoms * self.cables..].chunks_exact(self.cables)) {
+        for (z, column) in z.iter().zip(self.basis[self.dof * self.cables..].chunks_exact(self.cables)) {
             sigma.iter_mut().zip(column).for_each(|(s, q)| *s += z * q);
         }
         sigma
     }
 
     /// The y of the least `|g − C y|`: what a change of the balance costs when g is the slope of the cost.
-    pub(super) fn prices(&self, g: impl Fn(usize) -> f64) -> Vec6 {
+    pub(super) fn multipliers(&self, g: impl Fn(usize) -> f64) -> Vec6 {
         let mut y = Vec6::zeros();
-        for k in (0..self.freedoms).rev() {
+        for k in (0..self.dof).rev() {
             let column = &self.basis[k * self.cables..(k + 1) * self.cables];
             let along: f64 = column.iter().enumerate().map(|(i, q)| q * g(i)).sum();
-            let others: f64 = (k + 1..self.freedoms).map(|j| self.triangle[j][k] * y[j]).sum();
+            let others: f64 = (k + 1..self.dof).map(|j| self.triangle[j][k] * y[j]).sum();
             y[k] = (along - others) / self.triangle[k][k];
         }
         y
@@ -206,7 +200,7 @@ mod tests {
             assert!(back.iter().zip(&z).all(|(a, b)| (a - b).abs() < 1e-13), "{back:?}");
             let same = all.projected(|i| sigma[i]);
             assert!(same.iter().zip(&sigma).all(|(a, b)| (a - b).abs() < 1e-13), "{same:?}");
-            let y = all.prices(|i| (0..n).map(|j| columns[i][j] / scales[i] * (1.0 + j as f64)).sum());
+            let y = all.multipliers(|i| (0..n).map(|j| columns[i][j] / scales[i] * (1.0 + j as f64)).sum());
             assert!((0..n).all(|j| (y[j] - 1.0 - j as f64).abs() < 1e-11), "{y}");
         }
     }

@@ -5,7 +5,7 @@ use super::{json_of, numbers, run, run_with, stderr, stdout};
 /// A plate in the xz plane on three cables.
 const PLATE: &str = r#"name = "plate"
 [platform]
-freedoms = "planar-xz"
+motion = "planar-xz"
 mass_kg = 8.0
 inertia_kg_m2 = 0.3
 [materials.rope]
@@ -41,7 +41,7 @@ fn two_cables() -> String {
 #[test]
 fn every_analysis_of_a_planar_robot_gives_six_components_with_zeros_out_of_the_plane() {
     let checked = json_of(&["check", "-"], PLATE);
-    assert_eq!((&checked["freedoms"], &checked["platform"]["freedoms"]), (&3.into(), &"planar-xz".into()));
+    assert_eq!((&checked["motion"], &checked["platform"]["motion"]), (&3.into(), &"planar-xz".into()));
     assert!(checked["warnings"].as_array().unwrap().is_empty());
     let modes = json_of(&["modes", "-", "--below-hz", "12"], PLATE);
     let found = modes["modes"].as_array().unwrap();
@@ -117,6 +117,7 @@ fn of_a_pose_that_two_cables_cannot_hold_the_nearest_is_given_and_said() {
     assert!(modes["certified"] == true && modes["warnings"][0].as_str().unwrap().contains("nearest"));
     let ideal = run_with(&["statics", "-", "--static-model", "ideal"], &file);
     assert!(
-        ideal.status.code() == Some(2) && stderr(&ideal).contains("2 cables for 3 freedoms can hold no given pose")
+        ideal.status.code() == Some(2)
+            && stderr(&ideal).contains("2 cables for 3 degrees of freedom can hold no given pose")
     );
 }

@@ -3,7 +3,7 @@
 use funicular::cable::CableModel;
 use funicular::cable_motion::WeightedMotions;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::modes::track::{Tracked, branches};
+use funicular::modes::tracking::{Tracked, branches};
 use funicular::modes::{self, Mode};
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
@@ -12,9 +12,8 @@ use std::fmt::Write;
 /// A point mass without weight between pairs of cables along x, y and z; those along x are `ratio` times as stiff as those
 /// along y, and a pair across both has a part `coupling` of that.
 fn star(ratio: f64, coupling: f64) -> Robot {
-    let mut text = String::from(
-        "name = \"star\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 2.0\nfreedoms = \"point-mass\"\n",
-    );
+    let mut text =
+        String::from("name = \"star\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n");
     let diagonal = 2.0 * 0.5_f64.sqrt();
     let pairs = [
         ("x", [2.0, 0.0, 0.0], ratio),

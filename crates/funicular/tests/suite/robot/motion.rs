@@ -6,7 +6,7 @@ use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{DMat, Mat3, Mat6, Vec3, Vec6};
 use funicular::modes::{self, Mode};
 use funicular::response::{self, Quantity};
-use funicular::robot::{Freedoms, Plane, Pose, Robot};
+use funicular::robot::{Plane, PlatformMotion, Pose, Robot};
 use funicular::statics::{self, Stability, StaticModel, TensionRange, TensionRule};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -17,14 +17,14 @@ const YUAN: &str = funicular_robots::YUAN2014_4MM;
 fn in_plane(robot: &Robot, normal: Vec3, pose: &Pose) -> Robot {
     let mut planar = robot.clone();
     let offset = normal.normalize().dot(&pose.position_w);
-    planar.platform.freedoms = Freedoms::Planar(Plane::new(normal, offset).unwrap());
+    planar.platform.motion = PlatformMotion::Planar(Plane::new(normal, offset).unwrap());
     planar
 }
 
 /// A plate in the xz plane on two cables of mass `rope_mass` [kg/m].
 fn plate(rope_mass: f64) -> String {
     format!(
-        "name = \"plate\"\n[platform]\nfreedoms = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
+        "name = \"plate\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
          center_of_mass_m = [0.02, 0.0, -0.05]\n[materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = {rope_mass}\n\
          [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 3.0]\nattachment_m = [-0.3, 0.0, 0.1]\n\
          [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, 3.2]\nattachment_m = [0.3, 0.0, 0.1]\n\
@@ -35,7 +35,7 @@ fn plate(rope_mass: f64) -> String {
 /// A rigid body that is two such plates, one at y = ±b.
 fn two_plates(rope_mass: f64, b: f64) -> Robot {
     let mut text = plate(rope_mass)
-        .replace("freedoms = \"planar-xz\"\n", "")
+        .replace("motion = \"planar-xz\"\n", "")
         .replace("mass_kg = 8.0", "mass_kg = 16.0")
         .replace("inertia_kg_m2 = 0.3", "inertia_kg_m2 = [2.0, 0.6, 2.1]");
     let cables: Vec<String> = text.split("[[cables]]\n").skip(1).map(str::to_owned).collect();
@@ -55,7 +55,7 @@ fn two_plates(rope_mass: f64, b: f64) -> Robot {
 fn a_plate_on_two_upright_springs_has_the_frequencies_of_the_hand_formula() {
     let (mass, inertia, a, length, stiffness) = (6.0, 0.35, 0.4, 2.0, 3e4);
     let text = format!(
-        "name = \"swing\"\n[platform]\nfreedoms = \"planar-xz\"\nmass_kg = {mass}\ninertia_kg_m2 = {inertia}\n\
+        "name = \"swing\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = {mass}\ninertia_kg_m2 = {inertia}\n\
          [materials.rope]\naxial_stiffness_n = {stiffness}\nmass_kg_per_m = 0\n\
          [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-0.4, 0, {length}]\nattachment_m = [-0.4, 0, 0]\n\
          [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [0.4, 0, {length}]\nattachment_m = [0.4, 0, 0]\n"
@@ -63,10 +63,10 @@ fn a_plate_on_two_upright_springs_has_the_frequencies_of_the_hand_formula() {
     let robot = Robot::from_toml(&text).unwrap();
     let tension = mass * 9.81 / 2.0;
     let unstrained = length / (1.0 + tension / stiffness);
-    // Two cables, three freedoms: the lengths alone say where it hangs.
+    // Two cables, three degrees of freedom: the lengths alone say where it hangs.
     let rest = statics::forward(&robot, &[unstrained; 2], StaticModel::Spring, None).unwrap();
     assert!(rest.pose.position_w.norm() < 1e-9, "{}", rest.pose.position_w);
-    let linearisation = Linearisation { cable_model: CableModel::CatenaryTangent, ..Default::default() };
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() };
     let found = modes::below(&Dynamics::about(&robot, &rest, linearisation, 100.0).unwrap(), 100.0);
     let axial = stiffness / unstrained;
     let expected = [2.0 * tension / (length * mass), 2.0 * axial / mass, 2.0 * axial * a * a / inertia]
@@ -82,19 +82,19 @@ fn a_plate_on_two_upright_springs_has_the_frequencies_of_the_hand_formula() {
 fn a_planar_platform_has_a_plane_and_one_moment_of_inertia() {
     let file = plate(0.4);
     let robot = Robot::from_toml(&file.replace("planar-xz\"", "planar-xz\"\nplane_offset_m = 0.25")).unwrap();
-    let Freedoms::Planar(plane) = robot.platform.freedoms else { panic!("planar") };
+    let PlatformMotion::Planar(plane) = robot.platform.motion else { panic!("planar") };
     assert_eq!((plane.normal_w(), plane.offset()), (Vec3::y(), 0.25));
     assert_eq!(robot.platform.inertia_p, Mat3::from_diagonal(&Vec3::new(0.0, 0.3, 0.0)));
     let any = file.replace("\"planar-xz\"", "\"planar\"\nplane_normal = [0, 3, 4]");
-    let Freedoms::Planar(plane) = Robot::from_toml(&any).unwrap().platform.freedoms else { panic!("planar") };
+    let PlatformMotion::Planar(plane) = Robot::from_toml(&any).unwrap().platform.motion else { panic!("planar") };
     assert!((plane.normal_w() - Vec3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
     assert!(Robot::from_toml(&file.replace("m2 = 0.3", "m2 = [0.3, 0.4, 0.5]")).is_ok());
     for (from, to, said, line) in [
         ("\"planar-xz\"", "\"planar\"", "needs the normal of its plane", 3),
-        ("\"planar-xz\"", "\"planar-xz\"\nplane_normal = [0, 1, 0]", "`plane_normal` goes with `freedoms", 4),
+        ("\"planar-xz\"", "\"planar-xz\"\nplane_normal = [0, 1, 0]", "`plane_normal` goes with `degrees of freedom", 4),
         ("\"planar-xz\"", "\"planar\"\nplane_normal = [0, 0, 0]", "has no direction", 4),
         ("\"planar-xz\"", "\"rigid\"\nplane_offset_m = 1", "`plane_offset_m` is of a planar platform", 4),
-        ("\"planar-xz\"", "\"planar-zx\"", "`freedoms` is \"planar-zx\", which is unknown", 3),
+        ("\"planar-xz\"", "\"planar-zx\"", "`motion` is \"planar-zx\", which is unknown", 3),
         ("m2 = 0.3", "m2 = -0.3", "`inertia_kg_m2` is -0.3, it must be positive", 5),
         ("attachment_m = [-0.3, 0.0, 0.1]\n", "", "has no `attachment_m`", 10),
     ] {
@@ -120,7 +120,9 @@ fn moving(modes: &[Mode]) -> Vec<&Mode> {
 
 #[test]
 fn a_plate_is_the_symmetric_half_of_two_rigidly_joined_ones() {
-    for (rope_mass, model) in [(0.4, CableModel::Exact), (0.05, CableModel::ClosedForm), (0.4, CableModel::StaticSag)] {
+    for (rope_mass, model) in
+        [(0.4, CableModel::CatenaryDynamic), (0.05, CableModel::ShallowDynamic), (0.4, CableModel::ShallowStatic)]
+    {
         let robot = Robot::from_toml(&plate(rope_mass)).unwrap();
         let pose = Pose::new([0.1, 0.0, 0.4], [0.0, 5.0, 0.0]);
         let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
@@ -160,7 +162,7 @@ fn cables_in_the_plane_vibrate_across_it_with_the_platform_at_rest() {
     let robot = Robot::from_toml(&plate(0.02)).unwrap();
     let pose = Pose::new([0.1, 0.0, 0.4], [0.0, 5.0, 0.0]);
     let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
-    let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Default::default() };
     let found = modes::below(&Dynamics::about(&robot, &held, linearisation, 30.0).unwrap(), 30.0);
     assert!(found.certified && found.modes.len() == found.count_below);
     let resting: Vec<f64> =
@@ -304,32 +306,32 @@ proptest! {
         // Slack robots on a slope may have no bottom within reach of the search; that is another test's matter.
         prop_assume!(rest.is_ok());
         let rest = rest.unwrap();
-        prop_assert!(planar.platform.freedoms.check(&rest.pose).is_ok());
-        let freedoms = planar.platform.freedoms;
+        prop_assert!(planar.platform.motion.check(&rest.pose).is_ok());
+        let motion = planar.platform.motion;
         let wrench = statics::wrench(&planar, &rest.pose, lengths, StaticModel::Catenary).unwrap();
         let force: f64 = rest.cables.iter().map(|c| c.tension_platform).sum::<f64>() + planar.platform.mass * 9.81;
-        prop_assert!(freedoms.allowed(&wrench).amax() < 1e-9 * force);
+        prop_assert!(motion.allowed(&wrench).amax() < 1e-9 * force);
         let stiffness = statics::tangent_stiffness(&planar, &rest).unwrap();
         for k in 0..3 {
-            let unit = freedoms.expanded(&Vec6::ith(k, 1.0));
+            let unit = motion.expanded(&Vec6::ith(k, 1.0));
             let h = 1e-6;
             let at = |step: f64| {
                 let d = unit * step;
                 let pose = rest.pose.moved(&Vec3::new(d[0], d[1], d[2]), &Vec3::new(d[3], d[4], d[5]));
                 statics::wrench(&planar, &pose, lengths, StaticModel::Catenary).unwrap()
             };
-            let slope = freedoms.reduced(&((at(-h) - at(h)) / (2.0 * h)));
-            let exact = freedoms.reduced(&(stiffness * unit));
+            let slope = motion.reduced(&((at(-h) - at(h)) / (2.0 * h)));
+            let exact = motion.reduced(&(stiffness * unit));
             prop_assert!((slope - exact).amax() < 2e-4 * stiffness.amax().max(force), "{slope} {exact}");
         }
         if matches!(rest.stability, Stability::Stable { .. }) {
-            let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
+            let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Default::default() };
             if let Ok(dynamics) = Dynamics::about(&planar, &rest, linearisation, 8.0) {
                 let found = modes::below(&dynamics, 8.0);
                 prop_assert_eq!(found.modes.len(), found.count_below);
                 for mode in &found.modes {
                     let shape = Vec6::from(mode.shape);
-                    prop_assert!((freedoms.allowed(&shape) - shape).amax() < 1e-12 * shape.amax().max(1.0));
+                    prop_assert!((motion.allowed(&shape) - shape).amax() < 1e-12 * shape.amax().max(1.0));
                 }
             }
         }

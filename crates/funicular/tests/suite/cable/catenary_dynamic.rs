@@ -1,6 +1,6 @@
-//! The exact cable against its limits and identities.
+//! The catenary-dynamic cable against its limits and identities.
 
-use funicular::cable::exact::{Exact, ExactError};
+use funicular::cable::catenary_dynamic::{CatenaryDynamic, ExactError};
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::Complex;
 use std::f64::consts::TAU;
@@ -19,11 +19,11 @@ const CABLES: [[f64; 5]; 8] = [
 ];
 
 /// One of them with its exact stiffness up to a frequency, and its mass per length.
-fn cable([span, rise, ratio, axial_stiffness, mass]: [f64; 5], up_to_hz: f64) -> (Exact, f64) {
+fn cable([span, rise, ratio, axial_stiffness, mass]: [f64; 5], up_to_hz: f64) -> (CatenaryDynamic, f64) {
     let unstrained_length = ratio * f64::hypot(span, rise);
     let rope = Rope { unstrained_length, weight_per_length: mass * 9.81, axial_stiffness };
     let catenary = Catenary::between(span, rise, rope).unwrap();
-    (Exact::new(&catenary, mass, up_to_hz * TAU).unwrap(), mass)
+    (CatenaryDynamic::new(&catenary, mass, up_to_hz * TAU).unwrap(), mass)
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn the_clamped_frequencies_do_not_depend_on_how_far_they_are_asked_for() {
 fn at_rest_it_is_the_catenary_taut_it_is_the_string_massless_it_is_the_spring() {
     let rope = Rope { unstrained_length: 6.9, weight_per_length: 0.657, axial_stiffness: 251_327.0 };
     let sagging = Catenary::between(5.54, 4.025, rope).unwrap();
-    let exact = Exact::new(&sagging, 0.067, 20.0).unwrap();
+    let exact = CatenaryDynamic::new(&sagging, 0.067, 20.0).unwrap();
     let [[hh, hv], [_, vv]] = sagging.tangent();
     let k = exact.undamped(0.0);
     assert_eq!([k.axial, k.coupling, k.normal].map(f64::to_bits), [hh, hv, vv].map(f64::to_bits));
@@ -58,12 +58,12 @@ fn at_rest_it_is_the_catenary_taut_it_is_the_string_massless_it_is_the_spring() 
     let tension = taut.tension_at_start();
     let m = 0.05;
     let across = (1e5 * tension / (1e5 + tension) / m).sqrt() / 20.0;
-    let string = Exact::new(&taut, m, 12.0 * across * TAU).unwrap();
+    let string = CatenaryDynamic::new(&taut, m, 12.0 * across * TAU).unwrap();
     for (k, pole) in string.out_of_plane.poles.iter().take(10).enumerate() {
         let exact = (k as f64 + 1.0) * across;
         assert!((pole.sqrt() / TAU / exact - 1.0).abs() < 1e-11, "{k}");
     }
-    let light = Exact::new(&taut, 1e-17, 100.0).unwrap().undamped(100.0);
+    let light = CatenaryDynamic::new(&taut, 1e-17, 100.0).unwrap().undamped(100.0);
     assert!(
         (light.axial / (1e5 / 10.0) - 1.0).abs() < 1e-12
             && (light.out_of_plane / (tension / 10.05) - 1.0).abs() < 1e-12
@@ -76,7 +76,7 @@ fn it_is_symmetric_positive_in_mass_and_passive_with_damping() {
         let (exact, m) = cable(given, 12.0);
         for i in 1..200 {
             let omega = 0.37 * f64::from(i);
-            let mass = exact.moving_mass(omega);
+            let mass = exact.effective_mass(omega);
             assert!(
                 mass.axial > 0.0
                     && mass.axial * mass.normal >= mass.coupling * mass.coupling
@@ -96,10 +96,10 @@ fn it_is_symmetric_positive_in_mass_and_passive_with_damping() {
 fn a_cable_without_tension_and_a_limit_out_of_reach_are_refused() {
     let slack = Rope { unstrained_length: 12.0, weight_per_length: 0.0, axial_stiffness: 1e5 };
     let cable = Catenary::between(10.0, 0.0, slack).unwrap();
-    assert_eq!(Exact::new(&cable, 0.1, 10.0).unwrap_err(), ExactError::NoTension);
+    assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), ExactError::NoTension);
     let hanging = Rope { unstrained_length: 12.0, weight_per_length: 5.0, axial_stiffness: 1e5 };
     let cable = Catenary::between(0.0, 2.0, hanging).unwrap();
-    assert_eq!(Exact::new(&cable, 0.1, 10.0).unwrap_err(), ExactError::NoTension);
+    assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), ExactError::NoTension);
     let cable = Catenary::between(10.0, 0.0, hanging).unwrap();
-    assert!(matches!(Exact::new(&cable, 0.5, 1e5), Err(ExactError::TooFine { .. })));
+    assert!(matches!(CatenaryDynamic::new(&cable, 0.5, 1e5), Err(ExactError::TooFine { .. })));
 }

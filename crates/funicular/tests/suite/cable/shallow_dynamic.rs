@@ -1,18 +1,18 @@
 //! The closed form against identities.
 
-use funicular::cable::closed_form::ClosedForm;
+use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::Vec3;
 use funicular::robot::Damping;
 use std::f64::consts::PI;
 
 /// The paper's cable of Fig. 2, seen from its upper end.
-fn papers_cable(damping: Damping) -> ClosedForm {
+fn papers_cable(damping: Damping) -> ShallowDynamic {
     let (chord, tension, axial_stiffness, mass, gravity) = (6.848, 77.6, 251.32e3, 0.067, 9.81);
     let (sin, cos) = f64::to_radians(36.0).sin_cos();
     let sag = Sag::new(chord, cos, tension, axial_stiffness, mass, mass * gravity);
     let axes = LocalAxes::of_chord(&(Vec3::new(cos, 0.0, sin) * chord), &Vec3::zeros(), &Vec3::z());
-    ClosedForm::new(sag, axes, damping, false)
+    ShallowDynamic::new(sag, axes, damping, false)
 }
 
 /// Half of the frequencies in plane are those of the string: antisymmetric modes do not stretch a shallow cable.

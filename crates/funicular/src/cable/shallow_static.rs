@@ -4,7 +4,7 @@ use super::{LocalStiffness, Sag};
 
 /// Local stiffness [N/m]: `k_a = (EA/L_e)/(1 + λ²/12)`, τ/l across, no coupling.
 ///
-/// The limit of the closed form at rest. The exact tangent of the catenary is [`super::CableModel::CatenaryTangent`].
+/// The limit of the closed form at rest. The exact tangent of the catenary is [`super::CableModel::CatenaryStatic`].
 ///
 /// # References
 /// H. M. Irvine, Cable Structures, MIT Press 1981, section 2.5; docs/theory.md, equation (19).

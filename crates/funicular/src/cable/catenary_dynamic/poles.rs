@@ -120,7 +120,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 
     /// Entries of minus the derivative of the undamped stiffness by ω² [kg]:
     /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω², without the poles `left_out`.
-    pub fn moving_mass(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
+    pub fn effective_mass(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
         let mut sums = self.start_mass();
         for k in (0..self.poles.len()).filter(|k| !left_out.contains(k)) {
             let pole = self.poles[k];

@@ -1,7 +1,7 @@
 //! Several equilibria of the same lengths, against Morse's count, a scan of all angles, and other starts.
 
 use funicular::math::Vec3;
-use funicular::robot::{Freedoms, Plane, Pose, Robot, State};
+use funicular::robot::{Plane, PlatformMotion, Pose, Robot, State};
 use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 
@@ -39,7 +39,7 @@ fn lists_of_equilibria_have_the_sum_that_they_must_have() {
             // The wrench there, by the function that knows nothing of the search.
             let wrench = statics::wrench(&robot, &one.equilibrium.pose, &lengths, StaticModel::Catenary).unwrap();
             let size: f64 = one.equilibrium.cables.iter().map(|cable| cable.tension_platform).sum();
-            let force = robot.platform.freedoms.allowed(&wrench);
+            let force = robot.platform.motion.allowed(&wrench);
             assert!(force.fixed_rows::<3>(0).norm() < 1e-9 * size, "{name}: {wrench}");
             // From beside it the platform falls back, or away.
             let aside =
@@ -66,19 +66,19 @@ fn a_planar_robot_has_the_equilibria_that_a_scan_of_all_angles_shows() {
 /// Compares the equilibria and returns their number.
 fn compare_with_a_scan(of: &[([f64; 2], [f64; 2], f64)]) -> usize {
     let cables: Vec<_> = of.iter().map(|([x, z], [a, c], length)| ([*x, 0.0, *z], [*a, 0.0, *c], *length)).collect();
-    let text = |freedoms: &str, inertia: &str| {
+    let text = |dof: &str, inertia: &str| {
         let head = format!(
-            "name = \"bar\"\n[platform]\nfreedoms = \"{freedoms}\"\nmass_kg = 4\n{inertia}\n[materials.r]\n\
+            "name = \"bar\"\n[platform]\nmotion = \"{dof}\"\nmass_kg = 4\n{inertia}\n[materials.r]\n\
              axial_stiffness_n = 3e4\nmass_kg_per_m = 0.2\n"
         );
         cables.iter().enumerate().fold(head, |text, (i, (anchor, attachment, length))| {
-            let attachment = if freedoms == "point-mass" { String::new() } else { format!("attachment_m = {attachment:?}\n") };
+            let attachment = if dof == "point-mass" { String::new() } else { format!("attachment_m = {attachment:?}\n") };
             format!("{text}[[cables]]\nname = \"{i}\"\nmaterial = \"r\"\nanchor_m = {anchor:?}\n{attachment}unstrained_length_m = {length}\n")
         })
     };
     let robot =
         Robot::from_toml(&text("planar-xz", "inertia_kg_m2 = 0.3\ncenter_of_mass_m = [0.05, 0, -0.1]")).unwrap();
-    assert_eq!(robot.platform.freedoms, Freedoms::Planar(Plane::new(Vec3::y(), 0.0).unwrap()));
+    assert_eq!(robot.platform.motion, PlatformMotion::Planar(Plane::new(Vec3::y(), 0.0).unwrap()));
     let point = Robot::from_toml(&text("point-mass", "")).unwrap();
     let lengths: Vec<f64> = cables.iter().map(|(_, _, length)| *length).collect();
     let moment = |angle: f64| {
@@ -129,15 +129,18 @@ fn a_body_on_one_cable_is_one_family_and_a_twisted_platform_is_another() {
     assert_eq!(all.expected_index_sum, None);
     // Twice the lever of the mass centre, and the stretch: m g 2 r = 7.8 J.
     assert!((all.found[1].energy.unwrap() - 2.0 * 9.81 * 0.4).abs() < 0.1, "{:?}", all.found[1].energy);
-    assert!(statics::other_stable(&robot, &all.found[0].equilibrium).is_none());
+    assert!(statics::another_stable_equilibrium(&robot, &all.found[0].equilibrium).is_none());
 
     let robot = Robot::from_toml(ROBOTS[0].1).unwrap();
     let (lengths, _) = lengths_of(&robot);
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-    let (other, energy) = statics::other_stable(&robot, &rest).unwrap();
+    let (other, energy) = statics::another_stable_equilibrium(&robot, &rest).unwrap();
     let again = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&other.equilibrium.pose)).unwrap();
     assert!(statics::distance(&robot, &again.pose, &other.equilibrium.pose) < 1e-8 && energy.unwrap() > 1.0);
-    assert!(statics::other_stable(&robot, &other.equilibrium).unwrap().1.unwrap() < -1.0, "the first is lower");
+    assert!(
+        statics::another_stable_equilibrium(&robot, &other.equilibrium).unwrap().1.unwrap() < -1.0,
+        "the first is lower"
+    );
 }
 
 #[test]

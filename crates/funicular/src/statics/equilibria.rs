@@ -11,11 +11,11 @@ use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::forward::{AT_REST, Search, elastic, forward};
 use super::model::StaticModel;
-use super::nearest::distance;
+use super::nearest_pose::distance;
 use super::residual::check_lengths;
-use crate::math::{Vec3, inertia};
+use crate::math::{Vec3, symmetric};
 use crate::platform::load_size;
-use crate::robot::{Freedoms, Pose, Robot};
+use crate::robot::{PlatformMotion, Pose, Robot};
 use std::f64::consts::TAU;
 
 /// One of several equilibria of the same lengths.
@@ -65,13 +65,13 @@ impl Candidates {
 /// missing), and limit of all starts. Catenaries: with 400 the lists of all robots of the library, up to 50 long, are those
 /// with 4,000. Springs, whose stiffness jumps where they go slack, may need some 10,000 starts.
 const IDLE: usize = 400;
-const MOST_STARTS: usize = 20_000;
+const MAX_STARTS: usize = 20_000;
 
 /// Starts of the search for another stable equilibrium.
 const FEW_STARTS: usize = 40;
 
 /// Most equilibria listed; more of them are the points of a plateau.
-const MOST_FOUND: usize = 200;
+const MAX_FOUND: usize = 200;
 
 /// Distance over the size of the platform below which two equilibria are one.
 const SAME: f64 = 1e-5;
@@ -106,17 +106,17 @@ pub fn all(
     asked: Option<&Pose>,
 ) -> Result<Candidates, StaticsError> {
     if model == StaticModel::Ideal {
-        return Err(StaticsError::OneIdeal);
+        return Err(StaticsError::NeedsElasticCables);
     }
     let first = forward(robot, lengths, model, asked)?;
 
-    let mut hunt = Hunt::new(robot, lengths, model, asked.copied().unwrap_or(first.pose));
+    let mut hunt = EquilibriumSearch::new(robot, lengths, model, asked.copied().unwrap_or(first.pose));
     hunt.take(&first);
     let mut last_find = 0;
     let mut starts = 0;
-    let most_starts = if robot.platform.freedoms.can_turn() { MOST_STARTS } else { 0 };
+    let max_starts = if robot.platform.motion.can_turn() { MAX_STARTS } else { 0 };
 
-    while starts < most_starts && hunt.found.len() < MOST_FOUND {
+    while starts < max_starts && hunt.found.len() < MAX_FOUND {
         let wanting = hunt.expected().is_some_and(|expected| expected != hunt.index_sum());
         if starts >= last_find + if wanting { 10 * IDLE } else { IDLE } {
             break;
@@ -143,21 +143,21 @@ pub fn all(
 /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
-/// let other = statics::other_stable(&robot, &rest);
+/// let other = statics::another_stable_equilibrium(&robot, &rest);
 /// let (other, energy) = other.expect("turned about the vertical");
 /// assert!(other.is_stable() && other.distance > 0.4 && energy > Some(7.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn other_stable(robot: &Robot, equilibrium: &Equilibrium) -> Option<(Candidate, Option<f64>)> {
+pub fn another_stable_equilibrium(robot: &Robot, equilibrium: &Equilibrium) -> Option<(Candidate, Option<f64>)> {
     let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
     if equilibrium.model == StaticModel::Ideal
-        || !robot.platform.freedoms.can_turn()
+        || !robot.platform.motion.can_turn()
         || check_lengths(robot, &lengths).is_err()
     {
         return None;
     }
 
-    let mut hunt = Hunt::new(robot, &lengths, equilibrium.model, equilibrium.pose);
+    let mut hunt = EquilibriumSearch::new(robot, &lengths, equilibrium.model, equilibrium.pose);
     hunt.take(equilibrium);
     let one = hunt.found.remove(0);
     for k in 1..=FEW_STARTS {
@@ -176,7 +176,7 @@ pub fn other_stable(robot: &Robot, equilibrium: &Equilibrium) -> Option<(Candida
 }
 
 /// A search and what it has found, each with its energy [J].
-struct Hunt<'a> {
+struct EquilibriumSearch<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
     model: StaticModel,
@@ -186,7 +186,7 @@ struct Hunt<'a> {
     found: Vec<(Candidate, f64)>,
 }
 
-impl<'a> Hunt<'a> {
+impl<'a> EquilibriumSearch<'a> {
     fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, asked: Pose) -> Self {
         Self { robot, lengths, model, asked, size: robot.platform_length(), found: Vec::new() }
     }
@@ -199,10 +199,10 @@ impl<'a> Hunt<'a> {
     /// Number `k` of the poses to start from: turned evenly over all orientations, and there where the energy is least.
     fn start(&self, k: usize) -> Option<Pose> {
         let [a, b, c] = [2, 3, 5].map(|base| van_der_corput(k, base));
-        let turn = match self.robot.platform.freedoms {
-            Freedoms::PointMass => Vec3::zeros(),
-            Freedoms::Planar(plane) => plane.normal_w() * (TAU * a),
-            Freedoms::Rigid => {
+        let turn = match self.robot.platform.motion {
+            PlatformMotion::PointMass => Vec3::zeros(),
+            PlatformMotion::Planar(plane) => plane.normal_w() * (TAU * a),
+            PlatformMotion::Rigid => {
                 // Evenly over all rotations (Shoemake): a unit quaternion from three numbers, as axis times angle.
                 let (s, t) = ((1.0 - a).sqrt(), a.sqrt());
                 let (w, x) = (s * (TAU * b).sin(), s * (TAU * b).cos());
@@ -233,7 +233,7 @@ impl<'a> Hunt<'a> {
 
         while here.residual > AT_REST {
             // Newton's step, cut where the stiffness hardly resists.
-            let (values, vectors) = inertia::eigen(&search.stiffness(&here), search.coordinates.count());
+            let (values, vectors) = symmetric::eigen(&search.stiffness(&here), search.coordinates.count());
             let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {
                 return None;
@@ -267,7 +267,7 @@ impl<'a> Hunt<'a> {
         let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
         let trial = search.at(equilibrium.pose);
 
-        let (values, _) = inertia::eigen(&search.stiffness(&trial), search.coordinates.count());
+        let (values, _) = symmetric::eigen(&search.stiffness(&trial), search.coordinates.count());
         let zero = INDIFFERENT * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let falling = values.iter().filter(|value| **value < -zero).count();
         let indifferent = values.iter().filter(|value| value.abs() <= zero).count();
@@ -313,7 +313,7 @@ impl<'a> Hunt<'a> {
         if !self.has_energy() || self.found.iter().any(|(candidate, _)| candidate.indifferent > 0) {
             return None;
         }
-        Some(i64::from(!self.robot.platform.freedoms.can_turn()))
+        Some(i64::from(!self.robot.platform.motion.can_turn()))
     }
 
     fn sorted(mut self, starts: usize) -> Candidates {

@@ -1,9 +1,9 @@
 //! How the points along a cable move with its ends and its clamped modes.
 
-use super::{Exact, PoleResidue};
+use super::{CatenaryDynamic, PoleResidue};
 use crate::math::{Complex, DMat};
 
-/// Displacement of stations along an exact cable, D components a point, by motions of the ends, N = 2D components.
+/// Displacement of stations along a catenary-dynamic cable, D components a point, by motions of the ends, N = 2D components.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Displacements<const D: usize, const N: usize> {
     /// Ψ: of each station, components by end components, in slow motion [-].
@@ -12,7 +12,7 @@ pub struct Displacements<const D: usize, const N: usize> {
     pub modes: Vec<Vec<[f64; D]>>,
 }
 
-/// Stations along an exact cable, from its start, and how they move.
+/// Stations along a catenary-dynamic cable, from its start, and how they move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stations {
     /// Unstrained arc length of each [m].
@@ -84,16 +84,16 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 }
 
 /// Motion of a cable whose start moves and whose end is held.
-pub(crate) struct Swing {
+pub(crate) struct InternalMotion {
     plane: [Complex; 4],
     across: [Complex; 2],
     pub(crate) in_plane: Vec<Complex>,
     pub(crate) out_of_plane: Vec<Complex>,
 }
 
-impl Swing {
+impl InternalMotion {
     /// By the start's motion (horizontal towards the end, up, across) at the complex square ω_c² [rad²/s²].
-    pub(crate) fn new(exact: &Exact, start: [Complex; 3], square: Complex) -> Self {
+    pub(crate) fn new(exact: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> Self {
         let held = Complex::new(0.0, 0.0);
         let (plane, across) = ([start[0], start[1], held, held], [start[2], held]);
         let in_plane = exact.in_plane.amplitudes(&plane, square);
@@ -104,7 +104,7 @@ impl Swing {
 
 impl Stations {
     /// Displacement (horizontal, up, across) of station `at`.
-    pub(crate) fn displacement(&self, at: usize, swing: &Swing) -> [Complex; 3] {
+    pub(crate) fn displacement(&self, at: usize, swing: &InternalMotion) -> [Complex; 3] {
         let [horizontal, up] = self.in_plane.at(at, &swing.plane, &swing.in_plane);
         let [across] = self.out_of_plane.at(at, &swing.across, &swing.out_of_plane);
         [horizontal, up, across]
@@ -114,7 +114,7 @@ impl Stations {
     /// across), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
     pub(crate) fn receptance(
         &self,
-        exact: &Exact,
+        exact: &CatenaryDynamic,
         (at, out): (usize, [f64; 3]),
         (loaded, force): (usize, [f64; 3]),
         square: Complex,

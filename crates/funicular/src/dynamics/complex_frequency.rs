@@ -61,11 +61,11 @@ impl Dynamics {
             let (damping, mass_per_length) = self.damping[term.cable];
             let (square, square_slope) = damping.times(losses).square_with_slope(omega, mass_per_length);
             let (stiffness, mass, near) = match &term.form {
-                DynamicCable::ClosedForm(form) => {
+                DynamicCable::ShallowDynamic(form) => {
                     let (stiffness, mass) = form.at(square);
                     (stiffness, mass, Vec::new())
                 }
-                DynamicCable::Exact(form) => form.complex_beside_poles(square, POLE_PART),
+                DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square, POLE_PART),
             };
             add_scaled(&mut value, term, &stiffness, Complex::new(1.0, 0.0));
             add_scaled(&mut slope, term, &mass, -square_slope);
@@ -81,7 +81,7 @@ impl Dynamics {
         }
 
         // The border: each near pole an unknown of its own.
-        let (f, n) = (self.freedoms(), self.freedoms() + borders.len());
+        let (f, n) = (self.dof(), self.dof() + borders.len());
         let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
         all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));
         all_slope.view_mut((0, 0), (f, f)).copy_from(&slope.view((0, 0), (f, f)));

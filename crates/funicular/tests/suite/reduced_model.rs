@@ -3,7 +3,7 @@
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, Vec3};
 use funicular::modes;
-use funicular::reduction::{Coordinate, DampingAt, ReductionError, SecondOrder, Wanted, reduce};
+use funicular::reduced_model::{Coordinate, DampingAt, ReductionError, SecondOrder, Wanted, reduce};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::{Damping, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
@@ -132,8 +132,8 @@ fn the_closed_form_has_no_reduced_model_and_springs_have_the_platform_alone() {
         let outputs = [(on_platform(Vec3::z()), Quantity::Displacement)];
         reduce(&robot, &rest, &dynamics, &[on_platform(Vec3::z())], &outputs, WANTED)
     };
-    assert_eq!(with(CableModel::ClosedForm).unwrap_err(), ReductionError::Model);
-    let spring = with(CableModel::CatenaryTangent).unwrap();
+    assert_eq!(with(CableModel::ShallowDynamic).unwrap_err(), ReductionError::Model);
+    let spring = with(CableModel::CatenaryStatic).unwrap();
     assert_eq!(spring.mass.nrows(), 6);
     assert!(spring.truncation_error.unwrap() < 1e-12 && spring.damping.amax() == 0.0);
 }

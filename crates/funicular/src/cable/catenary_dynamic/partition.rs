@@ -5,9 +5,9 @@
 //! only its products with the columns K_ib and M_ib, so that no eigenvector is formed
 //! ([`projected`](crate::math::projected)).
 
-use super::shape::Displacements;
+use super::internal_motion::Displacements;
 use super::{ExactError, PoleResidue};
-use crate::math::{DMat, projected};
+use crate::math::{DMat, generalized_eigen};
 
 /// Functions of one element by kind: place in the matrices of the element, and number among those of the kind.
 pub(super) struct Functions {
@@ -136,7 +136,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         limit: f64,
     ) -> Result<Condensed<D, N, E>, ExactError> {
         let Self { stiffness, mass, rows, row_length, outer, end_mass, beyond, values_at_ends, .. } = self;
-        let (values, products) = projected::pencil(stiffness, mass, rows, row_length).ok_or(ExactError::NoTension)?;
+        let (values, products) =
+            generalized_eigen::pencil(stiffness, mass, rows, row_length).ok_or(ExactError::NoTension)?;
 
         // Low frequencies first. A value that is not positive is one that rounding made of an infinite frequency.
         let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();

@@ -1,8 +1,8 @@
 //! Where a model leaves its range: each warning says which cable, the number, the limit and what to do.
 
-use crate::cable::closed_form::ClosedForm;
-use crate::cable::exact::Exact;
-use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, static_sag};
+use crate::cable::catenary_dynamic::CatenaryDynamic;
+use crate::cable::shallow_dynamic::ShallowDynamic;
+use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
 use crate::robot::{Pose, Robot};
 use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
@@ -51,14 +51,14 @@ pub enum Warning {
         /// Directions that are not opposed.
         directions: usize,
         /// Least eigenvalue of the scaled stiffness [N/m].
-        least_stiffness: f64,
+        min_stiffness: f64,
     },
-    /// A pose asked that fewer cables than freedoms cannot hold.
+    /// A pose asked that fewer cables than degrees of freedom cannot hold.
     Elsewhere {
         /// Cables of the robot.
         cables: usize,
-        /// Freedoms of the platform.
-        freedoms: usize,
+        /// Degrees of freedom of the platform.
+        dof: usize,
         /// How far the platform is from where it was asked to be [m].
         translation: f64,
         /// How far it is turned from what was asked [degrees].
@@ -105,7 +105,7 @@ impl DeepSag {
     /// Of cable `i` at a static state, if it sags too deep for the model.
     pub fn of(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Self> {
         let sag = Sag::of(robot, i, state);
-        let shallow = matches!(model, CableModel::StaticSag | CableModel::ClosedForm);
+        let shallow = matches!(model, CableModel::ShallowStatic | CableModel::ShallowDynamic);
         (shallow && sag.tension > 0.0 && sag.ratio() > SHALLOW_SAG_LIMIT).then(|| Self {
             cable: robot.cables[i].name.clone(),
             ratio: sag.ratio(),
@@ -117,17 +117,17 @@ impl DeepSag {
 /// Relative error of a shallow-sag model at one cable.
 fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableModel) -> Option<f64> {
     let hanging = state.hanging.as_ref().filter(|hanging| hanging.catenary.rope().weight_per_length > 0.0)?;
-    if model == CableModel::StaticSag {
+    if model == CableModel::ShallowStatic {
         let e = hanging.chord_w().normalize();
-        return Some(static_sag::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);
+        return Some(shallow_static::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);
     }
     let m = sag.mass_per_length;
     let axes = LocalAxes::of_cable(robot, i, state);
     // The first root of the sagging string lies below its third, 3π/l.
     let highest = TAU * 3.0 * sag.string_frequency_hz();
-    let closed = ClosedForm::new(sag, axes, robot.cables[i].material.damping, true);
+    let closed = ShallowDynamic::new(sag, axes, robot.cables[i].material.damping, true);
     let first = *closed.clamped_frequencies_below(highest).first()?;
-    let exact = Exact::new(&hanging.catenary, m, highest).ok()?;
+    let exact = CatenaryDynamic::new(&hanging.catenary, m, highest).ok()?;
     Some(first / exact.in_plane.poles.first()?.sqrt() - 1.0)
 }
 
@@ -186,27 +186,27 @@ impl fmt::Display for Warning {
                 "the pose is nearly singular: in its weakest direction a force of 1 N takes {gain:.0} N of tension (warned \
                  of from {SINGULAR_GAIN}); choose a pose from which the cables pull in more directions"
             ),
-            Self::Unstable { directions, least_stiffness: 0.0 } => write!(
+            Self::Unstable { directions, min_stiffness: 0.0 } => write!(
                 f,
                 "the equilibrium is indifferent: in {directions} of its directions nothing holds the platform, which has \
                  natural frequencies of zero there; add a cable, or another point to pull at"
             ),
-            Self::Unstable { directions, least_stiffness } => write!(
+            Self::Unstable { directions, min_stiffness } => write!(
                 f,
                 "the equilibrium is not stable: {directions} of its directions {} not opposed (least scaled stiffness \
-                 {least_stiffness:.3e} N/m); the robot would leave it",
+                 {min_stiffness:.3e} N/m); the robot would leave it",
                 if *directions == 1 { "is" } else { "are" }
             ),
-            Self::Elsewhere { cables, freedoms, translation, turn_deg, distance } => write!(
+            Self::Elsewhere { cables, dof, translation, turn_deg, distance } => write!(
                 f,
-                "{} for {freedoms} freedoms cannot hold the pose asked by any lengths: this is the nearest \
+                "{} for {dof} degrees of freedom cannot hold the pose asked by any lengths: this is the nearest \
                  that can be held, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
                 crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
             Self::DeepSag { cables, model } => {
                 let what =
-                    if *model == CableModel::StaticSag { "stiffness along the chord" } else { "first frequency" };
+                    if *model == CableModel::ShallowStatic { "stiffness along the chord" } else { "first frequency" };
                 let one = |DeepSag { cable, ratio, error }: &DeepSag| {
                     let error =
                         error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
@@ -215,7 +215,7 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "cable {} of the chord, more than 1/20: the {model} model is outside its range; use the model \
-                     `exact`, or raise the tension",
+                     `catenary-dynamic`, or raise the tension",
                     cables.iter().map(one).collect::<Vec<_>>().join(", ")
                 )
             }
@@ -239,15 +239,15 @@ impl fmt::Display for Warning {
 fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning> {
     let (cable, limits) = (&robot.cables[i], robot.cables[i].limits());
     let name = cable.name.clone();
-    if let Some(breaking_load) = cable.material.breaking_load.filter(|load| margin.greatest > *load * (1.0 + 1e-6)) {
-        return Some(Warning::Breaks { cable: name, tension: margin.greatest, breaking_load });
+    if let Some(breaking_load) = cable.material.breaking_load.filter(|load| margin.max > *load * (1.0 + 1e-6)) {
+        return Some(Warning::Breaks { cable: name, tension: margin.max, breaking_load });
     }
     // Within a millionth is within: that is what tensions are found to.
-    if let Some(value) = limits.maximum.filter(|most| margin.greatest > *most * (1.0 + 1e-6)) {
-        return Some(Warning::BeyondLimit { cable: name, tension: margin.greatest, limit: Limit::Maximum, value });
+    if let Some(value) = limits.maximum.filter(|most| margin.max > *most * (1.0 + 1e-6)) {
+        return Some(Warning::BeyondLimit { cable: name, tension: margin.max, limit: Limit::Maximum, value });
     }
-    let value = limits.minimum.filter(|least| margin.least < *least * (1.0 - 1e-6))?;
-    Some(Warning::BeyondLimit { cable: name, tension: margin.least, limit: Limit::Minimum, value })
+    let value = limits.minimum.filter(|min| margin.min < *min * (1.0 - 1e-6))?;
+    Some(Warning::BeyondLimit { cable: name, tension: margin.min, limit: Limit::Minimum, value })
 }
 
 /// Distance from the pose asked, over the size of the platform, up to which it is that pose: what forward statics leaves.
@@ -259,7 +259,7 @@ pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, asked: &Pose, distance:
     let found = &equilibrium.pose;
     (distance > HELD * robot.platform_length()).then(|| Warning::Elsewhere {
         cables: robot.cables.len(),
-        freedoms: robot.platform.freedoms.count(),
+        dof: robot.platform.motion.count(),
         translation: (found.position_w - asked.position_w).norm(),
         turn_deg: found.rot_wp.angle_to(&asked.rot_wp).to_degrees(),
         distance,
@@ -291,8 +291,8 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     {
         warnings.push(Warning::NearlySingular { gain });
     }
-    if let Stability::Unstable { least_stiffness, directions } = equilibrium.stability {
-        warnings.push(Warning::Unstable { directions, least_stiffness });
+    if let Stability::Unstable { min_stiffness, directions } = equilibrium.stability {
+        warnings.push(Warning::Unstable { directions, min_stiffness });
     }
     warnings
 }
@@ -312,7 +312,7 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {
         let axial_hz = sags[i].axial_frequency_hz();
-        if model != CableModel::Exact && below_hz > AXIAL_PART * axial_hz {
+        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_PART * axial_hz {
             warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
         }
     }

@@ -1,8 +1,8 @@
 //! The tensions that satisfy the linearised balance within linear bounds, whichever way they are searched.
 
-use super::balance::Solutions;
+use super::active_set::{self, Active, Polyhedron};
 use super::bounds::Bounds;
-use super::polyhedron::{self, Active, Polyhedron};
+use super::null_space::Solutions;
 
 /// Directions of the balance from which on the search is made in the space of the cables. With few the null space has
 /// shorter vectors and nothing to solve; with hundreds the space of the cables takes a small part of the time. Both ways
@@ -56,19 +56,19 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// The tensions nearest to `start` that satisfy balance and bounds, see [`polyhedron::nearest`].
+    /// The tensions nearest to `start` that satisfy balance and bounds, see [`active_set::nearest`].
     pub(super) fn nearest(self, start: impl Fn(usize) -> f64, height: f64, tolerance: f64) -> Option<Found> {
         self.search(start, height, |walls, x| match walls {
             Walls::Few(set) => set.nearest(x, tolerance),
-            Walls::Many(bounds) => polyhedron::nearest(bounds, x, tolerance),
+            Walls::Many(bounds) => active_set::nearest(bounds, x, tolerance),
         })
     }
 
-    /// The tensions of the greatest height, see [`polyhedron::highest`].
+    /// The tensions of the greatest height, see [`active_set::highest`].
     pub(super) fn highest(self, start: impl Fn(usize) -> f64, tolerance: f64) -> Option<Found> {
         self.search(start, 0.0, |walls, x| match walls {
             Walls::Few(set) => set.highest(x, tolerance),
-            Walls::Many(bounds) => polyhedron::highest(bounds, x, tolerance),
+            Walls::Many(bounds) => active_set::highest(bounds, x, tolerance),
         })
     }
 

@@ -1,8 +1,8 @@
 //! One file of rows from the first chunk to the last, over as many runs as it takes.
 
+use crate::atomic_file::{Temporary, is_regular_or_new};
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
-use crate::whole::{Temporary, is_regular_or_new};
 use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_whole};
 use funicular_study::sweep::{Chunk, Difference, Record};
 use std::fs;

@@ -12,7 +12,7 @@
 
 use super::{Dynamics, POLE_PART, add_local};
 use crate::cable::DynamicCable;
-use crate::math::{DMat, Mat6, Vec6, inertia};
+use crate::math::{DMat, Mat6, Vec6, symmetric};
 
 /// Amplitude of one clamped mode of one cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +44,7 @@ pub(crate) struct NullVector {
 impl Dynamics {
     /// The `several` natural motions at ω [rad/s].
     pub(crate) fn null_vectors(&self, omega: f64, several: usize) -> Vec<NullVector> {
-        if self.terms.iter().any(|term| matches!(term.form, DynamicCable::ClosedForm(_))) {
+        if self.terms.iter().any(|term| matches!(term.form, DynamicCable::ShallowDynamic(_))) {
             self.null_vectors_of_closed_form(omega, several)
         } else {
             self.null_vectors_beside_poles(omega, several)
@@ -54,10 +54,10 @@ impl Dynamics {
     /// Null vectors of D itself.
     fn null_vectors_of_closed_form(&self, omega: f64, several: usize) -> Vec<NullVector> {
         let d = self.dynamic_stiffness(omega);
-        let (values, vectors) = inertia::eigen(&d, self.freedoms());
+        let (values, vectors) = symmetric::eigen(&d, self.dof());
         least(&values, several)
             .map(|k| {
-                let (platform, cables) = self.moving_masses(omega, &vectors[k]);
+                let (platform, cables) = self.effective_masses(omega, &vectors[k]);
                 let total = platform + cables.iter().sum::<f64>();
                 NullVector {
                     platform: vectors[k] / total.sqrt(),
@@ -79,10 +79,10 @@ impl Dynamics {
         let (mut borders, mut cable_masses): (Vec<(NearMotion, Vec6, f64)>, Vec<Mat6>) = (Vec::new(), Vec::new());
         for (t, term) in self.terms.iter().enumerate() {
             let mut moving = Mat6::zeros();
-            if let DynamicCable::Exact(form) = &term.form {
+            if let DynamicCable::CatenaryDynamic(form) = &term.form {
                 let (regular, poles) = form.beside_poles(x, POLE_PART);
                 add_local(&mut stiffness, term, &regular, |k, product| k * product);
-                add_local(&mut moving, term, &form.moving_mass_beside_poles(x, POLE_PART), |m, product| m * product);
+                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, POLE_PART), |m, product| m * product);
                 borders.extend(poles.iter().map(|near| {
                     let motion = NearMotion { term: t, across: near.across, pole: near.index, amplitude: 0.0 };
                     (motion, term.vector(near.direction), near.pole)
@@ -93,7 +93,7 @@ impl Dynamics {
         }
 
         // The pencil with each near pole as an unknown of its own.
-        let (f, n) = (self.freedoms(), self.freedoms() + borders.len());
+        let (f, n) = (self.dof(), self.dof() + borders.len());
         let (mut a, mut m) = (DMat::zeros(n, n), DMat::identity(n, n));
         a.view_mut((0, 0), (f, f)).copy_from(&stiffness.view((0, 0), (f, f)));
         m.view_mut((0, 0), (f, f)).copy_from(&mass.view((0, 0), (f, f)));

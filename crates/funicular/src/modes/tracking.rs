@@ -21,7 +21,7 @@ pub struct Tracked {
 
 /// Likeness from which on a mode is taken for that of the step before. Of two modes that exchange their motions, exactly
 /// one can be above it.
-pub const LEAST_LIKENESS: f64 = 0.5;
+pub const MIN_MAC: f64 = 0.5;
 
 /// Relative distance of frequencies below which motions are any mixture of each other, as of a symmetric robot.
 const TOGETHER: f64 = 1e-6;
@@ -34,13 +34,13 @@ pub(crate) fn mac_of_motions(a: &[f64], b: &[f64]) -> f64 {
 /// The branch of every mode of every step, from 0, in order of first appearance.
 ///
 /// Each step is compared with the last one that has modes: the pairs are those with the greatest sum of likenesses
-/// (Hungarian method). A pair that is less alike than [`LEAST_LIKENESS`] is none: one branch ends, another begins. What
+/// (Hungarian method). A pair that is less alike than [`MIN_MAC`] is none: one branch ends, another begins. What
 /// is one branch depends on the steps. If they are wider than the range in which two curves veer, branches cross, as motions
 /// do; if they are finer, they follow the curves apart.
 ///
 /// # Example
 /// ```
-/// # use funicular::modes::track::{Tracked, branches};
+/// # use funicular::modes::tracking::{Tracked, branches};
 /// let mode = |frequency_hz, motion: [f64; 2]| Tracked { frequency_hz, motion: motion.to_vec() };
 /// let before = vec![mode(1.0, [1.0, 0.1]), mode(1.2, [-0.1, 1.0])];
 /// let after = vec![mode(1.1, [0.1, -1.0]), mode(1.3, [1.0, 0.1])];
@@ -55,9 +55,9 @@ pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
 
         // Modes that go on in this step.
         if let Some((before, branch)) = &last {
-            let alike = all_likenesses(before, step);
+            let alike = all_macs(before, step);
             for (i, j) in best_pairs(&alike, step.len()) {
-                if alike[i][j] >= LEAST_LIKENESS {
+                if alike[i][j] >= MIN_MAC {
                     of_step[j] = Some(branch[i]);
                 }
             }
@@ -84,10 +84,10 @@ pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
 
 /// Likeness of every mode before with every one after. Modes at one frequency share a space of motions, and which of them
 /// are listed is chance: with such it is the part of a motion that lies in the space.
-fn all_likenesses(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
+fn all_macs(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
     let plain: Vec<Vec<f64>> =
         before.iter().map(|a| after.iter().map(|b| mac_of_motions(&a.motion, &b.motion)).collect()).collect();
-    let (of_before, of_after) = (companies(before), companies(after));
+    let (of_before, of_after) = (degenerate_groups(before), degenerate_groups(after));
     let in_space = |i: usize, j: usize| {
         let with_after: f64 = of_after[j].clone().map(|k| plain[i][k]).sum();
         let with_before: f64 = of_before[i].clone().map(|k| plain[k][j]).sum();
@@ -97,17 +97,17 @@ fn all_likenesses(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
 }
 
 /// For each mode the places of those at its frequency; modes are in ascending order.
-fn companies(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
-    let mut companies = Vec::with_capacity(modes.len());
+fn degenerate_groups(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
+    let mut degenerate_groups = Vec::with_capacity(modes.len());
     let mut begin = 0;
     for end in 1..=modes.len() {
         let apart = |i: usize| modes[i].frequency_hz - modes[i - 1].frequency_hz > TOGETHER * modes[i].frequency_hz;
         if end == modes.len() || apart(end) {
-            companies.extend((begin..end).map(|_| begin..end));
+            degenerate_groups.extend((begin..end).map(|_| begin..end));
             begin = end;
         }
     }
-    companies
+    degenerate_groups
 }
 
 /// Pairs (row, column) with the greatest sum of values in 0 to 1, as many as the shorter side has.

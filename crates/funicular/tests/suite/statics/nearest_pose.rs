@@ -67,7 +67,7 @@ fn of_a_body_on_one_cable_the_nearest_pose_keeps_the_asked_turn_about_it() {
 
 #[test]
 fn a_pose_that_only_ropes_of_no_length_come_near_is_singular() {
-    let text = "name = \"swing\"\n[platform]\nmass_kg = 2\nfreedoms = \"point-mass\"\n\
+    let text = "name = \"swing\"\n[platform]\nmass_kg = 2\nmotion = \"point-mass\"\n\
          [materials.rope]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0.05\n\
          [[cables]]\nname = \"a\"\nmaterial = \"rope\"\nanchor_m = [0, 0, 3]\n\
          [[cables]]\nname = \"b\"\nmaterial = \"rope\"\nanchor_m = [2, 0, 3]\n";
@@ -100,7 +100,7 @@ proptest! {
         prop_assert!(found.is_ok(), "{:?}", found);
         let found = found.unwrap();
         prop_assert!(found.equilibrium.residual <= 1e-10);
-        let linearisation = Linearisation { cable_model: CableModel::Exact, ..Default::default() };
+        let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Default::default() };
         if let Ok(dynamics) = Dynamics::about(&robot, &found.equilibrium, linearisation, 3.0) {
             let modes = modes::below(&dynamics, 3.0);
             prop_assert_eq!(modes.modes.len() + modes.unstable_directions, modes.count_below);

@@ -5,17 +5,17 @@
 //! of dimensions. It is solved by cutting planes: every eigenvector q bounds the eigenvalue from above by the affine
 //! qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not stiffen is shortened.
 
-use super::super::polyhedron::Polyhedron;
+use super::super::active_set::Polyhedron;
 use super::super::search::{Linear, Search};
-use super::{GAIN, least_eigenvalue, present};
-use crate::math::{Mat6, Vec6, inertia, symmetric_part};
+use super::{GAIN, min_eigenvalue, present};
+use crate::math::{Mat6, Vec6, symmetric, symmetric_part};
 use crate::statics::error::StaticsError;
 
 /// Most linearisations; straight cables need two, sagging ones many more.
-const MOST_LINEARISATIONS: usize = 60;
+const MAX_LINEARISATIONS: usize = 60;
 
 /// Most rounds of cuts a linearisation.
-const MOST_ROUNDS: usize = 100;
+const MAX_ROUNDS: usize = 100;
 
 /// Eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the optimum.
 const CUTS: usize = 3;
@@ -24,10 +24,10 @@ const CUTS: usize = 3;
 pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
     search.middle()?;
     let mut best = search.tensions();
-    let mut stiffness = least_eigenvalue(search);
+    let mut stiffness = min_eigenvalue(search);
     let mut reach = f64::INFINITY;
 
-    for _ in 0..MOST_LINEARISATIONS {
+    for _ in 0..MAX_LINEARISATIONS {
         let linear = search.linearise();
         let (next, promised) = stiffest_of_linear(search, &linear, reach)?;
         if promised - stiffness <= GAIN * stiffness.abs() {
@@ -38,7 +38,7 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
         let step = next.iter().zip(&best).fold(0.0, |m: f64, (to, from)| m.max((to - from).abs()));
 
         let reached = match search.nearest_to(&next) {
-            Ok(()) => least_eigenvalue(search),
+            Ok(()) => min_eigenvalue(search),
             Err(_) => f64::NEG_INFINITY,
         };
 
@@ -59,7 +59,7 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
 /// The stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and how
 /// stiff it then is.
 fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Result<(Vec<f64>, f64), StaticsError> {
-    let freedoms = search.robot().platform.freedoms.count();
+    let dof = search.robot().platform.motion.count();
     let here = search.tensions();
     let solutions = search.solutions(linear, &vec![1.0; here.len()])?;
     let stiffness = present(search);
@@ -68,7 +68,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
         .iter()
         .map(|line| {
             let rate = line.stiffness_by_tension();
-            search.robot().platform.freedoms.reduced_matrix(&(symmetric_part(&rate)))
+            search.robot().platform.motion.reduced_matrix(&(symmetric_part(&rate)))
         })
         .collect();
     // The height in the unit of tensions.
@@ -88,14 +88,14 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
     let mut z = solutions.along(|i| here[i]);
     let mut best = (here.clone(), f64::NEG_INFINITY);
 
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let tau = solutions.at(&z);
         let mut there = stiffness;
         for ((rate, to), from) in rates.iter().zip(&tau).zip(&here) {
             there += rate * (to - from);
         }
 
-        let (values, vectors) = inertia::eigen(&there, freedoms);
+        let (values, vectors) = symmetric::eigen(&there, dof);
         if values[0] > best.1 {
             best = (tau, values[0]);
         }

@@ -3,14 +3,14 @@
 use crate::library::at_rest;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::robot::Robot;
-use funicular::validity::{self, Warning};
+use funicular::warnings::{self, Warning};
 use std::f64::consts::TAU;
 
 #[test]
 fn cables_are_warned_about_outside_the_models_range() {
     let robot = Robot::from_toml(funicular_robots::YUAN2014_8MM).unwrap();
     let rest = at_rest(&robot);
-    let warnings = validity::of_dynamics(&robot, &rest, CableModel::ClosedForm, 20.0);
+    let warnings = warnings::of_dynamics(&robot, &rest, CableModel::ShallowDynamic, 20.0);
     let [Warning::DeepSag { cables, .. }] = &warnings[..] else { panic!("{warnings:?}") };
     assert!(cables.iter().all(|deep| deep.ratio > 0.05 && deep.ratio < 0.07));
     for deep in cables {
@@ -21,14 +21,14 @@ fn cables_are_warned_about_outside_the_models_range() {
             let EndStiffness::Dynamic(form) = one else { panic!("it vibrates") };
             form.clamped_frequencies_below(5.0 * TAU)[0]
         };
-        let error = first(CableModel::ClosedForm) / first(CableModel::Exact) - 1.0;
+        let error = first(CableModel::ShallowDynamic) / first(CableModel::CatenaryDynamic) - 1.0;
         assert!((deep.error.unwrap() - error).abs() < 1e-9 && error.abs() > 0.01, "{deep:?}");
         assert!(warnings[0].to_string().contains(&format!("first frequency off by {:+.1} %", 100.0 * error)));
     }
     let names: Vec<&str> = cables.iter().map(|deep| deep.cable.as_str()).collect();
     assert_eq!(names, ["5", "6"], "the long cables sag by some 6 % of the chord");
     assert!(warnings[0].to_string().contains("more than 1/20"));
-    assert!(validity::of_dynamics(&robot, &rest, CableModel::CatenaryTangent, 20.0).is_empty());
-    let axial = validity::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);
+    assert!(warnings::of_dynamics(&robot, &rest, CableModel::CatenaryStatic, 20.0).is_empty());
+    let axial = warnings::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);
     assert!(matches!(&axial[..], [Warning::AxialWaves { .. }]), "{axial:?}");
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// Which motions the platform has.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Freedoms {
+pub enum PlatformMotion {
     /// Three translations and three rotations.
     #[default]
     Rigid,
@@ -86,8 +86,8 @@ impl Plane {
     }
 }
 
-impl Freedoms {
-    /// Number of freedoms: 6 or 3.
+impl PlatformMotion {
+    /// Number of degrees of freedom: 6 or 3.
     pub fn count(&self) -> usize {
         match self {
             Self::Rigid => 6,
@@ -234,8 +234,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn planar(normal: [f64; 3]) -> Freedoms {
-        Freedoms::Planar(Plane::new(Vec3::from(normal), 0.5).unwrap())
+    fn planar(normal: [f64; 3]) -> PlatformMotion {
+        PlatformMotion::Planar(Plane::new(Vec3::from(normal), 0.5).unwrap())
     }
 
     #[test]
@@ -246,9 +246,9 @@ mod tests {
             ([0.0, 1.0, 0.0], "planar-xz", [1.0, 3.0, 5.0]),
             ([3.0, 0.0, 0.0], "planar-yz", [2.0, 3.0, 4.0]),
         ] {
-            let freedoms = planar(normal);
-            assert_eq!(freedoms.name(), name);
-            assert_eq!(freedoms.reduced(&v).as_slice()[..3], expected);
+            let motion = planar(normal);
+            assert_eq!(motion.name(), name);
+            assert_eq!(motion.reduced(&v).as_slice()[..3], expected);
         }
         assert!(Plane::new(Vec3::zeros(), 0.0).is_none());
     }
@@ -260,12 +260,12 @@ mod tests {
             v in prop::array::uniform6(-1.0_f64..1.0),
         ) {
             prop_assume!(Vec3::from(normal).norm() > 1e-3);
-            let (freedoms, v) = (planar(normal), Vec6::from(v));
-            let x = freedoms.reduced(&v);
-            let allowed = freedoms.expanded(&x);
+            let (motion, v) = (planar(normal), Vec6::from(v));
+            let x = motion.reduced(&v);
+            let allowed = motion.expanded(&x);
             prop_assert!((allowed.norm() - x.norm()).abs() < 1e-14);
-            prop_assert!((freedoms.allowed(&allowed) - allowed).norm() < 1e-14);
-            let Freedoms::Planar(plane) = freedoms else { unreachable!() };
+            prop_assert!((motion.allowed(&allowed) - allowed).norm() < 1e-14);
+            let PlatformMotion::Planar(plane) = motion else { unreachable!() };
             let across = plane.normal_w().dot(&allowed.fixed_rows::<3>(0).clone_owned());
             let turn = allowed.fixed_rows::<3>(3).cross(&plane.normal_w());
             prop_assert!(across.abs() < 1e-14 && turn.norm() < 1e-14);

@@ -1,4 +1,4 @@
-//! The pose nearest to a given one that fewer cables than freedoms can hold.
+//! The pose nearest to a given one that fewer cables than degrees of freedom can hold.
 //!
 //! With m cables the equilibria are a surface of m dimensions in the space of poses and lengths. A step along it
 //! satisfies `K dx = B dL`, B being the wrench by the lengths; the one that comes nearest to the pose asked is taken, and
@@ -26,7 +26,7 @@ pub struct Nearest {
 }
 
 /// Limit of steps; 3 to 30 are seen.
-const MOST_STEPS: usize = 300;
+const MAX_STEPS: usize = 300;
 
 /// Length over the size of the robot that the pose could still come nearer, along the surface, at which it counts as
 /// nearest; and up to which it does when rounding allows no more.
@@ -85,10 +85,10 @@ pub fn distance(robot: &Robot, from: &Pose, to: &Pose) -> f64 {
 fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
     let p = to.position_w - from.position_w;
     let turn = (to.rot_wp * from.rot_wp.inverse()).scaled_axis() * robot.platform_length();
-    robot.platform.freedoms.reduced(&Vec6::new(p.x, p.y, p.z, turn.x, turn.y, turn.z))
+    robot.platform.motion.reduced(&Vec6::new(p.x, p.y, p.z, turn.x, turn.y, turn.z))
 }
 
-/// The pose nearest to a given one that the cables can hold by some lengths, for robots with fewer cables than freedoms;
+/// The pose nearest to a given one that the cables can hold by some lengths, for robots with fewer cables than degrees of freedom;
 /// nearest by [`distance`], among poses around the one that the first guess of lengths leads to.
 ///
 /// # Errors
@@ -102,7 +102,7 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 ///     name = "pendulum"
 ///     [platform]
 ///     mass_kg = 2.0
-///     freedoms = "point-mass"
+///     motion = "point-mass"
 ///     [materials.cord]
 ///     axial_stiffness_n = 1e6
 ///     mass_kg_per_m = 0.0
@@ -118,11 +118,11 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Nearest, StaticsError> {
-    let (cables, freedoms) = (robot.cables.len(), robot.platform.freedoms.count());
+    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if model == StaticModel::Ideal {
-        return Err(StaticsError::InverseCableCount { cables, freedoms });
+        return Err(StaticsError::InverseCableCount { cables, dof });
     }
-    robot.platform.freedoms.check(asked)?;
+    robot.platform.motion.check(asked)?;
 
     // On the surface, by a first guess of the lengths.
     let coordinates = Coordinates::of(robot);
@@ -134,7 +134,7 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
     let mut missing = gap(robot, &here.pose, asked);
 
     let (mut bend, mut damping) = (Mat6::identity(), 0.0);
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let could = surface.along(&missing);
         if could.norm() <= NEAREST * size {
             break;

@@ -21,7 +21,7 @@ use std::ops::{Add, Div, Mul, Sub};
 
 /// One cable in closed form.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ClosedForm {
+pub struct ShallowDynamic {
     /// Its numbers.
     pub sag: Sag,
     /// Its axes.
@@ -143,7 +143,7 @@ impl Entire<Complex> {
     }
 }
 
-impl ClosedForm {
+impl ShallowDynamic {
     /// From the numbers of a cable with tension.
     pub fn new(sag: Sag, axes: LocalAxes, damping: Damping, in_plane_only: bool) -> Self {
         let gamma_by_square = sag.chord * sag.chord * sag.mass_per_length / (4.0 * sag.tension);
@@ -187,7 +187,7 @@ impl ClosedForm {
 
     /// Minus the derivative of the undamped stiffness by ω² [kg]: the mass that the cable moves, per unit of motion of
     /// its end. Positive semidefinite as a 3×3.
-    pub fn moving_mass(&self, omega: f64) -> LocalStiffness<f64> {
+    pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let of = Entire::real(omega * omega * self.gamma_by_square);
         let mut mass = self.mass_of(of, of.q_slope());
         if self.in_plane_only {
@@ -277,21 +277,21 @@ impl ClosedForm {
 mod tests {
     use super::*;
 
-    fn fig2(xi: f64) -> ClosedForm {
+    fn fig2(xi: f64) -> ShallowDynamic {
         let sag = Sag::new(6.848, 36f64.to_radians().cos(), 77.6, 20e9 * 1.2566e-5, 0.067, 0.067 * 9.81);
         let axes = LocalAxes::of_chord(
             &crate::math::Vec3::zeros(),
             &crate::math::Vec3::new(36f64.to_radians().cos(), 0.0, 36f64.to_radians().sin()),
             &crate::math::Vec3::z(),
         );
-        ClosedForm::new(sag, axes, Damping::Ratio(xi), false)
+        ShallowDynamic::new(sag, axes, Damping::Ratio(xi), false)
     }
 
     #[test]
     fn at_rest_it_is_the_static_sag() {
         let cable = fig2(0.0);
         let k = cable.undamped(0.0);
-        let still = super::super::static_sag::stiffness(&cable.sag);
+        let still = super::super::shallow_static::stiffness(&cable.sag);
         assert!((k.axial / still.axial - 1.0).abs() < 1e-15);
         assert_eq!(k.coupling.to_bits(), 0.0_f64.to_bits());
         assert!((k.normal / still.normal - 1.0).abs() < 1e-15);
@@ -313,12 +313,12 @@ mod tests {
     }
 
     #[test]
-    fn moving_mass_is_the_differenced_stiffness() {
+    fn effective_mass_is_the_differenced_stiffness() {
         let cable = fig2(0.0);
         for omega in [0.5, 3.0, 7.0, 12.0, 17.0, 25.0, 40.0, 61.0] {
             let step = 1e-4 * omega;
             let (above, below) = (cable.undamped(omega + step), cable.undamped(omega - step));
-            let mass = cable.moving_mass(omega);
+            let mass = cable.effective_mass(omega);
             let by_square = |a: f64, b: f64| -(a - b) / (4.0 * omega * step);
             for (exact, a, b) in [
                 (mass.axial, above.axial, below.axial),
