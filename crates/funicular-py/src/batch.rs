@@ -9,7 +9,7 @@ use crate::threads::Threads;
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
-use funicular::statics::{self, Rest, Stability, StaticModel, TensionRule};
+use funicular::statics::{self, Solution, Stability, StaticModel, TensionRule};
 use funicular_study::at_rest;
 use funicular_study::request::{State as StateOfAll, Tensions};
 use funicular_study::values;
@@ -102,8 +102,8 @@ struct Found {
 }
 
 impl Found {
-    fn of(robot: &Robot, rest: &Rest) -> Self {
-        let Rest { equilibrium, instead_of, .. } = rest;
+    fn of(robot: &Robot, rest: &Solution) -> Self {
+        let Solution { equilibrium, requested_pose, .. } = rest;
         let (p, rot_wp) = (&equilibrium.pose.position_w, &equilibrium.pose.rot_wp);
         let [w, i, j, k] = rotation::quaternion_wxyz(rot_wp);
         let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&pose::PyPose::of(&equilibrium.pose).0.rot_wp);
@@ -118,7 +118,7 @@ impl Found {
             residual: equilibrium.residual,
             stable: matches!(equilibrium.stability, Stability::Stable { .. }),
             min_stiffness: min_stiffness(&equilibrium.stability).unwrap_or(f64::NAN),
-            distance: instead_of.map_or(f64::NAN, |(_, distance)| distance),
+            distance: requested_pose.map_or(f64::NAN, |(_, distance)| distance),
         }
     }
 }
@@ -134,7 +134,7 @@ struct Work<'a> {
 impl Work<'_> {
     fn row(&self, robot: &mut Robot, row: usize) -> Row {
         robot.state = self.states.state(robot, row).map_err(|reason| ("input", reason))?;
-        match statics::rest(robot, self.model, self.rule.clone()) {
+        match statics::solve(robot, self.model, self.rule.clone()) {
             Ok(rest) => Ok(Found::of(robot, &rest)),
             Err(error) => Err((error.code(), error.to_string())),
         }

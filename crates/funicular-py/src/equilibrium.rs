@@ -153,7 +153,7 @@ impl PyEquilibrium {
     /// Distance from the pose asked [m], where fewer cables than degrees of freedom hold only the nearest; else None.
     #[getter]
     fn nearest_pose_distance_m(&self) -> Option<f64> {
-        self.at_rest.instead_of.map(|(_, distance)| distance)
+        self.at_rest.requested_pose.map(|(_, distance)| distance)
     }
 
     /// What to know before trusting the result.
@@ -527,7 +527,7 @@ impl PyEquilibrium {
     fn __eq__(&self, other: &Self) -> bool {
         let (this, other) = (&*self.at_rest, &*other.at_rest);
         this.equilibrium == other.equilibrium
-            && this.instead_of == other.instead_of
+            && this.requested_pose == other.requested_pose
             && this.rule == other.rule
             && this.robot == other.robot
     }

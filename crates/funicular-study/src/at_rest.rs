@@ -10,7 +10,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::response::{Port, Signal};
 use funicular::robot::{self, PlatformMotion, Pose, Robot, State, TensionLimits, Wind};
-use funicular::statics::{self, Equilibrium, Rest, StaticModel, TensionRule};
+use funicular::statics::{self, Equilibrium, Solution, StaticModel, TensionRule};
 use funicular::warnings;
 
 /// A robot at rest.
@@ -21,7 +21,7 @@ pub struct AtRest {
     /// Its equilibrium.
     pub equilibrium: Equilibrium,
     /// The requested pose where the cables cannot hold it and this is the nearest, and how far it is [m].
-    pub instead_of: Option<(Pose, f64)>,
+    pub requested_pose: Option<(Pose, f64)>,
     /// The rule that chose the tensions, where there was a choice.
     pub rule: Option<TensionRule>,
 }
@@ -33,8 +33,8 @@ pub struct AtRest {
 pub fn equilibrium(robot: Robot, state: &request::State, tensions: &Tensions) -> Result<AtRest> {
     let robot = with_limits(&with_state(robot, state)?, tensions)?;
     refuse_no_state(&robot)?;
-    let Rest { equilibrium, instead_of, rule } = statics::rest(&robot, state.static_model, rule(tensions)?)?;
-    Ok(AtRest { robot, equilibrium, instead_of, rule })
+    let Solution { equilibrium, requested_pose, rule } = statics::solve(&robot, state.static_model, rule(tensions)?)?;
+    Ok(AtRest { robot, equilibrium, requested_pose, rule })
 }
 
 /// Refuses a robot of which neither lengths nor a pose are known.
@@ -203,7 +203,7 @@ impl AtRest {
             warnings.extend(warnings::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }
         let elsewhere = self
-            .instead_of
+            .requested_pose
             .and_then(|(asked, distance)| warnings::of_pose(&self.robot, &self.equilibrium, &asked, distance));
         elsewhere.iter().chain(&warnings).map(ToString::to_string).collect()
     }

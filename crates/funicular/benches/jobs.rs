@@ -56,7 +56,8 @@ fn statics_both_ways(c: &mut Criterion) {
 fn tension_distribution(c: &mut Criterion) {
     let robot = Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot");
     let robot = robot.with_tension_limits(TensionLimits { minimum: Some(50.0), maximum: Some(1500.0) });
-    let possible = |pose: &Pose| statics::distribute(&robot, pose, StaticModel::Catenary, &TensionRule::Lowest).is_ok();
+    let possible =
+        |pose: &Pose| statics::distribute_tensions(&robot, pose, StaticModel::Catenary, &TensionRule::Lowest).is_ok();
     let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
     let poses: Vec<Pose> = (0..4000)
         .map(|i| {
@@ -73,7 +74,8 @@ fn tension_distribution(c: &mut Criterion) {
         c.bench_function(&format!("tension_distribution: {}", rule.name()), |b| {
             b.iter(|| {
                 i = (i + 1) % poses.len();
-                statics::distribute(&robot, black_box(&poses[i]), StaticModel::Catenary, &rule).expect("possible")
+                statics::distribute_tensions(&robot, black_box(&poses[i]), StaticModel::Catenary, &rule)
+                    .expect("possible")
             });
         });
     }
@@ -167,7 +169,7 @@ fn exact_cables(c: &mut Criterion) {
     let undamped = modes::below(&dynamics, 20.0);
     c.bench_function("exact: damped partners of all modes below 20 Hz, certified", |b| {
         b.iter(|| {
-            let found = modes::damped::of(black_box(&dynamics), &undamped);
+            let found = modes::damped::damped_modes(black_box(&dynamics), &undamped);
             assert!(found.certified);
             found.modes.len()
         });

@@ -108,7 +108,7 @@ pub struct Dynamics {
     mass: Mat6,
     /// Scaled viscous damping of the platform [N s/m].
     platform_damping: Mat6,
-    terms: Vec<Term>,
+    terms: Vec<DynamicCableAt>,
     /// How it was made.
     pub linearisation: Linearisation,
     /// Damping and mass per length [kg/m] of each cable.
@@ -117,7 +117,7 @@ pub struct Dynamics {
 
 /// A cable whose stiffness depends on frequency: its local axes as scaled 6-vectors (u; r × u/ℓ).
 #[derive(Debug, Clone)]
-pub(crate) struct Term {
+pub(crate) struct DynamicCableAt {
     cable: usize,
     form: DynamicCable,
     along: Vec6,
@@ -125,7 +125,7 @@ pub(crate) struct Term {
     out: Vec6,
 }
 
-impl Term {
+impl DynamicCableAt {
     /// Which cable it is, file order.
     pub(crate) fn cable(&self) -> usize {
         self.cable
@@ -182,7 +182,7 @@ impl Dynamics {
                     let vector = |u: &Vec3| coordinates.reduce_force(u, &state.lever_w);
                     let LocalAxes { e, n, b } = *form.axes();
                     let (along, normal, out) = (vector(&e), vector(&n), vector(&b));
-                    terms.push(Term { cable: i, form, along, normal, out });
+                    terms.push(DynamicCableAt { cable: i, form, along, normal, out });
                 }
             }
         }
@@ -236,7 +236,7 @@ impl Dynamics {
     }
 
     /// Cables whose stiffness depends on frequency.
-    pub(crate) fn terms(&self) -> &[Term] {
+    pub(crate) fn terms(&self) -> &[DynamicCableAt] {
         &self.terms
     }
 
@@ -392,7 +392,7 @@ const RESOLUTION: f64 = 1e-9;
 /// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.
 fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
     total: &mut Matrix6<T>,
-    term: &Term,
+    term: &DynamicCableAt,
     k: &LocalStiffness<T>,
     times: impl Fn(T, f64) -> T,
 ) {
@@ -419,7 +419,7 @@ fn static_terms(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
 }
 
 /// A robot without the end stiffness of its cables; scaled, in the platform's coordinates.
-pub(crate) struct Still {
+pub(crate) struct PlatformTerms {
     /// Stiffness by the turning of static forces [N/m].
     pub(crate) constant: Mat6,
     /// Mass of the platform [kg].
@@ -428,11 +428,11 @@ pub(crate) struct Still {
 }
 
 /// What a robot has at an equilibrium whatever its cables' stiffness.
-pub(crate) fn still(robot: &Robot, equilibrium: &Equilibrium) -> Still {
+pub(crate) fn platform_terms(robot: &Robot, equilibrium: &Equilibrium) -> PlatformTerms {
     let coordinates = Coordinates::of(robot);
     let constant = coordinates.reduce_symmetric(&static_terms(robot, equilibrium));
     let mass = coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose));
-    Still { constant, mass, coordinates }
+    PlatformTerms { constant, mass, coordinates }
 }
 
 /// Stiffness of a cable whose end stiffness [N/m] does not depend on frequency; scaled, in the platform's coordinates.

@@ -12,7 +12,7 @@ mod lowest;
 mod mac;
 pub mod tracking;
 
-pub use fundamental::{First, FirstError, first, first_of_all};
+pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, lowest};
 pub use mac::mac;
 

@@ -6,7 +6,7 @@
 //! | pose from unstrained lengths | [`forward`] |
 //! | every equilibrium of given lengths | [`all`], [`another_stable_equilibrium`] |
 //! | lengths from a pose, as many cables as degrees of freedom | [`inverse`] |
-//! | lengths from a pose, more cables than degrees of freedom | [`distribute`] by a [`TensionRule`] |
+//! | lengths from a pose, more cables than degrees of freedom | [`distribute_tensions`] by a [`TensionRule`] |
 //! | the nearest pose that fewer cables hold | [`nearest`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | how an equilibrium follows a number of the robot | [`derivatives`] |
@@ -33,7 +33,7 @@ mod forward; // lengths to pose, cables that stretch
 mod ideal; // rigid cables: lengths to pose, pose to tensions
 mod inverse; // pose to lengths, as many cables as degrees of freedom
 mod nearest_pose; // the nearest pose that fewer cables than degrees of freedom hold
-mod rest; // the choice between the solvers, by the state and the number of cables
+mod solve; // the choice between the solvers, by the state and the number of cables
 mod tension; // pose to lengths, more cables than degrees of freedom
 
 // Questions to an equilibrium.
@@ -52,8 +52,8 @@ pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest_pose::{Nearest, distance, nearest};
 pub use residual::{carries_nothing, wrench};
-pub use rest::{Rest, inverse, rest, solve_at};
+pub use solve::{Solution, inverse, solve, solve_at};
 pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};
-pub use tension::{TensionRule, distribute};
+pub use tension::{TensionRule, distribute_tensions};
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

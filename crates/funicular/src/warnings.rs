@@ -254,7 +254,7 @@ fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning
 const HELD: f64 = 1e-7;
 
 /// That an equilibrium is not at the pose asked, where it is the nearest that the cables hold
-/// ([`Rest::instead_of`](crate::statics::Rest::instead_of)).
+/// ([`Solution::requested_pose`](crate::statics::Solution::requested_pose)).
 pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, asked: &Pose, distance: f64) -> Option<Warning> {
     let found = &equilibrium.pose;
     (distance > HELD * robot.platform_length()).then(|| Warning::Elsewhere {

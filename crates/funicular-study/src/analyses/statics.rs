@@ -244,7 +244,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         load: LoadRow::of(&robot.load),
         wind: WindRow::of(&robot.wind),
         pose: PoseRow::of(&equilibrium.pose),
-        nearest_pose_distance_m: at_rest.instead_of.map(|(_, distance)| distance),
+        nearest_pose_distance_m: at_rest.requested_pose.map(|(_, distance)| distance),
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
         residual: equilibrium.residual,

@@ -252,7 +252,7 @@ mod tests {
         let robot = Robot::from_toml(text).unwrap();
         let State::Lengths(lengths) = &robot.state else { panic!("it has lengths") };
         let equilibrium = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
-        AtRest { robot, equilibrium, instead_of: None, rule: None }
+        AtRest { robot, equilibrium, requested_pose: None, rule: None }
     }
 
     /// Measured on this robot with OpenSees: the first frequency is off by 4e-5 at 1,600 times its inertia, by 5.7e-4 at

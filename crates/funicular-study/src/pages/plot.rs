@@ -33,7 +33,7 @@ struct PlotInput<'a> {
 struct Tracking {
     /// Ascending in frequency; none for a row without.
     modes: Vec<Vec<Mode>>,
-    /// As of [`funicular::modes::tracking::branches`].
+    /// As of [`funicular::modes::tracking::track`].
     branches: Vec<Vec<usize>>,
 }
 

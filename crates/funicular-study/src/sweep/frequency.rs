@@ -20,7 +20,7 @@ pub struct PointModes {
 }
 
 /// The lowest `count` modes of a point: those whose frequencies the quantity `frequencies:N` gives, with their
-/// motions, to be [tracked](modes::tracking::branches) from point to point.
+/// motions, to be [tracked](modes::tracking::track) from point to point.
 ///
 /// # Errors
 /// The reason why there are none, as a row has it.
@@ -92,7 +92,7 @@ fn refuse_unstable(rest: &Equilibrium) -> Result<(), Status> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use funicular::modes::tracking::branches;
+    use funicular::modes::tracking::track;
     use std::borrow::Cow;
 
     #[test]
@@ -109,7 +109,7 @@ mod tests {
                 assert!(found.modes.len() == MODES && found.tracked.len() == MODES);
                 found.tracked
             };
-            branches(&(0..count).map(step).collect::<Vec<_>>())
+            track(&(0..count).map(step).collect::<Vec<_>>())
         };
         // A robot without symmetry: its curves come near each other and never meet, however many there are.
         let fine = followed(800);

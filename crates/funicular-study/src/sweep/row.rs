@@ -11,7 +11,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::Kind;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::Robot;
-use funicular::statics::{self, Equilibrium, Rest, Stability, StaticModel};
+use funicular::statics::{self, Equilibrium, Solution, Stability, StaticModel};
 use std::cell::OnceCell;
 
 /// A robot at rest at a point, and what several quantities share.
@@ -44,12 +44,12 @@ pub(super) fn cells(
             head(false, Some(status), out);
             out.resize(begin + width, Value::Nothing);
         }
-        Ok((robot, Rest { equilibrium, instead_of, .. })) => {
+        Ok((robot, Solution { equilibrium, requested_pose, .. })) => {
             // The quantities come first: they know what is missing, which the status says.
             let (values, missing) = quantity_values(robot, &equilibrium, quantities, options);
             head(true, missing, out);
             if with_distance {
-                out.push(Value::real(instead_of.map(|(_, distance)| distance)));
+                out.push(Value::real(requested_pose.map(|(_, distance)| distance)));
             }
             out.extend(values);
         }
@@ -57,7 +57,7 @@ pub(super) fn cells(
 }
 
 /// The robot of a point and its equilibrium, or why it has none within the limits.
-fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Rest), Status> {
+fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solution), Status> {
     let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("invalid-robot", reason))?;
     let rest = statics::solve_at(robot, state, options.static_model, &options.tension_rule)
         .map_err(|error| Status::of_error(&error))?;

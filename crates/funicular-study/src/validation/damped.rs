@@ -51,7 +51,7 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Row>> {
     }
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), of.below_hz)?;
-    let damped = modes::damped::of(&dynamics, &modes::below(&dynamics, of.below_hz));
+    let damped = modes::damped::damped_modes(&dynamics, &modes::below(&dynamics, of.below_hz));
     let mut ours: Vec<(f64, f64)> =
         damped.modes.iter().map(|mode| (mode.ringing_hz(), mode.frequency_hz() * mode.damping_ratio())).collect();
     ours.sort_by(|a, b| a.0.total_cmp(&b.0));

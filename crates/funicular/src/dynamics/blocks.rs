@@ -8,7 +8,7 @@
 //!       [ 0     ω_k² ]           [ g_kᵀ   1  ]
 //! ```
 
-use super::{Dynamics, Term};
+use super::{DynamicCableAt, Dynamics};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::math::{DMat, Mat6, Vec6};
@@ -62,7 +62,7 @@ impl Dynamics {
         })
     }
 
-    fn blocks_of(&self, term: &Term, exact: &CatenaryDynamic) -> CableBlocks {
+    fn blocks_of(&self, term: &DynamicCableAt, exact: &CatenaryDynamic) -> CableBlocks {
         let across = !self.linearisation.in_plane_only;
         let (plane, out) = (&exact.in_plane, &exact.out_of_plane);
         let (damping, mass_per_length) = self.damping[term.cable];
@@ -100,7 +100,7 @@ impl Dynamics {
     }
 }
 
-impl Term {
+impl DynamicCableAt {
     /// A 3×3 form of the end's displacement over the platform's scaled coordinates: in plane the start's part of a matrix
     /// over both ends, and one number out of plane.
     fn congruent(&self, in_plane: &[[f64; 4]; 4], out_of_plane: f64) -> Mat6 {

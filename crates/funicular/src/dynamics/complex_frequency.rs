@@ -7,7 +7,7 @@
 //!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
 //! ```
 
-use super::{Dynamics, POLE_PART, Term, add_local};
+use super::{DynamicCableAt, Dynamics, POLE_PART, add_local};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, Complex};
 
@@ -99,6 +99,6 @@ impl Dynamics {
     }
 }
 
-fn add_scaled(total: &mut CMat6, term: &Term, k: &LocalStiffness<Complex>, factor: Complex) {
+fn add_scaled(total: &mut CMat6, term: &DynamicCableAt, k: &LocalStiffness<Complex>, factor: Complex) {
     add_local(total, term, k, |k, product| k * factor * product);
 }

@@ -1,6 +1,6 @@
 //! The number of natural frequencies below a frequency.
 
-use super::{Dynamics, POLE_PART, Term, add_local};
+use super::{DynamicCableAt, Dynamics, POLE_PART, add_local};
 use crate::cable::shallow_dynamic::{Entire, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{Mat6, Vec6, symmetric};
@@ -91,7 +91,7 @@ fn is_regular(of: &Entire<f64>, form: &ShallowDynamic) -> bool {
 fn add_bordered(
     matrix: &mut Mat6,
     borders: &mut Vec<(Vec6, f64)>,
-    term: &Term,
+    term: &DynamicCableAt,
     form: &ShallowDynamic,
     of: &Entire<f64>,
 ) {

@@ -75,7 +75,7 @@ pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedM
         );
         return (None, Some(said));
     }
-    let damped = damped::of(dynamics, undamped);
+    let damped = damped::damped_modes(dynamics, undamped);
     let caveat = damped.caveat(undamped);
     (Some(damped), caveat)
 }

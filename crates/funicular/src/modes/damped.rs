@@ -77,7 +77,7 @@ const POLES_BEYOND: f64 = 1.3;
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0)?;
 /// let undamped = modes::below(&dynamics, 5.0);
-/// let damped = modes::damped::of(&dynamics, &undamped);
+/// let damped = modes::damped::damped_modes(&dynamics, &undamped);
 /// assert!(damped.certified && damped.modes.len() == undamped.modes.len());
 /// // Its ropes have ξ = 0.003, which a mode of the cables alone gets in full.
 /// assert!(damped.modes.iter().all(|mode| mode.damping_ratio() > 0.0 && mode.damping_ratio() < 0.003_001));
@@ -87,7 +87,7 @@ const POLES_BEYOND: f64 = 1.3;
 /// # References
 /// O. Aberth, Math. Comp. 27(122), 1973; D. A. Bini, V. Noferini, Linear Algebra Appl. 439(4), 2013; docs/theory.md,
 /// section 12.
-pub fn of(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
+pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
     let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
     let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MAX_STEPS);

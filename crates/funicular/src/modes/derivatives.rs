@@ -347,13 +347,13 @@ mod tests {
     use super::*;
     use crate::modes;
     use crate::statics::derivatives::at_held_lengths;
-    use crate::statics::{StaticModel, rest};
+    use crate::statics::{StaticModel, solve};
 
     #[test]
     fn the_integrals_are_those_of_half_as_many_pieces() {
         for text in [funicular_robots::YUAN2014_4MM, funicular_robots::FAST, funicular_robots::STADIUM_CAMERA] {
             let robot = Robot::from_toml(text).unwrap();
-            let rest = rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+            let rest = solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
             let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
             let dynamics = Dynamics::about(&robot, &rest, linearisation, 2.0).unwrap();
             let change = RobotChange::of_mass(&robot);

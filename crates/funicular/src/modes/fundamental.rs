@@ -93,7 +93,7 @@ pub enum FirstError {
 ///
 /// The same as the first of [`below`] with [`Linearisation::default`], some twenty times faster, more where cables are
 /// slack. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, go through
-/// [`first_of_all`].
+/// [`lowest_by_count`].
 ///
 /// # Errors
 /// [`FirstError`]: a cable without tension or without a shape, or nothing that vibrates.
@@ -115,7 +115,7 @@ pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstErr
     if let Some(found) = Pencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
         return Ok(found);
     }
-    first_of_all(robot, equilibrium)
+    lowest_by_count(robot, equilibrium)
 }
 
 /// As [`first`], by counting and separating all natural frequencies below a limit that is raised until there is one: the
@@ -123,7 +123,7 @@ pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstErr
 ///
 /// # Errors
 /// As [`first`].
-pub fn first_of_all(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
+pub fn lowest_by_count(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
     let (_, found) = lowest(robot, equilibrium, Linearisation::default(), 1, MAX_HZ).map_err(|error| match error {
         LowestError::Dynamics(error) => FirstError::Dynamics(error),
         LowestError::TooFew { unstable_directions, highest_hz, .. } => {

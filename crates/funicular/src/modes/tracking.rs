@@ -44,9 +44,9 @@ pub(crate) fn mac_of_motions(a: &[f64], b: &[f64]) -> f64 {
 /// let mode = |frequency_hz, motion: [f64; 2]| Tracked { frequency_hz, motion: motion.to_vec() };
 /// let before = vec![mode(1.0, [1.0, 0.1]), mode(1.2, [-0.1, 1.0])];
 /// let after = vec![mode(1.1, [0.1, -1.0]), mode(1.3, [1.0, 0.1])];
-/// assert_eq!(branches(&[before, after]), [[0, 1], [1, 0]]);
+/// assert_eq!(track(&[before, after]), [[0, 1], [1, 0]]);
 /// ```
-pub fn branches(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
+pub fn track(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
     let mut known = 0;
     let mut last: Option<(&[Tracked], Vec<usize>)> = None;
     let mut found = Vec::with_capacity(steps.len());
@@ -143,7 +143,7 @@ mod tests {
     }
 
     fn last(steps: &[Vec<Tracked>]) -> Vec<usize> {
-        branches(steps).pop().unwrap()
+        track(steps).pop().unwrap()
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
             vec![mode(1.0, [c, s, 0.0]), mode(1.0, [-s, c, 0.0]), mode(2.0, [0.0, 0.0, 1.0])]
         };
         let steps: Vec<_> = [0.0, 0.785, 1.3, 2.2].map(turned).to_vec();
-        assert!(branches(&steps).iter().flatten().all(|branch| *branch < 3), "{:?}", branches(&steps));
+        assert!(track(&steps).iter().flatten().all(|branch| *branch < 3), "{:?}", track(&steps));
     }
 
     #[test]
@@ -187,8 +187,8 @@ mod tests {
             motion: (0..4).map(|i| f64::from(u8::from(i == k))).collect(),
         };
         let steps = [vec![mode(1.0, 0), mode(2.0, 1)], vec![], vec![mode(1.5, 1), mode(1.7, 2)], vec![mode(1.0, 2)]];
-        assert_eq!(branches(&steps), [vec![0, 1], vec![], vec![1, 2], vec![2]]);
-        assert_eq!(branches(&[]), Vec::<Vec<usize>>::new());
+        assert_eq!(track(&steps), [vec![0, 1], vec![], vec![1, 2], vec![2]]);
+        assert_eq!(track(&[]), Vec::<Vec<usize>>::new());
         // At rest: like nothing.
         assert!(mac_of_motions(&[0.0, 0.0], &[1.0, 0.0]) <= 0.0);
     }

@@ -22,7 +22,7 @@ use crate::robot::Robot;
 ///     .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2");
 /// let wind = Wind { velocity_w: Vec3::new(15.0, 0.0, 0.0), ..Wind::default() };
 /// let robot = Robot::from_toml(&text)?.with_wind(wind);
-/// let rest = statics::rest(&robot, StaticModel::Catenary, None)?.equilibrium;
+/// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
 /// let tangent = statics::tangent_with_drag(&robot, &rest).ok_or("elastic cables have a tangent")?;
 /// assert!(statics::antisymmetric_fraction(&robot, &tangent) > 1e-5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

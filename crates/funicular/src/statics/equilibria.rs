@@ -214,7 +214,7 @@ impl<'a> EquilibriumSearch<'a> {
         let turned = self.asked.moved(&Vec3::zeros(), &turn);
         let mut search = Search::new(self.robot, self.lengths, self.model, &turned);
         search.turns = false;
-        let (trial, _) = search.rest(turned);
+        let (trial, _) = search.minimise(turned);
         search.holds(&trial).then_some(trial.pose)
     }
 

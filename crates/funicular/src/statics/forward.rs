@@ -181,7 +181,7 @@ pub(super) fn elastic(
     start: Pose,
 ) -> Result<Equilibrium, StaticsError> {
     let mut search = Search::new(robot, lengths, model, &start);
-    let (mut here, mut iterations) = search.rest(start);
+    let (mut here, mut iterations) = search.minimise(start);
 
     if robot.wind_turns_with_cables() {
         // At rest under the drag of one pose, the platform meets that of another; the two draw near, each round by the
@@ -195,7 +195,7 @@ pub(super) fn elastic(
             }
             last = here.residual;
             let more;
-            (here, more) = search.rest(here.pose);
+            (here, more) = search.minimise(here.pose);
             iterations += more;
         }
     }
@@ -239,7 +239,7 @@ impl Search<'_> {
     }
 
     /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
-    pub(super) fn rest(&self, start: Pose) -> (Trial, usize) {
+    pub(super) fn minimise(&self, start: Pose) -> (Trial, usize) {
         let (here, iterations, _) = self.descend(start);
         (here, iterations)
     }

@@ -72,7 +72,7 @@ impl TensionRule {
 /// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel, TensionRange, TensionRule}};
 /// # let robot = Robot::from_toml(funicular_robots::COGIRO)?;
 /// let pose = Pose::new([1.0, -2.0, 1.5], [0.0, 0.0, 5.0]);
-/// let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(vec![400.0]))?;
+/// let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(vec![400.0]))?;
 /// assert!(held.residual <= statics::RESIDUAL_LIMIT);
 /// for (i, cable) in held.cables.iter().enumerate() {
 ///     assert!(TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).distance() >= -1e-6 * cable.tension_platform);
@@ -82,7 +82,7 @@ impl TensionRule {
 ///
 /// # References
 /// docs/theory.md, equations (36) to (40b).
-pub fn distribute(
+pub fn distribute_tensions(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,

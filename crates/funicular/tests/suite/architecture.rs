@@ -1,5 +1,6 @@
 //! Rules of ARCHITECTURE.md that the sources can be read for.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -77,5 +78,111 @@ fn core_and_study_have_no_disk_no_threads_and_no_clock() {
                 assert_eq!(found, None, "{}: disk and threads belong to funicular-files", path.display());
             }
         }
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+/// Source of a file without its comments and without its unit tests.
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let library = text.split("#[cfg(test)]\nmod tests").next().unwrap();
+    library.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n")
+}
+
+/// Rooms of the crate that a source names by `crate::ROOM` or in a list `crate::{…}`.
+fn named_rooms(source: &str, rooms: &BTreeSet<String>) -> BTreeSet<String> {
+    let mut named = BTreeSet::new();
+    for after in source.split("crate::").skip(1) {
+        let list = after.strip_prefix('{').and_then(|list| list.split('}').next());
+        let words = list.map_or_else(|| vec![after], |list| list.split(',').collect());
+        for word in words {
+            let name: String = word.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            if rooms.contains(&name) {
+                named.insert(name);
+            }
+        }
+    }
+    named
+}
+
+/// Rows of the table "Direction" of ARCHITECTURE.md: a room and the rooms that it uses.
+fn direction_table() -> Vec<(String, BTreeSet<String>)> {
+    let text = fs::read_to_string(root().join("../../ARCHITECTURE.md")).unwrap();
+    let section = text.split("## Direction").nth(1).unwrap().split("\n## ").next().unwrap();
+    let names = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+    let rows = section.lines().filter(|line| line.starts_with("| `"));
+    rows.map(|row| {
+        let mut cells = row.trim_matches('|').split('|');
+        (names(cells.next().unwrap())[0].clone(), names(cells.next().unwrap()).into_iter().collect())
+    })
+    .collect()
+}
+
+#[test]
+fn rooms_use_each_other_as_the_direction_table_of_architecture_says() {
+    let table = direction_table();
+    let listed: BTreeSet<String> = table.iter().map(|(room, _)| room.clone()).collect();
+    let lib = fs::read_to_string(root().join("src/lib.rs")).unwrap();
+    let rooms: BTreeSet<String> = lib
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod ").or(line.strip_prefix("mod "))?.strip_suffix(';'))
+        .map(str::to_owned)
+        .collect();
+    assert_eq!(listed, rooms, "the table of ARCHITECTURE.md lists the modules of lib.rs");
+
+    let mut above = BTreeSet::new();
+    for (room, stated) in &table {
+        assert!(stated.is_subset(&above), "{room} uses a room that is below it in the table");
+        above.insert(room.clone());
+
+        let file = root().join(format!("src/{room}.rs"));
+        let folder = root().join(format!("src/{room}"));
+        let mut files = vec![file];
+        if folder.is_dir() {
+            files.extend(sources(&folder));
+        }
+        let mut used: BTreeSet<String> = files.iter().flat_map(|file| named_rooms(&code(file), &rooms)).collect();
+        used.remove(room);
+        assert_eq!(&used, stated, "rooms that {room} uses, beside its row in ARCHITECTURE.md");
+    }
+}
+
+#[test]
+fn the_map_of_architecture_names_what_exists_and_every_room() {
+    let top = root().join("../..");
+    let text = fs::read_to_string(top.join("ARCHITECTURE.md")).unwrap();
+    assert!(text.lines().count() <= 150, "ARCHITECTURE.md is the map; reasons stand in DESIGN.md");
+
+    let map = text.split("## Map").nth(1).unwrap().split("```").nth(1).unwrap();
+    let (mut base, mut inner) = (PathBuf::new(), PathBuf::new());
+    for line in map.lines().filter(|line| !line.trim().is_empty()) {
+        let indent = line.len() - line.trim_start().len();
+        let paths = line.trim_start().split("  ").next().unwrap();
+        let mut beside = None;
+        for path in paths.split(", ") {
+            let folder = match indent {
+                0 => top.clone(),
+                2 => base.clone(),
+                _ => inner.clone(),
+            };
+            // `src/robot.rs, robot/`: a second name may stand in the folder of the first.
+            let full = folder.join(path.trim());
+            let second = beside.as_ref().map(|beside: &PathBuf| beside.join(path.trim()));
+            let is_there = full.exists() || second.is_some_and(|second| second.exists());
+            assert!(is_there, "{} is on the map of ARCHITECTURE.md and not there", full.display());
+            beside = beside.or_else(|| full.parent().map(Path::to_owned));
+            match indent {
+                0 => base = full,
+                2 => inner = base.join("src"),
+                _ => {}
+            }
+        }
+    }
+
+    for (room, _) in direction_table() {
+        assert!(map.contains(&format!("{room}.rs")), "{room} is missing on the map of ARCHITECTURE.md");
     }
 }

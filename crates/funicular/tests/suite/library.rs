@@ -21,7 +21,7 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
             let model = StaticModel::Catenary;
             let rest = match &robot.state {
                 State::Lengths(lengths) => statics::forward(&robot, lengths, model, None),
-                State::Pose(pose) => statics::distribute(&robot, pose, model, &TensionRule::default()),
+                State::Pose(pose) => statics::distribute_tensions(&robot, pose, model, &TensionRule::default()),
                 State::Unknown => panic!("{name} has no state"),
             };
             (name.to_owned(), robot, rest.unwrap_or_else(|error| panic!("{name}: {error}")))
@@ -100,7 +100,7 @@ fn at_the_pose_of_its_state_every_redundant_robot_has_tensions_by_every_rule() {
             if rule == TensionRule::Middle && !has_maximum {
                 continue;
             }
-            let found = statics::distribute(&robot, &rest.pose, StaticModel::Catenary, &rule);
+            let found = statics::distribute_tensions(&robot, &rest.pose, StaticModel::Catenary, &rule);
             let found = found.unwrap_or_else(|error| panic!("{name}, {rule:?}: {error}"));
             assert!(found.residual < 1e-10, "{name}, {rule:?}");
         }

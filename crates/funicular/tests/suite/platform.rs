@@ -103,7 +103,7 @@ fn forces_pull_a_point_mass_and_a_redundant_robot() {
     let pose = statics::forward(&camera, &lengths, StaticModel::Catenary, None).unwrap().pose;
     let pulled = camera.with_load(Load { force_w: Vec3::new(30.0, -20.0, 10.0), ..Load::default() });
     let [free, held] = [&camera, &pulled]
-        .map(|robot| statics::distribute(robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap());
+        .map(|robot| statics::distribute_tensions(robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap());
     let sum = |e: &Equilibrium| e.cables.iter().map(|c| c.force_on_platform_w).sum::<Vec3>();
     assert!((sum(&free) - sum(&held) - pulled.load.force_w).norm() < 1e-6);
 }

@@ -53,7 +53,7 @@ fn with_viscous_damping_it_has_the_responses_and_the_damped_frequencies_of_the_f
     }
     // Eigenvalues of the state matrix, by a general method that knows nothing of poles.
     let undamped = modes::below(&dynamics, 5.0);
-    let damped = modes::damped::of(&dynamics, &undamped);
+    let damped = modes::damped::damped_modes(&dynamics, &undamped);
     assert!(damped.certified);
     let eigenvalues = found.state_space().a.complex_eigenvalues();
     for mode in &damped.modes {

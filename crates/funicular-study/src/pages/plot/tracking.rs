@@ -5,7 +5,7 @@ use crate::Watch;
 use crate::sweep::{PreparedSweep, Quantity, Record, SweepRows, lowest_modes};
 use crate::text::counted;
 use funicular::modes::Mode;
-use funicular::modes::tracking::{Tracked, branches};
+use funicular::modes::tracking::{Tracked, track};
 
 /// Maximum number of rows whose modes are computed again to be followed: a minute of work.
 const MAX_TRACKED: usize = 2000;
@@ -45,6 +45,6 @@ fn follow(file: &dyn SweepRows, record: &Record, count: usize, watch: &mut dyn W
     }
     let (modes, tracked): (Vec<Vec<Mode>>, Vec<Vec<Tracked>>) =
         steps.into_iter().map(|step| step.into_iter().unzip()).unzip();
-    let branches = branches(&tracked);
+    let branches = track(&tracked);
     Ok(Tracking { modes, branches })
 }

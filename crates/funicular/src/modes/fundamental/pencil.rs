@@ -6,7 +6,7 @@ use super::lever_axes::{Arms, Motion};
 use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
 use crate::catenary::space::HangingCable;
-use crate::dynamics::{self, Still};
+use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
 use crate::math::{Mat6, Vec6};
 use crate::robot::{PlatformMotion, Robot};
@@ -39,7 +39,7 @@ const CLOSE_ENOUGH: f64 = 0.2;
 impl Pencil {
     /// None if a cable is none that this way knows.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        let Still { mut constant, mass, coordinates } = dynamics::still(robot, equilibrium);
+        let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 
         // Cables with mass, and the stiffness of the others.
         let mut massive = Vec::with_capacity(equilibrium.cables.len());

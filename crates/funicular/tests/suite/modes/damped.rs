@@ -23,7 +23,7 @@ fn damping_to_first_order_is_off_by_a_few_thousandths() {
     let (robot, rest) = changed("insa-4mm-10.55kg", |_| {});
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 10.0).unwrap();
     let undamped = modes::below(&dynamics, 10.0);
-    let damped = modes::damped::of(&dynamics, &undamped);
+    let damped = modes::damped::damped_modes(&dynamics, &undamped);
     assert!(damped.certified && damped.modes.len() == undamped.modes.len());
     let first_order =
         damped.modes.iter().zip(&undamped.modes).map(|(of, mode)| mode.damping_ratio / of.damping_ratio() - 1.0);
@@ -42,7 +42,7 @@ fn the_closed_form_has_a_damped_partner_for_every_mode_too() {
         let closed = Linearisation { cable_model: CableModel::ShallowDynamic, ..EXACT };
         let dynamics = Dynamics::about(&robot, &rest, closed, 12.0).unwrap();
         let undamped = modes::below(&dynamics, 12.0);
-        let damped = modes::damped::of(&dynamics, &undamped);
+        let damped = modes::damped::damped_modes(&dynamics, &undamped);
         assert!(damped.certified && damped.modes.len() == undamped.modes.len(), "{id}");
         for (of, mode) in damped.modes.iter().zip(&undamped.modes) {
             // First order in ξ, so off by some ξ: neighbours within ξ f of each other share more.
@@ -62,7 +62,7 @@ fn strong_damping_is_told_and_not_lost() {
     });
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 6.0).unwrap();
     let undamped = modes::below(&dynamics, 6.0);
-    let damped = modes::damped::of(&dynamics, &undamped);
+    let damped = modes::damped::damped_modes(&dynamics, &undamped);
     assert_eq!(damped.modes.len(), undamped.modes.len());
     assert!(undamped.certified && damped.overdamped > 0 && !damped.certified);
     // Strong, but all ring.
@@ -73,7 +73,7 @@ fn strong_damping_is_told_and_not_lost() {
     });
     let dynamics = Dynamics::about(&robot, &rest, EXACT, 6.0).unwrap();
     let undamped = modes::below(&dynamics, 6.0);
-    let damped = modes::damped::of(&dynamics, &undamped);
+    let damped = modes::damped::damped_modes(&dynamics, &undamped);
     let mut zeros: Vec<(f64, f64)> = damped.modes.iter().map(|m| (m.omega.re, m.omega.im)).collect();
     zeros.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert!(zeros.windows(2).all(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1) > 1e-6 * pair[0].0));

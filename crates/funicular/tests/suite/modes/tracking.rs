@@ -3,7 +3,7 @@
 use funicular::cable::CableModel;
 use funicular::cable_motion::WeightedMotions;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::modes::tracking::{Tracked, branches};
+use funicular::modes::tracking::{Tracked, track};
 use funicular::modes::{self, Mode};
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
@@ -60,7 +60,7 @@ fn ratios(steps: i32) -> impl Iterator<Item = f64> {
 fn modes_along_x_and_along_y_cross_and_keep_their_branches() {
     for steps in [2, 6, 100] {
         let (modes, tracked): (Vec<_>, Vec<_>) = ratios(steps).map(|ratio| in_plane(ratio, 1e-9)).unzip();
-        let branches = branches(&tracked);
+        let branches = track(&tracked);
         for (modes, branches) in modes.iter().zip(&branches) {
             for (mode, branch) in modes.iter().zip(branches) {
                 // The one along x begins as the lower one.
@@ -78,7 +78,7 @@ fn coupled_modes_veer_where_the_steps_are_finer_than_the_range_and_cross_where_t
     // goes through 1 ± `coupling`.
     let last = |steps, coupling| {
         let tracked: Vec<_> = ratios(steps).map(|ratio| in_plane(ratio, coupling).1).collect();
-        branches(&tracked).pop().unwrap()
+        track(&tracked).pop().unwrap()
     };
     assert_eq!(last(100, 0.05), [0, 1]);
     assert_eq!(last(4, 0.01), [1, 0]);

@@ -156,7 +156,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
     tally.modes += found.modes.len();
     if found.certified {
         tally.certified += 1;
-        let damped = modes::damped::of(&dynamics, &found);
+        let damped = modes::damped::damped_modes(&dynamics, &found);
         tally.damped += usize::from(damped.certified);
         if !damped.certified && at_the_limit(sample, &rest) {
             tally.cut.push(sample.index);

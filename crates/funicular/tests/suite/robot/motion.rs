@@ -253,7 +253,7 @@ fn tensions_of_a_planar_robot_with_four_cables_are_chosen_within_limits() {
     }
     let pose = Pose::new([0.1, 0.0, 0.4], [0.0, 5.0, 0.0]);
     for rule in [TensionRule::Lowest, TensionRule::Closest(vec![90.0]), TensionRule::Middle, TensionRule::Stiffest] {
-        let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &rule).unwrap();
+        let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule).unwrap();
         let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
         let wrench = statics::wrench(&robot, &pose, &lengths, StaticModel::Catenary).unwrap();
         assert!([0, 2, 4].iter().all(|&i| wrench[i].abs() < 1e-7), "{wrench}");

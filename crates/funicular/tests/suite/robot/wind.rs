@@ -102,9 +102,13 @@ fn inverse_statics_in_wind_is_the_way_back() {
     let wind = Wind { velocity_w: Vec3::new(12.0, 0.0, 0.0), ..Wind::default() };
     let robot = Robot::from_toml(&text).unwrap().with_wind(wind);
     let pose = Pose::new([1.0, -2.0, 1.5], [0.0, 0.0, 5.0]);
-    let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
-    let still =
-        statics::distribute(&Robot::from_toml(COGIRO).unwrap(), &pose, StaticModel::Catenary, &TensionRule::Lowest);
+    let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
+    let still = statics::distribute_tensions(
+        &Robot::from_toml(COGIRO).unwrap(),
+        &pose,
+        StaticModel::Catenary,
+        &TensionRule::Lowest,
+    );
     assert!((held.cables[0].tension_platform - still.unwrap().cables[0].tension_platform).abs() > 0.1);
     let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
     let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
@@ -247,7 +251,7 @@ fn the_tangent_with_drag_is_the_derivative_of_the_wrench() {
     for (name, robot, lengthened) in windy_robots() {
         for velocity_w in velocities {
             let robot = robot.with_wind(Wind { velocity_w, ..Wind::default() });
-            let first = statics::rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+            let first = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
             let lengths: Vec<f64> = first.cables.iter().map(|c| c.unstrained_length * lengthened).collect();
             let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&first.pose)).unwrap();
             let whole = statics::tangent_with_drag(&robot, &rest).unwrap();
@@ -311,7 +315,7 @@ fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one
         let mut last = 0.0;
         for speed in [0.5, 5.0, 25.0] {
             let robot = robot.with_wind(Wind { velocity_w: Vec3::new(0.6, 0.8, 0.0) * speed, ..Wind::default() });
-            let rest = statics::rest(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+            let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
             let effect = statics::drag_effect(&robot, &rest).unwrap();
             assert!(effect > last, "{name} {speed}: {effect} {last}");
             last = effect;

@@ -15,7 +15,9 @@ fn lengths_found_put_the_platform_back() {
     for (robot, pose) in robots {
         for i in 0..150 {
             for rule in [TensionRule::Lowest, TensionRule::Middle] {
-                let Ok(held) = statics::distribute(&robot, &pose(i), StaticModel::Catenary, &rule) else { continue };
+                let Ok(held) = statics::distribute_tensions(&robot, &pose(i), StaticModel::Catenary, &rule) else {
+                    continue;
+                };
                 let Stability::Stable { min_stiffness } = held.stability else { continue };
                 let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
                 let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose(i))).unwrap();
@@ -33,7 +35,7 @@ fn lengths_found_put_the_platform_back() {
 fn lengths_found_balance_the_platform_as_the_public_wrench_sees_it() {
     let robot = cogiro(0.064, 50.0, 1500.0);
     let pose = Pose::new([1.0, 2.0, 1.5], [0.0, 3.0, 5.0]);
-    let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Middle).unwrap();
+    let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Middle).unwrap();
     let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
     let left: Vec6 = statics::wrench(&robot, &pose, &lengths, StaticModel::Catenary).unwrap();
     // The lengths' last digit, 1e-15 m, in eight ropes of 820 kN.

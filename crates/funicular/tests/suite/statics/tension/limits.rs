@@ -32,7 +32,7 @@ fn a_minimum_of_next_to_nothing_is_met() {
         let robot = robot.with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(60.0) });
         for model in [StaticModel::Spring, StaticModel::Catenary] {
             for rule in [TensionRule::Lowest, TensionRule::Middle, TensionRule::Stiffest] {
-                let held = statics::distribute(&robot, &pose, model, &rule);
+                let held = statics::distribute_tensions(&robot, &pose, model, &rule);
                 let held = held.unwrap_or_else(|error| panic!("{minimum} N, {model:?}, {}: {error}", rule.name()));
                 assert!(held.residual <= statics::RESIDUAL_LIMIT, "{:e}", held.residual);
                 for (i, cable) in held.cables.iter().enumerate() {
@@ -70,7 +70,7 @@ proptest! {
         });
         let mut verdicts = Vec::new();
         for rule in [TensionRule::Lowest, TensionRule::Closest(vec![200.0]), TensionRule::Middle, TensionRule::Stiffest] {
-            let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &rule);
+            let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule);
             match &held {
                 Ok(held) => check(&robot, held),
                 Err(StaticsError::BeyondLimits(miss) | StaticsError::NotFoundWithinLimits { miss, .. }) => {

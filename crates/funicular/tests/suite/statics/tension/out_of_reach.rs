@@ -15,7 +15,7 @@ fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
         let pose = cogiro_pose(i);
         let verdict = |way: f64| {
             let robot = cogiro(mass, minimum - way, maximum + way);
-            statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest)
+            statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest)
         };
         let Err(StaticsError::BeyondLimits(LimitViolation { by, minimum_of, maximum_of })) = verdict(0.0) else {
             continue;
@@ -43,7 +43,7 @@ fn a_load_that_tensions_within_the_limits_hold_is_not_refused() {
         robot.load.force_w = Vec3::new(-305.833217, -305.833217, 458.749826) * part;
         robot.load.moment_w = Vec3::new(-61.166643, 61.166643, -61.166643) * part;
         for rule in [TensionRule::Lowest, TensionRule::Middle] {
-            let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &rule);
+            let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule);
             if let Ok(held) = &held {
                 let (load, point) = (robot.load.force_w, robot.load.point_p);
                 assert_eq!(point, Vec3::zeros());
@@ -133,7 +133,7 @@ fn no_load_that_drawn_tensions_hold_is_refused() {
         robot.load.force_w = -left.fixed_rows::<3>(0).into_owned();
         robot.load.moment_w = -left.fixed_rows::<3>(3).into_owned();
         for rule in [TensionRule::Lowest, TensionRule::Middle] {
-            match statics::distribute(&robot, &pose, StaticModel::Catenary, &rule) {
+            match statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule) {
                 Ok(found) => {
                     assert!(found.residual <= statics::RESIDUAL_LIMIT);
                     held += 1;
@@ -157,7 +157,7 @@ fn what_is_proved_to_be_out_of_reach_no_random_search_reaches() {
     let mut refused = 0;
     for i in 0..400 {
         let pose = cogiro_pose(i);
-        let verdict = statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest);
+        let verdict = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest);
         let Err(StaticsError::BeyondLimits(miss)) = verdict else { continue };
         assert!(miss.by > 0.0 && miss.minimum_of.len() + miss.maximum_of.len() > 0);
         refused += 1;

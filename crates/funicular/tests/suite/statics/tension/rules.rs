@@ -30,7 +30,7 @@ fn with_sagging_ropes_no_neighbour_is_better_by_any_rule() {
         for i in 0..25 {
             let pose = cogiro_pose(i);
             for rule in &rules {
-                let held = match statics::distribute(&robot, &pose, StaticModel::Catenary, rule) {
+                let held = match statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, rule) {
                     Ok(held) => held,
                     Err(StaticsError::BeyondLimits(_) | StaticsError::NotFoundWithinLimits { .. }) => continue,
                     Err(other) => panic!("{other}: {mass} kg/m, pose {i}, {}", rule.name()),
@@ -44,7 +44,7 @@ fn with_sagging_ropes_no_neighbour_is_better_by_any_rule() {
                         .enumerate()
                         .map(|(c, t)| (t + reach * (spread(k + 40 * i, c) - 0.5)).max(0.0));
                     let other = TensionRule::Closest(wanted.collect());
-                    let other = statics::distribute(&robot, &pose, StaticModel::Catenary, &other).unwrap();
+                    let other = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &other).unwrap();
                     check(&robot, &other);
                     let other = cost(&robot, &other, rule);
                     assert!(other >= best - 1e-6 * best.abs(), "{}: {other} {best} {mass} {i} {k}", rule.name());
@@ -61,13 +61,14 @@ fn a_point_mass_on_eight_cables_has_five_dimensions_of_choice() {
     let robot = changed(Robot::from_toml(POINT).unwrap(), 0.0256, 20.0, 400.0);
     for rule in [TensionRule::Lowest, TensionRule::Middle, TensionRule::Stiffest, TensionRule::Closest(vec![90.0])] {
         let pose = Pose::new([1.3, 1.1, 1.2], [0.0; 3]);
-        let held = statics::distribute(&robot, &pose, StaticModel::Catenary, &rule).unwrap();
+        let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule).unwrap();
         check(&robot, &held);
         let best = cost(&robot, &held, &rule);
         for k in 0..200 {
             let wanted = (0..8).map(|c| 400.0 * spread(k, c)).collect();
             let other =
-                statics::distribute(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(wanted)).unwrap();
+                statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(wanted))
+                    .unwrap();
             assert!(cost(&robot, &other, &rule) >= best - 1e-6 * best.abs(), "{}", rule.name());
         }
     }
@@ -94,7 +95,7 @@ fn many_cables(cables: usize, maximum: f64) -> Robot {
 fn a_thousand_cables_have_the_lowest_tensions_within_a_second_or_so() {
     let robot = many_cables(1000, 1e4);
     let pose = Pose::new([0.5, 0.2, 1.0], [0.0; 3]);
-    let held = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Lowest).unwrap();
+    let held = statics::distribute_tensions(&robot, &pose, StaticModel::Spring, &TensionRule::Lowest).unwrap();
     check(&robot, &held);
     // y by least squares of the cables above their minimum, then all of them against it.
     let above = |tension: f64| tension - 1.0;
@@ -110,14 +111,15 @@ fn a_thousand_cables_have_the_lowest_tensions_within_a_second_or_so() {
         let found = above(cable.tension_platform);
         assert!((found - expected).abs() < 1e-6 * (1.0 + expected), "{found} for {expected}");
     }
-    let error = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest).unwrap_err();
+    let error = statics::distribute_tensions(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest).unwrap_err();
     assert!(error.to_string().contains("is for up to 200 cables, and the robot has 1000"), "{error}");
 }
 
 #[test]
 fn what_a_rule_lacks_and_limits_that_exclude_each_other_are_errors_with_numbers() {
     let pose = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);
-    let text = |robot: &Robot, model, rule| statics::distribute(robot, &pose, model, &rule).unwrap_err().to_string();
+    let text =
+        |robot: &Robot, model, rule| statics::distribute_tensions(robot, &pose, model, &rule).unwrap_err().to_string();
     let catenary = StaticModel::Catenary;
     let robot = cogiro(0.064, 30.0, 900.0);
     assert!(text(&robot, catenary, TensionRule::Closest(vec![1.0, 2.0])).contains("2 wanted tensions for 8 cables"));
@@ -131,13 +133,13 @@ fn what_a_rule_lacks_and_limits_that_exclude_each_other_are_errors_with_numbers(
     let message = text(&weak, catenary, TensionRule::Lowest);
     assert!(message.contains("the nearest miss the limits by ") && message.contains("maximum of cable"), "{message}");
     let above = Pose::new([0.0, 0.0, 9.0], [0.0; 3]);
-    let miss = statics::distribute(&robot, &above, catenary, &TensionRule::Lowest).unwrap_err();
+    let miss = statics::distribute_tensions(&robot, &above, catenary, &TensionRule::Lowest).unwrap_err();
     assert!(matches!(miss, StaticsError::BeyondLimits(_)), "{miss}");
     // All anchors in a plane with the point: nothing pulls out of it.
     let flat = Robot::from_toml(POINT).unwrap();
     let mut flat = changed(flat, 0.0, 1.0, 100.0);
     flat.cables.truncate(4);
     let level = Pose::new([1.0, 1.2, 1.25], [0.0; 3]);
-    let singular = statics::distribute(&flat, &level, StaticModel::Spring, &TensionRule::Lowest).unwrap_err();
+    let singular = statics::distribute_tensions(&flat, &level, StaticModel::Spring, &TensionRule::Lowest).unwrap_err();
     assert_eq!(singular, StaticsError::Singular);
 }

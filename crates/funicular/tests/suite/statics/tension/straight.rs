@@ -112,7 +112,7 @@ fn verdicts(robot: &Robot, limits: [f64; 2], poses: impl Iterator<Item = Pose>, 
     for pose in poses {
         let straight = Straight::at(robot, &pose, limits);
         let corners = straight.corners();
-        match statics::distribute(robot, &pose, model, &TensionRule::Lowest) {
+        match statics::distribute_tensions(robot, &pose, model, &TensionRule::Lowest) {
             Ok(held) => {
                 assert!(!corners.is_empty(), "the program finds tensions and no corner exists: {pose:?}");
                 check(robot, &held);
@@ -155,7 +155,9 @@ fn middle_is_as_far_from_the_limits_as_the_best_of_all_corners() {
     for i in 0..300 {
         let (robot, limits) = (cogiro(0.0, 30.0, 900.0), [30.0, 900.0]);
         let pose = cogiro_pose(i);
-        let Ok(held) = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Middle) else { continue };
+        let Ok(held) = statics::distribute_tensions(&robot, &pose, StaticModel::Spring, &TensionRule::Middle) else {
+            continue;
+        };
         check(&robot, &held);
         let reached = held
             .cables
@@ -178,7 +180,9 @@ fn closest_is_the_nearest_point_of_the_polytope() {
         let robot = seven_cables(0.0, 10.0, 1500.0);
         let wanted: Vec<f64> = (0..7).map(|k| 700.0 * spread(i + 7, k)).collect();
         let rule = TensionRule::Closest(wanted.clone());
-        let Ok(held) = statics::distribute(&robot, &seven_pose(i), StaticModel::Spring, &rule) else { continue };
+        let Ok(held) = statics::distribute_tensions(&robot, &seven_pose(i), StaticModel::Spring, &rule) else {
+            continue;
+        };
         let best = Straight::at(&robot, &seven_pose(i), [10.0, 1500.0]).nearest(&wanted);
         assert!(tau(&held).iter().zip(&best).all(|(ours, theirs)| (ours - theirs).abs() < 1e-6), "{best:?}");
     }
@@ -190,7 +194,7 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
     for (i, robot) in (0..60).flat_map(|i| [(i, cogiro(0.0, 30.0, 900.0)), (i, seven_cables(0.0, 10.0, 1500.0))]) {
         let is_cogiro = robot.cables.len() == 8;
         let (pose, limits) = if is_cogiro { (cogiro_pose(i), [30.0, 900.0]) } else { (seven_pose(i), [10.0, 1500.0]) };
-        let Ok(held) = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest) else {
+        let Ok(held) = statics::distribute_tensions(&robot, &pose, StaticModel::Spring, &TensionRule::Stiffest) else {
             continue;
         };
         check(&robot, &held);
@@ -207,7 +211,8 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
                 })
                 .collect();
             let wanted = Straight::at(&robot, &pose, limits).tensions(&z);
-            let other = statics::distribute(&robot, &pose, StaticModel::Spring, &TensionRule::Closest(wanted)).unwrap();
+            let other = statics::distribute_tensions(&robot, &pose, StaticModel::Spring, &TensionRule::Closest(wanted))
+                .unwrap();
             assert!(min_stiffness(&other) <= best * (1.0 + 1e-7), "{} > {best}", min_stiffness(&other));
             tried += 1;
         }

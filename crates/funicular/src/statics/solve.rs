@@ -6,18 +6,18 @@ use super::forward::forward;
 use super::inverse::determinate;
 use super::model::StaticModel;
 use super::nearest_pose::nearest;
-use super::tension::{TensionRule, distribute};
+use super::tension::{TensionRule, distribute_tensions};
 use crate::robot::{Pose, Robot, State};
 use std::cmp::Ordering;
 
 /// A robot's equilibrium, and how it came about.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rest {
+pub struct Solution {
     /// The equilibrium.
     pub equilibrium: Equilibrium,
     /// The pose asked, where fewer cables than degrees of freedom hold only the nearest to it, and how far that is [m], by
     /// [`distance`](super::distance).
-    pub instead_of: Option<(Pose, f64)>,
+    pub requested_pose: Option<(Pose, f64)>,
     /// The rule that the tensions were chosen by, where there was a choice.
     pub rule: Option<TensionRule>,
 }
@@ -35,12 +35,12 @@ pub struct Rest {
 ///
 /// let mut robot = Robot::from_toml(funicular_robots::COGIRO)?;
 /// robot.state = State::Pose(Pose::new([1.0, 2.0, 1.5], [0.0; 3]));
-/// let rest = statics::rest(&robot, StaticModel::Catenary, None)?;
+/// let rest = statics::solve(&robot, StaticModel::Catenary, None)?;
 /// assert_eq!(rest.rule, Some(TensionRule::Lowest)); // eight cables for six degrees of freedom leave a choice
-/// assert!(rest.instead_of.is_none() && rest.equilibrium.residual < 1e-10);
+/// assert!(rest.requested_pose.is_none() && rest.equilibrium.residual < 1e-10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn rest(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Result<Rest, StaticsError> {
+pub fn solve(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Result<Solution, StaticsError> {
     if rule.is_some() {
         refuse_rule_without_choice(robot)?;
     }
@@ -49,7 +49,7 @@ pub fn rest(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Res
 
 /// Equilibrium of a robot at a state, which need not be its own: of unstrained lengths the pose ([`forward`]); of a pose the
 /// lengths and tensions ([`inverse`]), by the rule where more cables than degrees of freedom leave a choice
-/// ([`distribute`]); of a pose that fewer cables cannot hold, the nearest one that they can ([`nearest`]).
+/// ([`distribute_tensions`]); of a pose that fewer cables cannot hold, the nearest one that they can ([`nearest`]).
 ///
 /// # Errors
 /// [`StaticsError`] of the function that solves it; [`StaticsError::NoState`] of an unknown state.
@@ -65,20 +65,25 @@ pub fn rest(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Res
 /// assert_eq!(rest.rule, None); // six cables for six degrees of freedom: no choice
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn solve_at(robot: &Robot, state: &State, model: StaticModel, rule: &TensionRule) -> Result<Rest, StaticsError> {
-    let found = |equilibrium| Rest { equilibrium, instead_of: None, rule: None };
+pub fn solve_at(
+    robot: &Robot,
+    state: &State,
+    model: StaticModel,
+    rule: &TensionRule,
+) -> Result<Solution, StaticsError> {
+    let found = |equilibrium| Solution { equilibrium, requested_pose: None, rule: None };
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
         State::Pose(pose) => match cables_to_freedoms(robot) {
             Ordering::Less => {
                 let nearest = nearest(robot, pose, model)?;
-                Ok(Rest { instead_of: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
+                Ok(Solution { requested_pose: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
             }
             Ordering::Equal => Ok(found(determinate(robot, pose, model)?)),
             Ordering::Greater => {
-                let equilibrium = distribute(robot, pose, model, rule)?;
-                Ok(Rest { rule: Some(rule.clone()), ..found(equilibrium) })
+                let equilibrium = distribute_tensions(robot, pose, model, rule)?;
+                Ok(Solution { rule: Some(rule.clone()), ..found(equilibrium) })
             }
         },
     }
@@ -109,7 +114,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     match cables_to_freedoms(robot) {
         Ordering::Equal => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.
-        Ordering::Less | Ordering::Greater => distribute(robot, pose, model, &TensionRule::default()),
+        Ordering::Less | Ordering::Greater => distribute_tensions(robot, pose, model, &TensionRule::default()),
     }
 }
 
