@@ -1,4 +1,4 @@
-//! Packs plotly.js as the pages carry it, once for all pages: a third of its size, and nothing to do at run time.
+//! Compresses plotly.js for the pages at build time. It then has a third of its size, and no work is left for run time.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -16,7 +16,7 @@ mod pages {
     use std::io::Write as _;
     use std::path::PathBuf;
 
-    /// Writes the packed script where `pages` includes it.
+    /// Writes the compressed script to the file that `pages` includes.
     pub(super) fn pack_plotly() {
         let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
         encoder.write_all(plotly_script().as_bytes()).expect("memory takes all that is written");
@@ -25,10 +25,10 @@ mod pages {
         std::fs::write(folder.join("plotly.js.gz.base64"), packed).expect("cargo's folder can be written to");
     }
 
-    /// plotly.js itself.
+    /// Text of plotly.js.
     ///
-    /// The crate hands out plotly.js and `MathJax` together, each in a script element; formulas here are plain text, so the
-    /// second, of 2 MB, stays out.
+    /// The crate provides plotly.js and `MathJax` together, each in a script element. Formulas here are plain text, so
+    /// the second element, of 2 MB, is left out.
     fn plotly_script() -> String {
         let sources = Plot::offline_js_sources();
         let (_, from) = sources.split_once('>').expect("a script element begins");

@@ -1,4 +1,4 @@
-//! What the user can ask for.
+//! Arguments of the program.
 
 mod export;
 mod import;
@@ -21,13 +21,14 @@ use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// All but `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML); a result goes to stdout, what to mind to stderr. SI units;
-/// the unit of every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input.
+/// All commands except `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML). Results go to
+/// stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its name. Exit codes: 0
+/// done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
 #[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]
 pub(crate) struct Cli {
-    /// Print the request that the command stands for as JSON, and run nothing
+    /// Print the request of this command as JSON instead of running it
     #[arg(long, global = true, help_heading = "Request")]
     pub(crate) print_request: bool,
     #[command(subcommand)]
@@ -36,13 +37,14 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Read a robot file, check it, and say what the robot is
+    /// Read and check a robot file, and describe the robot
     #[command(after_help = "Examples:\n  funicular check robots/yuan2014-4mm.toml\n  \
         funicular check robots/cogiro.toml --set platform.mass_kg=300 --format json")]
     Check(CheckArgs),
-    /// Every number of a robot file: path, value, unit, range, meaning
+    /// List every number of a robot file: path, value, unit, range, meaning
     ///
-    /// The paths are those of `--set` and of `sweep --vary`. A number that the file leaves out stands there with its default.
+    /// The paths can be used in `--set` and in `sweep --vary`. A number that the file leaves out is listed with its
+    /// default.
     #[command(after_help = "Examples:\n  funicular parameters robots/yuan2014-4mm.toml\n  \
         funicular parameters robots/cogiro.toml --set cables.1.anchor_m.z=5.5 --format csv")]
     Parameters(CheckArgs),
@@ -52,11 +54,11 @@ pub(crate) enum Command {
         funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6\n  \
         funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200")]
     Statics(StaticsArgs),
-    /// The 6×6 stiffness at one frequency, static at 0 Hz
+    /// 6×6 stiffness at one frequency, static at 0 Hz
     #[command(after_help = "Examples:\n  funicular stiffness robots/yuan2014-4mm.toml\n  \
         funicular stiffness robots/yuan2014-4mm.toml --at-hz 3.5 --format json")]
     Stiffness(StiffnessArgs),
-    /// Every natural frequency below a limit, counted: none missed
+    /// Every natural frequency below a limit, with a count that proves that none is missing
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
@@ -71,10 +73,10 @@ pub(crate) enum Command {
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
         --input fz --output cable:3@0.5:az")]
     Frf(FrfArgs),
-    /// Every cable model side by side, and the simplest that is good enough
+    /// Comparison of all cable models, and the simplest model that is good enough
     #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
     Compare(CompareArgs),
-    /// Poses of spring and catenary cables against ideal ones over platform mass
+    /// Distances between the poses of ideal, spring and catenary cables over platform mass
     #[command(after_help = "Examples:\n  funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100\n  \
         funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv")]
     PoseError(PoseErrorArgs),
@@ -82,56 +84,58 @@ pub(crate) enum Command {
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
-    /// A small second-order model M, C, K for control design, and its state space
+    /// Small second-order model M, C, K for control design, and its state space
     #[command(after_help = "Examples:\n  \
-        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output z --model model.npz\n  \
-        funicular reduce robots/cogiro.toml --below-hz 10 --tolerance 0.01 --model model\n\n\
+        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output z --matrices model.npz\n  \
+        funicular reduce robots/cogiro.toml --below-hz 10 --tolerance 0.01 --matrices model\n\n\
         In Python: m = numpy.load('model.npz'); m['M'], m['C'], m['K'], m['ss_A'], …\n\
         In MATLAB: M = readmatrix('model/M.csv'); sys = ss(A, B, C, D) from ss_A.csv, …")]
     Reduce(ReduceArgs),
-    /// Tensions, frequencies, stiffness over the workspace: one row a pose
+    /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
         funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
         --quantity tension-max,stiffness-min -o cogiro.parquet\n  \
         funicular map robots/yuan2014-4mm.toml --grid x=-1:1:21 --grid y=-1:1:21 --grid z=0.5 \\\n    \
         --quantity first-frequency,model-error:spring -o first.vti\n  \
         funicular map robots/cogiro.toml --poses trajectory.csv --quantity lengths,tensions --format csv\n\n\
-        Stopped, killed or out of power: the same command with --resume goes on, and ends with the same file.\n\
-        As a job array: --part 3/8 -o part-3.parquet, and at the end funicular merge part-*.parquet -o all.parquet")]
+        After an interruption or a power failure the same command with --resume continues and gives the same file.\n\
+        In a job array: --part 3/8 -o part-3.parquet, and at the end funicular merge part-*.parquet -o all.parquet")]
     Map(MapArgs),
-    /// The same over values of the robot file: one row a combination
+    /// Tensions, frequencies, stiffness over values of the robot file, with one row per combination
     #[command(after_help = "Examples:\n  \
         funicular sweep robots/yuan2014-4mm.toml --vary platform.mass_kg=10.55:86.35:50 \\\n    \
         --quantity pose,first-frequency,pose-error -o mass.parquet\n  \
         funicular sweep robots/yuan2014-4mm.toml --pose 0,0,0.5 --vary materials.rope-4mm.diameter_m=0.002:0.008:25 \\\n    \
         --vary platform.mass_kg=10,20,40 --quantity tension-max,sag-max --format csv")]
     Sweep(SweepArgs),
-    /// Parts of a map or sweep become one file
+    /// Combine the parts of a map or sweep in one file
     #[command(after_help = "Example:\n  funicular merge part-*.parquet -o all.parquet")]
     Merge(MergeArgs),
-    /// A map or sweep in pictures: one page that opens offline
+    /// HTML page with figures of a map or sweep, which opens offline
     ///
-    /// Grids as slices with contours, the feasible set, histograms and points in space; trajectories and sweeps of one value
-    /// as curves, the natural frequencies with their modes followed through crossings and veering. docs/sweeps.md says how.
+    /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and
+    /// sweeps of one value are shown as curves; the curves of natural frequencies follow their modes through crossings
+    /// and veering. docs/sweeps.md explains the figures.
     #[command(
         after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
         --quantity tension-max,stiffness-min -o cogiro.parquet\n  funicular plot cogiro.parquet\n  \
         funicular plot mass.parquet -o mass.html"
     )]
     Plot(PlotArgs),
-    /// All of it on one page, figures included
+    /// HTML page with all analyses of a robot and their figures
     #[command(after_help = "Examples:\n  funicular report\n  \
         funicular report robots/cogiro.toml -o cogiro.html\n  \
         funicular report robots/yuan2014-4mm.toml --pose 0,0,0.5 --below-hz 10 --input f:1,0,1 --output x")]
     Report(ReportArgs),
-    /// Every figure and table of Yuan et al. 2014, theirs beside ours, on one page
+    /// HTML page with every figure and table of Yuan et al. 2014 beside the results of this program
     #[command(after_help = "Example:\n  funicular paper -o paper.html")]
     Paper(PaperArgs),
-    /// A robot file from files of CASPR, WireX or MoorDyn
+    /// Convert files of CASPR, WireX or MoorDyn to a robot file
     ///
-    /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of version 2
-    /// with one body, or one free point, on lines. What a file lacks is asked for, nothing is made up; what a robot file
-    /// cannot hold is listed, also at the head of the file. docs/import.md says how each number is read.
+    /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of
+    /// version 2 with one body, or one free point, on lines. No value is invented: if a file lacks one, a message names
+    /// the option that gives it. Data that a robot file cannot hold is listed, also at the head of the file.
+    /// docs/import.md explains how each number is read.
     #[command(
         after_help = "Examples:\n  funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml \\\n    \
         --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o tripod.toml\n  \
@@ -139,23 +143,25 @@ pub(crate) enum Command {
         funicular import mooring.txt -o robot.toml"
     )]
     Import(ImportArgs),
-    /// The robot at its state for OpenSees, MoorDyn or ParaView
+    /// Export the robot at its equilibrium for OpenSees, MoorDyn or ParaView
     ///
-    /// opensees: a Python script for OpenSeesPy, statics and modes beside funicular's. moordyn: an input file of version 2. vtk:
-    /// a .vtp file of cables and platform, with their modes on request. docs/export.md says what each holds, and by how
-    /// much the programs differ.
+    /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn:
+    /// an input file of version 2. vtk: a .vtp file of cables and platform, with modes on request. docs/export.md
+    /// describes the files and the differences between the programs.
     #[command(after_help = "Examples:\n  \
         funicular export robots/yuan2014-4mm.toml --to opensees -o yuan.py && python3 yuan.py\n  \
         funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt\n  \
         funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp")]
     Export(ExportArgs),
-    /// Compare the program with numbers that others published or computed; exit code 1 if one is not within tolerance
+    /// Compare the program with numbers that others published or computed; exit code 1 if a difference is out of
+    /// tolerance
     #[command(after_help = "Examples:\n  funicular validate\n  funicular validate -o docs/validation.md\n  \
         funicular validate --format json")]
     Validate(ValidateArgs),
-    /// Run a request written as JSON: the options of any command and the text of the robot file in one object
+    /// Run a request in JSON: the options of any command and the text of the robot file in one object
     ///
-    /// Every command prints its request with --print-request. The keys are the names of the options, with _ for -.
+    /// Every command prints its request with --print-request. The keys are the names of the options, with _ instead of
+    /// -.
     #[command(
         after_help = "Example:\n  funicular statics robots/cogiro.toml --pose 1,2,1.5 --print-request > request.json\n  \
         funicular request request.json --format json"
@@ -163,7 +169,7 @@ pub(crate) enum Command {
     Request(RequestArgs),
 }
 
-/// The robot.
+/// Robot file and its changes.
 #[derive(Debug, Args)]
 pub(crate) struct RobotArgs {
     /// Robot file (TOML), or - for standard input
@@ -176,52 +182,54 @@ pub(crate) struct RobotArgs {
 /// Changes of the robot file.
 #[derive(Debug, Args)]
 pub(crate) struct ChangeArgs {
-    /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by their name; repeatable)
+    /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by name;
+    /// repeatable)
     #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_study::set_values::change)]
     pub(crate) set: Vec<Change>,
 }
 
-/// The state: as the robot file says, or as these options say.
+/// State of the robot; what these options do not give comes from the robot file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "State")]
 pub(crate) struct StateArgs {
-    /// Unstrained lengths [m], one a cable in file order; the pose follows
+    /// Unstrained lengths [m], one per cable in the order of the file; the pose follows from them
     #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true, conflicts_with = "pose")]
     pub(crate) lengths_m: Option<Lengths>,
 
-    /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow
+    /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow from it
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) pose: Option<PoseNumbers>,
 
-    /// Mass of the platform [kg]; inertia and centre of mass stay
+    /// Mass of the platform [kg]; inertia and centre of mass do not change
     #[arg(long, value_name = "KG", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) mass_kg: Option<f64>,
 
-    /// How cables carry their static load
+    /// Static model of the cables
     #[arg(long, value_name = "MODEL", value_enum, default_value_t)]
     pub(crate) static_model: StaticModelName,
     #[command(flatten)]
     pub(crate) load: LoadArgs,
 }
 
-/// What acts on platform and cables besides their weight, fixed in the world; instead of what the robot file says.
+/// Loads on platform and cables besides their weight, fixed in world axes; they replace the loads of the robot file.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Load")]
 pub(crate) struct LoadArgs {
     /// Force on the platform, world axes [N]
-    #[arg(long, visible_alias = "force", value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) force_n: Option<Vec3>,
 
     /// Moment on the platform, world axes [N m]
-    #[arg(long, visible_alias = "moment", value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) moment_n_m: Option<Vec3>,
 
-    /// Point where the force acts, platform frame [m] [default: as the robot file says, or the origin]
+    /// Point where the force acts, platform frame [m] [default: from the robot file, or the origin]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) load_point_m: Option<Vec3>,
 
-    /// Steady wind, world axes [m/s], on ropes with a `drag_coefficient` and platforms with a `drag_area_m2`
-    #[arg(long, visible_alias = "wind", value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    /// Velocity of the steady wind, world axes [m/s]; it acts on ropes with a `drag_coefficient` and platforms with a
+    /// `drag_area_m2`
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) wind_m_s: Option<Vec3>,
 
     /// Load per metre of every cable besides its weight, world axes [N/m]
@@ -229,44 +237,45 @@ pub(crate) struct LoadArgs {
     pub(crate) cable_load_n_per_m: Option<Vec3>,
 }
 
-/// How the robot is linearised.
+/// Linearisation of the robot.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct ModelArgs {
-    /// How cables answer motion of the platform [default: catenary-dynamic; shallow-dynamic for static models other than catenary]
+    /// Cable model: how cables respond to motion of the platform [default: catenary-dynamic; shallow-dynamic for static
+    /// models other than catenary]
     #[arg(long, value_name = "MODEL", value_enum)]
     pub(crate) cable_model: Option<CableModelName>,
     #[command(flatten)]
     pub(crate) terms: TermArgs,
 }
 
-/// What of a cable's stiffness counts.
+/// Terms of the stiffness.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct TermArgs {
-    /// Terms of the stiffness: all (consistent), or the cables' end stiffness only, as Yuan et al. 2014 (paper)
+    /// Terms of the stiffness
     #[arg(long, value_name = "TERMS", value_enum, default_value_t)]
     pub(crate) assembly: AssemblyName,
 
-    /// Leave out the stiffness of cables out of their planes, as Yuan et al. 2014
+    /// Leave out the out-of-plane stiffness of the cables, as in Yuan et al. 2014
     #[arg(long)]
     pub(crate) in_plane_only: bool,
 }
 
-/// What the result looks like and where it goes.
+/// Format and destination of the result.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
-    /// Format of the result [default: by the ending of FILE, else text]
+    /// Format of the result [default: from the ending of FILE, else text]
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 
-    /// Write the result to FILE, as a whole or not at all, instead of standard output (-)
+    /// Write the result to FILE, completely or not at all, instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output_file: Option<PathBuf>,
 }
 
-/// A range of frequencies.
+/// Range of frequencies.
 #[derive(Debug, Args)]
 pub(crate) struct RangeArgs {
     /// First frequency [Hz]
@@ -303,30 +312,30 @@ pub(crate) struct StaticsArgs {
     #[command(flatten)]
     pub(crate) tensions: TensionArgs,
 
-    /// Search for all equilibria of these unstrained lengths, also the unstable ones
+    /// Search for all equilibria of the unstrained lengths, including unstable ones
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }
 
-/// Which tensions a robot with more cables than degrees of freedom has at a pose.
+/// Choice of the tensions at a pose, for a robot with more cables than degrees of freedom.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Tensions")]
 pub(crate) struct TensionArgs {
-    /// Which of the tensions that hold a pose: more cables than degrees of freedom leave a choice [default: lowest]
+    /// Rule that chooses the tensions at a pose if there are more cables than degrees of freedom [default: lowest]
     #[arg(long, value_name = "RULE", value_enum)]
     pub(crate) tension_rule: Option<TensionRuleName>,
 
-    /// Tension that cables shall be near to [N], one for all or one a cable in file order; the rule is then closest
+    /// Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest
     #[arg(long, value_name = "T|T1,T2,…", value_parser = values::tensions, allow_hyphen_values = true)]
     pub(crate) target_tension_n: Option<Tensions>,
 
-    /// Least tension anywhere in a cable [N] [default: as the robot file says, or 2.5 times the cable's weight]
+    /// Minimum tension anywhere in a cable [N] [default: from the robot file, or 2.5 times the cable's weight]
     #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
     pub(crate) min_tension_n: Option<f64>,
 
-    /// Greatest tension anywhere in a cable [N] [default: as the robot file says, or none]
+    /// Maximum tension anywhere in a cable [N] [default: from the robot file, or none]
     #[arg(long, value_name = "N", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) max_tension_n: Option<f64>,
 }
@@ -336,7 +345,7 @@ pub(crate) struct StiffnessArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Frequency [Hz]. At 0 the exact tangent of the static model, unless --cable-model says otherwise
+    /// Frequency of the stiffness [Hz]; at 0 Hz the tangent of the static model, unless --cable-model is given
     #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0")]
     pub(crate) at_hz: f64,
 
@@ -353,21 +362,21 @@ pub(crate) struct ModesArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Limit of the frequencies [Hz]
+    /// Upper limit of the frequencies [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: f64,
 
-    /// Say how much each mode takes part in the response to this input: as of `frf`; needs --output
+    /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs --output
     #[arg(long, value_name = "INPUT", value_parser = Input::parse, requires = "output")]
     pub(crate) input: Option<Input>,
 
-    /// The output of that response; needs --input
+    /// Output of that response; needs --input
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, requires = "input")]
     pub(crate) output: Option<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,
 
-    /// Displacements of N points along every cable in each mode, ends included; in JSON
+    /// Number of points along every cable whose displacements in each mode are listed, ends included; only in JSON
     #[arg(long, value_name = "N", value_parser = values::stations)]
     pub(crate) stations: Option<usize>,
 
@@ -386,17 +395,20 @@ pub(crate) struct FrfArgs {
     #[command(flatten)]
     pub(crate) range: RangeArgs,
 
-    /// Force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction; world axes; a force on a cable as in cable:3@0.5:fz
+    /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; or a force
+    /// on a cable, as in cable:3@0.5:fz
     #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
     pub(crate) input: Input,
 
-    /// Displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…, a:… along a direction; world axes; a point of a cable (name, part of its length from the platform) as in cable:3@0.5:az
+    /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
+    /// a:… along a direction, world axes; or the motion of a point on a cable (name, fraction of its length from the
+    /// platform), as in cable:3@0.5:az
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) points: PointArgs,
 
-    /// Least height of a peak above the valleys beside it [dB]
+    /// Minimum height of a peak above the valleys beside it [dB]
     #[arg(long, value_name = "DB", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "1")]
     pub(crate) prominence_db: f64,
 
@@ -408,7 +420,7 @@ pub(crate) struct FrfArgs {
     pub(crate) sink: OutputArgs,
 }
 
-/// Where a response begins and ends.
+/// Points of the platform for the input and the output of a response.
 #[derive(Debug, Args)]
 pub(crate) struct PointArgs {
     /// Point where the force acts, platform frame [m] [default: the origin]
@@ -425,31 +437,31 @@ pub(crate) struct ReduceArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Highest frequency that the model is for [Hz]
+    /// Highest frequency for which the model is valid [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: f64,
 
-    /// An input, as of `frf` (repeatable) [default: all forces and moments on the platform]
+    /// Input signal, see `frf` (repeatable) [default: all forces and moments on the platform]
     #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
     pub(crate) input: Vec<Input>,
 
-    /// An output, as of `frf` (repeatable) [default: all displacements and rotations of the platform]
+    /// Output signal, see `frf` (repeatable) [default: all displacements and rotations of the platform]
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
     pub(crate) output: Vec<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,
 
-    /// Largest relative error of the responses by modes left out
-    #[arg(long, value_name = "PART", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0.001")]
+    /// Maximum relative error of the responses due to omitted modes
+    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0.001")]
     pub(crate) tolerance: f64,
 
-    /// Make constant damping ratios viscous so that they are right at this frequency [Hz] [default: at every natural frequency]
+    /// Frequency at which viscous damping reproduces constant damping ratios [Hz] [default: every natural frequency]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) damping_at_hz: Option<f64>,
 
-    /// Write the matrices to an .npz file, or as CSV files into a new folder
-    #[arg(long = "model", value_name = "FILE.npz|FOLDER")]
-    pub(crate) model_file: Option<PathBuf>,
+    /// Write the matrices to an .npz file, or as CSV files to a new folder
+    #[arg(long, value_name = "FILE.npz|FOLDER")]
+    pub(crate) matrices: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) state: StateArgs,
@@ -464,7 +476,7 @@ pub(crate) struct CompareArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Limit of the frequencies [Hz]
+    /// Upper limit of the frequencies [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: f64,
 
@@ -481,15 +493,16 @@ pub(crate) struct PoseErrorArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Platform masses [kg] from A to B, N of them in equal steps, as in 10:90:81
+    /// Platform masses [kg]: N masses from A to B in equal steps, as in 10:90:81
     #[arg(long, value_name = "A:B:N", value_parser = values::mass_range, allow_hyphen_values = true)]
     pub(crate) mass_kg: MassRange,
 
-    /// Unstrained lengths [m], one a cable in file order [default: as the robot file says]
+    /// Unstrained lengths [m], one per cable in the order of the file [default: from the robot file]
     #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true)]
     pub(crate) lengths_m: Option<Lengths>,
 
-    /// Name the mass from which on the spring pose is this near to the catenary pose [mm]
+    /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the masses
+    /// where they are
     #[arg(long, value_name = "MM", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) tolerance_mm: Option<f64>,
 
@@ -511,11 +524,12 @@ pub(crate) struct CableArgs {
     #[command(flatten)]
     pub(crate) state: StateArgs,
 
-    /// How the cable answers motion of its platform end [default: catenary-dynamic; shallow-dynamic for static models other than catenary]
+    /// Cable model: how the cable responds to motion of its platform end [default: catenary-dynamic; shallow-dynamic
+    /// for static models other than catenary]
     #[arg(long, value_name = "MODEL", value_enum)]
     pub(crate) cable_model: Option<CableModelName>,
 
-    /// Leave out the stiffness out of the cable's plane, as Yuan et al. 2014
+    /// Leave out the out-of-plane stiffness of the cable, as in Yuan et al. 2014
     #[arg(long)]
     pub(crate) in_plane_only: bool,
 
@@ -525,21 +539,23 @@ pub(crate) struct CableArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReportArgs {
-    /// Robot file (TOML), or - for standard input [default: the robot that the program carries, yuan2014-4mm.toml]
+    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
     #[arg(value_name = "ROBOT")]
     pub(crate) robot: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) changes: ChangeArgs,
 
-    /// Limit of the frequencies [Hz]
+    /// Upper limit of the frequencies [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value = "20")]
     pub(crate) below_hz: f64,
 
-    /// Force or moment of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, as of `funicular frf` [default: fz; fx of a platform that cannot move along z]
+    /// Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf` [default: fz; fx if the
+    /// platform cannot move along z]
     #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
     pub(crate) input: Option<Input>,
 
-    /// Motion of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, as of `funicular frf` [default: az; ax of a platform that cannot move along z]
+    /// Output of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, see `funicular frf` [default: az; ax if the
+    /// platform cannot move along z]
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
     pub(crate) output: Option<Output>,
     #[command(flatten)]
@@ -550,21 +566,21 @@ pub(crate) struct ReportArgs {
     #[command(flatten)]
     pub(crate) model: ModelArgs,
 
-    /// Write the page to FILE, as a whole or not at all; - is standard output
+    /// Write the page to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-report.html", help_heading = "Output")]
     pub(crate) output_file: PathBuf,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct PaperArgs {
-    /// Write the page to FILE, as a whole or not at all; - is standard output
+    /// Write the page to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-paper.html")]
     pub(crate) output_file: PathBuf,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct RequestArgs {
-    /// The request (JSON), or - for standard input
+    /// Request (JSON), or - for standard input
     #[arg(value_name = "FILE.json")]
     pub(crate) file: PathBuf,
     #[command(flatten)]
@@ -580,28 +596,28 @@ pub(crate) struct ValidateArgs {
 /// Format of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// Tables to read, rounded
+    /// Rounded tables for reading
     Text,
-    /// One object, every digit
+    /// One object with every digit
     Json,
-    /// One table with a header, every digit
+    /// One table with a header and every digit
     Csv,
 }
 
-/// Names of [`funicular::statics::TensionRule`].
+/// Tension rules by name; see [`funicular::statics::TensionRule`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum TensionRuleName {
-    /// Least sum of squares of the tensions above their minimum
+    /// Minimum sum of squares of the tensions above their minimum
     Lowest,
-    /// Least sum of squares of the differences from --target-tension-n
+    /// Minimum sum of squares of the differences from --target-tension-n
     Closest,
-    /// Farthest from the limits, relative to the distance between them
+    /// Maximum distance from the limits, relative to the distance between them
     Middle,
-    /// Largest least eigenvalue of the scaled stiffness
+    /// Maximum of the minimum eigenvalue of the scaled stiffness
     Stiffest,
 }
 
-/// Names of [`StaticModel`].
+/// Static models by name; see [`StaticModel`].
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 pub(crate) enum StaticModelName {
     /// Straight, massless, rigid
@@ -623,7 +639,7 @@ impl From<StaticModelName> for StaticModel {
     }
 }
 
-/// Names of [`CableModel`].
+/// Cable models by name; see [`CableModel`].
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum CableModelName {
     /// Vibration about the elastic catenary: any sag, axial waves included
@@ -650,13 +666,13 @@ impl From<CableModelName> for CableModel {
     }
 }
 
-/// Names of [`Assembly`].
+/// Terms of the stiffness by name; see [`Assembly`].
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 pub(crate) enum AssemblyName {
-    /// The whole tangent: end stiffness and the turning of forces on their lever arms
+    /// All terms: end stiffness of the cables, and rotation of their forces on their lever arms
     #[default]
     Consistent,
-    /// End stiffness only
+    /// End stiffness of the cables only, as in Yuan et al. 2014
     WithoutGeometricStiffness,
 }
 

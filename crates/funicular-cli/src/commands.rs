@@ -1,5 +1,5 @@
-//! One file per command: how its results look as text and CSV. This file reads what the arguments name, makes the
-//! request, and has it run.
+//! Commands: this file reads the files that the arguments name, makes the request and runs it. The other files, one per
+//! command, write the results as text and CSV.
 
 mod cable;
 mod check;
@@ -89,7 +89,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
     }
 }
 
-/// The request that a command stands for, with the texts of the files that it names.
+/// Request of a command, with the texts of the files that it names.
 fn request_of(command: &Command) -> Result<Request> {
     let robot = |args: &RobotArgs| robot_file::read(Some(&args.robot), &args.changes);
     Ok(match command {
@@ -116,7 +116,7 @@ fn request_of(command: &Command) -> Result<Request> {
     })
 }
 
-/// A map's request; errors of its poses name the line of their file.
+/// Request of a map. Errors of its poses name the line in the file of poses.
 fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest> {
     let poses = match &args.poses {
         Some(path) => Some(pose_csv::read(path, &robot.read()?.robot)?),
@@ -127,7 +127,7 @@ fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest>
 
 /// Runs a request whose results are printed.
 fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
-    // The robot file's own errors come before those of the place for the result.
+    // Errors of the robot file are reported before errors of the destination.
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
     let sink = Sink::open(output, &mut guard)?;
 
@@ -154,32 +154,32 @@ fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<(
     }
 }
 
-/// The model of `reduce`, printed, and its matrices in files.
+/// Runs `reduce`: prints the model and writes its matrices to files.
 fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
-    let Request::Reduce(of) = request else { bail!("this is no request of `reduce`") };
+    let Request::Reduce(of) = request else { bail!("this is not a request of `reduce`") };
     let robot = of.robot.read()?.robot;
     let mut guard = robot_file::guard(Some(&args.robot.robot));
     let sink = Sink::open(&args.sink, &mut guard)?;
-    let file = args.model_file.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
+    let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
-    let waiting = Waiting::for_("the model, and what it leaves out");
+    let waiting = Waiting::for_("the model and its errors");
     let mut found = analyses::reduce::run(robot, of)?;
     drop(waiting);
-    found.model_file = args.model_file.as_ref().map(|path| path.display().to_string());
+    found.matrices_file = args.matrices.as_ref().map(|path| path.display().to_string());
     if let Some(file) = file {
         file.write(&found)?;
     }
     sink.write(&found)
 }
 
-/// Parts become one file.
+/// Combines parts in one file.
 fn merge(args: &MergeArgs) -> Result<()> {
     let rows = funicular_files::merge(&args.parts, &args.output_file)?;
     errors::note(&format!("{} in {}", counted(rows, "row"), args.output_file.display()));
     Ok(())
 }
 
-/// Files of other programs become a robot file.
+/// Converts files of other programs to a robot file.
 fn import(args: &ImportArgs) -> Result<()> {
     let request = args.request(sources(&args.files)?);
     let mut guard = Guard::default();
@@ -206,7 +206,7 @@ fn write_import(request: &requests::ImportRequest, guard: &mut Guard, path: &Pat
     Ok(())
 }
 
-/// The files of another program as text.
+/// Reads the files of another program as text.
 fn sources(paths: &[PathBuf]) -> Result<Vec<SourceFile>> {
     let read = |path: &PathBuf| {
         let shown = path.display().to_string();
@@ -215,7 +215,7 @@ fn sources(paths: &[PathBuf]) -> Result<Vec<SourceFile>> {
         }
         let file = File::open(path).with_context(|| format!("cannot read {shown}"))?;
         let mut bytes = Vec::new();
-        // Reading one byte beyond the limit shows that a file is too large.
+        // One byte is read beyond the limit, which shows that a file is too large.
         file.take(import::MAX_BYTES as u64 + 1)
             .read_to_end(&mut bytes)
             .with_context(|| format!("cannot read {shown}"))?;
@@ -224,9 +224,9 @@ fn sources(paths: &[PathBuf]) -> Result<Vec<SourceFile>> {
     paths.iter().map(read).collect()
 }
 
-/// The robot at rest as a file of another program.
+/// Writes the robot at its equilibrium as a file of another program.
 fn export(request: &Request, args: &ExportArgs) -> Result<()> {
-    let Request::Export(of) = request else { bail!("this is no request of `export`") };
+    let Request::Export(of) = request else { bail!("this is not a request of `export`") };
     let robot = of.robot.read()?.robot;
     write_export(of, robot, &mut robot_file::guard(Some(&args.robot.robot)), &args.output_file)
 }

@@ -1,4 +1,4 @@
-//! What the user sees when there is no result: one message on stderr, and the exit code.
+//! Output of a run without a result: one message on stderr, and the exit code.
 
 use funicular_study::robot_file::Refused;
 use funicular_study::wording::{Words, message, worded};
@@ -7,15 +7,15 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 use thiserror::Error;
 
-/// The input is fine, the robot has no such solution.
+/// Exit code of a valid input for a robot that has no such solution.
 const NO_SOLUTION: u8 = 1;
-/// The input has to change.
+/// Exit code of an input that has to change.
 const BAD_INPUT: u8 = 2;
 
-/// The user or the system has stopped it: what a shell calls SIGINT.
+/// Exit code of a run that the user or the system has stopped, as a shell reports SIGINT.
 const INTERRUPTED: u8 = 130;
 
-/// Work that was stopped from outside, with what is left of it.
+/// Error of work that was stopped from outside, with the results that remain.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub(crate) struct Interrupted(pub(crate) String);
@@ -23,7 +23,7 @@ pub(crate) struct Interrupted(pub(crate) String);
 /// Prints the error and chooses the exit code.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     if is_broken_pipe(error) {
-        // `| head` has seen enough.
+        // A closed pipe is not an error: the reader, for example `head`, has stopped.
         return ExitCode::SUCCESS;
     }
     let text = match refused(error) {
@@ -34,17 +34,17 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     ExitCode::from(code(error))
 }
 
-/// Prints what the user should know before trusting a result.
+/// Prints a warning that the user should know before trusting a result.
 pub(crate) fn warn(warning: &str) {
     to_stderr(&format!("{} {}", styled("warning:", "33"), worded(warning, Words::Program)));
 }
 
-/// Prints what was done.
+/// Prints a note about completed work.
 pub(crate) fn note(note: &str) {
     to_stderr(note);
 }
 
-/// Colours are for terminals whose user has not refused them (no-color.org).
+/// True if stderr is a terminal and the user has not refused colours (no-color.org).
 pub(crate) fn stderr_has_colour() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
@@ -53,7 +53,7 @@ fn styled(text: &str, colour: &str) -> String {
     if stderr_has_colour() { format!("\u{1b}[1;{colour}m{text}\u{1b}[0m") } else { text.to_owned() }
 }
 
-/// Nobody may be listening on stderr either; then there is nobody to tell.
+/// Prints a line to stderr. Errors of stderr are ignored, because they cannot be reported.
 fn to_stderr(message: &str) {
     let _ = writeln!(io::stderr().lock(), "{message}");
 }
@@ -62,7 +62,7 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
-/// The robot file that the reader refuses, which shows its own errors at their places.
+/// Robot file that the reader refuses, if that is the error. It shows its errors at their places in the file.
 fn refused(error: &anyhow::Error) -> Option<&Refused> {
     let cause = error.downcast_ref::<Error>().map_or(error, Error::cause);
     cause.downcast_ref()

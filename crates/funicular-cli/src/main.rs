@@ -1,4 +1,4 @@
-//! The program `funicular`: arguments become a request, results become text, JSON, CSV and exit codes.
+//! Program `funicular`: converts arguments to a request, and results to text, JSON, CSV and exit codes.
 
 mod args;
 mod commands;
@@ -23,21 +23,21 @@ fn main() -> ExitCode {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => errors::report(&error),
         },
-        Err(usage) => tell(&with_new_name(usage)),
+        Err(usage) => report_usage(&with_new_name(usage)),
     }
 }
 
-/// Prints help or the version to standard output; what is wrong with the command line goes to stderr.
-fn tell(usage: &clap::Error) -> ExitCode {
+/// Prints help or the version to standard output, and an error of the command line to stderr.
+fn report_usage(usage: &clap::Error) -> ExitCode {
     let printed = usage.print().and_then(|()| io::stdout().flush());
     match printed {
-        // Nobody reads help in a closed pipe, nor a message on a closed stderr.
+        // A closed pipe is not an error: the reader of the help has stopped. A message on a closed stderr is lost.
         Err(error) if !usage.use_stderr() => errors::report(&output::of_stdout(error)),
         _ => ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2)),
     }
 }
 
-/// Adds to an error of the command line what an earlier option or value is called now.
+/// Adds the present name to an error of the command line about an earlier name of an option or value.
 fn with_new_name(mut usage: clap::Error) -> clap::Error {
     let text = |kind| match usage.get(kind) {
         Some(ContextValue::String(text)) => Some(text.as_str()),
@@ -58,7 +58,13 @@ fn with_new_name(mut usage: clap::Error) -> clap::Error {
 
         ErrorKind::UnknownArgument => {
             let option = text(ContextKind::InvalidArg).and_then(|option| option.strip_prefix("--"));
-            if let Some(new) = option.and_then(suggest::renamed) {
+            // `--model` was an option of `reduce` only; elsewhere it may be meant for a cable model or a static model.
+            let of_reduce =
+                usage.get(ContextKind::Usage).is_some_and(|usage| usage.to_string().contains("funicular reduce"));
+            let new = option.and_then(|option| {
+                if option == "model" { of_reduce.then_some("matrices") } else { suggest::renamed(option) }
+            });
+            if let Some(new) = new {
                 usage.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{new}")));
             }
         }

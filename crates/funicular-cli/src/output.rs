@@ -1,4 +1,4 @@
-//! Where a result goes: standard output, or a file that is written as a whole or not at all.
+//! Destination of a result: standard output, or a file that is written completely or not at all.
 
 use crate::args::{Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
@@ -11,14 +11,14 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Results as the program prints them.
+/// Results in the forms that the program prints.
 pub(crate) trait Printed: Found {
-    /// The name of the command, where several give the same kind of result.
+    /// Name of the command, for results that several commands share.
     fn command(&self) -> &'static str {
         Self::COMMAND
     }
 
-    /// Tables to read, rounded.
+    /// Rounded tables for reading.
     fn text(&self) -> String;
 
     /// One rectangular table with a header.
@@ -39,25 +39,25 @@ pub(crate) struct Content {
 }
 
 impl Content {
-    /// A page for a browser.
+    /// HTML page.
     pub(crate) const PAGE: Self = Self { name: "the page", option: "-o", in_words: "a page", fitting: &[Kind::Html] };
 }
 
-/// Standard output, or a file that is written as a whole or not at all.
+/// Standard output, or a file that is written completely or not at all.
 pub(crate) struct Target {
     file: Option<PathBuf>,
 }
 
 impl Target {
-    /// Checks that bytes can be written there, before work begins that may take long. No path or `-` is standard output.
+    /// Checks that bytes can be written, before long work begins. No path or `-` is standard output.
     ///
     /// # Errors
-    /// A place that cannot be written; a file that the command reads or writes otherwise, or whose ending means something
-    /// else.
+    /// A destination that cannot be written; a file that the command also reads or writes; or a file whose ending means
+    /// another format.
     pub(crate) fn open(path: Option<&Path>, content: Content, guard: &mut Guard) -> Result<Self> {
         let Some(path) = path.filter(|path| path.as_os_str() != "-") else { return Ok(Self { file: None }) };
         let shown = path.display();
-        // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
+        // A symbolic link is followed: its target is replaced, not the link.
         let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         if target.is_dir() {
             bail!("cannot write to {shown}: it is a directory; add a file name");
@@ -78,7 +78,7 @@ impl Target {
         self.file.is_some()
     }
 
-    /// Writes all of it.
+    /// Writes all bytes.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
         match &self.file {
             None => to_stdout(bytes),
@@ -87,14 +87,15 @@ impl Target {
     }
 }
 
-/// Where a result goes, in which format.
+/// Destination and format of a result.
 pub(crate) struct Sink {
     format: Format,
     target: Target,
 }
 
 impl Sink {
-    /// Chooses the requested format, or else the format of the file's ending. Never overwrites a file that the guard knows.
+    /// Chooses the requested format, or else the format of the file's ending. Refuses to overwrite a file that the
+    /// guard knows.
     pub(crate) fn open(args: &OutputArgs, guard: &mut Guard) -> Result<Self> {
         let path = args.output_file.as_deref();
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
@@ -112,7 +113,7 @@ impl Sink {
         Ok(Self { format, target: Target::open(path, content, guard)? })
     }
 
-    /// Writes the result; its warnings go to stderr, too.
+    /// Writes the result. Its warnings also go to stderr.
     pub(crate) fn write<R: Printed>(&self, results: &R) -> Result<()> {
         self.target.write(&self.render(results)?)?;
         results.warnings().iter().for_each(|warning| crate::errors::warn(warning));
@@ -124,7 +125,7 @@ impl Sink {
         match self.format {
             Format::Json => as_json(&mut bytes, results)?,
             Format::Text | Format::Csv => {
-                // One check for all formats: only finite numbers are printed.
+                // Only finite numbers are printed: this check is the same for all formats.
                 as_json(&mut io::sink(), results)?;
                 if self.format == Format::Text {
                     bytes = results.text().into_bytes();
@@ -147,7 +148,8 @@ impl Sink {
 fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
     json::write(out, results.command(), results.robot(), results, results.warnings()).map_err(|error| {
         NoSolution(format!(
-            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the frequency or check the units"
+            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change \
+             the frequency or check the units"
         ))
     })
 }
@@ -167,7 +169,8 @@ fn to_stdout(bytes: &[u8]) -> Result<()> {
     out.write_all(bytes).and_then(|()| out.flush()).map_err(of_stdout)
 }
 
-/// Error of standard output. A closed pipe is passed on unchanged, because it does not count as an error: the reader has stopped.
+/// Error of standard output. A closed pipe is passed on unchanged, because it does not count as an error: the reader
+/// has stopped.
 pub(crate) fn of_stdout(error: io::Error) -> anyhow::Error {
     match error.kind() {
         io::ErrorKind::BrokenPipe => error.into(),

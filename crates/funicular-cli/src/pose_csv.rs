@@ -1,4 +1,4 @@
-//! Poses of a CSV file.
+//! Reading of poses from a CSV file.
 
 use crate::args::values::finite;
 use crate::errors;
@@ -7,14 +7,14 @@ use funicular::robot::{PlatformMotion, Robot};
 use std::fs;
 use std::path::Path;
 
-/// The columns of a file of poses.
+/// Columns of a file of poses.
 const COLUMNS: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
 
-/// Position [m] and roll, pitch, yaw [degrees] of every line. Columns of other names are left alone, and named.
+/// Reads position [m] and roll, pitch, yaw [degrees] of every line. Other columns are ignored, and a note names them.
 ///
 /// # Errors
-/// A file that cannot be read or has no poses, a column that is missing, is there twice or is one of a pose in another
-/// unit, a value that is no number, an angle of a point mass.
+/// A file that cannot be read or has no poses; a pose column that is missing, is there twice or has another unit; a
+/// value that is not a number; or an angle of a point mass.
 pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     let shown = path.display();
     let bytes = fs::read(path).with_context(|| format!("cannot read the poses {shown}"))?;
@@ -25,11 +25,11 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     for record in reader.records() {
         let record = record.map_err(|error| match error.kind() {
             csv::ErrorKind::UnequalLengths { pos: Some(position), expected_len, len } => anyhow!(
-                "{shown}, line {}: {len} values, and {expected_len} in the first line: give all lines the same columns",
+                "{shown}, line {}: {len} values, but {expected_len} in the first line: give all lines the same columns",
                 line_at(&bytes, position)
             ),
             csv::ErrorKind::Utf8 { pos: Some(position), .. } => {
-                anyhow!("{shown}, line {}: this is no UTF-8 text", line_at(&bytes, position))
+                anyhow!("{shown}, line {}: the text is not valid UTF-8", line_at(&bytes, position))
             }
             _ => anyhow!("cannot read the poses {shown}: {error}"),
         })?;
@@ -47,13 +47,13 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
         poses.push(pose);
     }
     if poses.is_empty() {
-        bail!("{shown} has a header and no poses: give one a line below it");
+        bail!("{shown} has a header and no poses: give one pose per line below it");
     }
     Ok(poses)
 }
 
-/// Line number of a record, from 1. The reader's position points behind the previous record, that is before the rest of
-/// its line end and before blank lines, and does not count all kinds of line ends.
+/// Line number of a record, from 1. It is counted here, because the position of the reader points to the end of the
+/// previous record, before blank lines, and does not count all kinds of line ends.
 fn line_at(bytes: &[u8], position: &csv::Position) -> usize {
     let from = usize::try_from(position.byte()).unwrap_or(bytes.len()).min(bytes.len());
     let ends = |byte: &u8| matches!(byte, b'\r' | b'\n');
@@ -69,7 +69,7 @@ fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
     for (i, name) in header.iter().map(|name| name.trim_start_matches('\u{feff}')).enumerate() {
         if let Some(k) = COLUMNS.iter().position(|column| *column == name) {
             if places[k].replace(i).is_some() {
-                return Err(format!("has the column `{name}` twice: keep the one that is meant"));
+                return Err(format!("has the column `{name}` twice: keep one of them"));
             }
         } else {
             others.push(name);
@@ -91,7 +91,7 @@ fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
         ));
     }
     if !others.is_empty() {
-        errors::note(&format!("columns that are no part of a pose are left alone: {}", others.join(", ")));
+        errors::note(&format!("columns that do not belong to a pose are ignored: {}", others.join(", ")));
     }
     Ok(places)
 }

@@ -1,4 +1,4 @@
-//! A bar or a spinner for what takes over a second, on a terminal only.
+//! Progress bar or spinner for work that takes more than a second, on a terminal only.
 
 use funicular_study::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -6,7 +6,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Time before progress is shown. Most commands are done by then.
+/// Time before progress is shown. Most commands end before it.
 const PATIENCE: Duration = Duration::from_millis(700);
 
 /// Counts finished items up to `total`.
@@ -87,7 +87,7 @@ impl Waiting {
             if is_done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
                 let spinner = ProgressBar::new_spinner().with_message(what);
                 spinner.enable_steady_tick(Duration::from_millis(120));
-                // An error means that the sender is gone: the work is done.
+                // An error means that the sender was dropped: the work has ended.
                 let _ = is_done.recv();
                 spinner.finish_and_clear();
             }

@@ -1,4 +1,4 @@
-//! Finds and reads the text of the robot file. The study crate interprets it.
+//! Reading of the robot file's text. The study crate interprets it.
 
 use crate::args::ChangeArgs;
 use anyhow::{Context, Result, bail};
@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Reads the text of the robot that the arguments name; without a path it is the one that the program carries.
+/// Reads the text of the robot file that the arguments name, or without a path the one that is built into the program.
 pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotText> {
     let (name, text) = match path {
         None => {
@@ -30,7 +30,7 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotTex
     Ok(changes.robot(name, text))
 }
 
-/// Guard of a command's files that knows the robot file, also where that is standard input.
+/// Guard of a command's files that knows the robot file, also if it is standard input.
 pub(crate) fn guard(path: Option<&Path>) -> Guard {
     let mut guard = Guard::default();
     if let Some(path) = path {

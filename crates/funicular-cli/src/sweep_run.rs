@@ -1,4 +1,4 @@
-//! Runs `map` and `sweep`: rows go to a file or to standard output, a summary is given.
+//! Execution of `map` and `sweep`: writes rows to a file or to standard output, and a summary.
 
 mod summary;
 
@@ -17,16 +17,16 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use summary::Summary;
 
-/// A sweep to run.
+/// Sweep to run.
 struct Job<'a> {
     sweep: &'a PreparedSweep,
     run: &'a RunArgs,
 }
 
-/// Raised by Ctrl-C or by the system that ends a job.
+/// Flag that Ctrl-C or the end of a job sets.
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
-/// Stops at the next point when asked; at once when asked again.
+/// Handles Ctrl-C: the first one stops at the next point, the second one at once.
 fn listen() -> Result<()> {
     ctrlc::set_handler(|| {
         if STOPPED.swap(true, Ordering::Relaxed) {
@@ -36,7 +36,7 @@ fn listen() -> Result<()> {
     .context("cannot listen for Ctrl-C")
 }
 
-/// Computes all of it. The guard knows the files that are read, which the rows are not to be written over.
+/// Computes all rows. The guard knows the files that are read, so that the rows do not overwrite them.
 pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result<()> {
     let sweep = PreparedSweep::new(request)?;
     let job = &Job { sweep: &sweep, run };
@@ -53,7 +53,7 @@ pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result
     }
 }
 
-/// Rows counted, and forgotten.
+/// Computes the rows for the summary alone.
 fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     listen()?;
     let mut summary = Summary::new(job, plan.columns());
@@ -68,21 +68,21 @@ fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     summary.print(job.run.format)
 }
 
-/// Rows that were kept nowhere, and are not all there.
+/// Error of an interrupted run whose rows are not stored.
 fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
     match outcome {
         Outcome::Complete => Ok(()),
         Outcome::Cancelled { next } => {
             let (done, rows) = ((next * plan.chunk_rows()).min(plan.rows()), plan.rows());
             Err(Interrupted(format!(
-                "stopped after {done} of {rows} rows, which no file keeps: give -o to go on later"
+                "stopped after {done} of {rows} rows, which are not stored: give -o to be able to continue later"
             ))
             .into())
         }
     }
 }
 
-/// Rows as CSV, as they come.
+/// Writes the rows as CSV as they are computed.
 fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     listen()?;
     let write = || {
@@ -105,7 +105,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     let rows = record.rows_of(range.clone());
     let mut work = match funicular_files::Job::open(path, record, begin)? {
         Opened::Done => {
-            errors::note(&format!("{} holds all of {} already", path.display(), counted(rows, "row")));
+            errors::note(&format!("{} already contains all of {}", path.display(), counted(rows, "row")));
             if run.format.is_none() {
                 return Ok(());
             }
@@ -118,7 +118,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     listen()?;
     let mut summary = Summary::new(job, plan.columns());
     if work.done() > 0 {
-        errors::note(&format!("going on behind {} of {rows} rows", work.done()));
+        errors::note(&format!("continuing after {} of {rows} rows", work.done()));
         work.each(&mut |chunk| summary.add(&chunk))?;
     }
     let mut progress = Progress::with_rate(rows - work.done(), "rows");
@@ -131,14 +131,14 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     drop(progress);
     if outcome != Outcome::Complete {
         let safe = work.interrupt()?;
-        return Err(Interrupted(format!("stopped: {safe}; the same command with --resume goes on")).into());
+        return Err(Interrupted(format!("stopped: {safe}; continue with the same command and --resume")).into());
     }
     work.finish()?;
     errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
     if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
 }
 
-/// Refuses what is no place for rows, whatever its ending.
+/// Refuses a destination that cannot hold rows.
 fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
     if path.as_os_str() == "-" {
         bail!("rows go to standard output with --format csv and without -o");
@@ -149,7 +149,7 @@ fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
     Ok(guard.writes_rows("-o", path, true)?)
 }
 
-/// The sink of a summary.
+/// Destination of a summary.
 fn sink(format: Option<Format>) -> Result<Sink> {
     Sink::open(&OutputArgs { format, output_file: None }, &mut Guard::default())
 }

@@ -1,10 +1,10 @@
-//! Aligned tables of text.
+//! Aligned text tables.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 pub(crate) use funicular_study::text::{NONE, counted, decimals, decimals_or_none, short, significant, vector};
 use std::fmt;
 
-/// A table with a header; columns from the second on hold numbers and are aligned to the right.
+/// Table with a header. Columns from the second on hold numbers and are aligned to the right.
 pub(crate) struct Table {
     inner: comfy_table::Table,
 }
@@ -12,7 +12,7 @@ pub(crate) struct Table {
 impl Table {
     pub(crate) fn new(header: &[&str]) -> Self {
         let mut inner = comfy_table::Table::new();
-        // Never wrapped: a table in a pipe or a file looks as it does in a wide terminal.
+        // Lines are never wrapped: a table in a pipe or a file is the same as in a wide terminal.
         inner.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled).set_header(header);
         let mut table = Self { inner };
         for index in 1..header.len() {
@@ -21,7 +21,7 @@ impl Table {
         table
     }
 
-    /// Aligns these columns to the left: they hold text.
+    /// Aligns columns that hold text to the left.
     pub(crate) fn text_columns(mut self, columns: &[usize]) -> Self {
         for &index in columns {
             self.align(index, CellAlignment::Left);

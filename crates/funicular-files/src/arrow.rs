@@ -3,7 +3,7 @@
 use arrow_array::builder::{BooleanBuilder, Float64Builder, StringBuilder};
 use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
-use funicular_study::sweep::{Chunk, Column, Kind, Record, Values};
+use funicular_study::sweep::{Chunk, Column, ColumnKind, Record, Values};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -16,15 +16,15 @@ pub fn schema(record: &Record) -> Schema {
 
 fn field(column: &Column) -> Field {
     let kind = match column.kind {
-        Kind::Real => DataType::Float64,
-        Kind::Flag => DataType::Boolean,
-        Kind::Text => DataType::Utf8,
+        ColumnKind::Real => DataType::Float64,
+        ColumnKind::Flag => DataType::Boolean,
+        ColumnKind::Text => DataType::Utf8,
     };
     let mut about = HashMap::from([("about".to_owned(), column.about.clone())]);
     if !column.unit.is_empty() {
         about.insert("unit".to_owned(), column.unit.clone().into_owned());
     }
-    Field::new(&column.name, kind, column.kind != Kind::Flag).with_metadata(about)
+    Field::new(&column.name, kind, column.kind != ColumnKind::Flag).with_metadata(about)
 }
 
 /// The rows of a chunk as a batch of [`schema`].
@@ -52,9 +52,9 @@ impl Builders {
             columns
                 .iter()
                 .map(|column| match column.kind {
-                    Kind::Real => Builder::Real(Float64Builder::new()),
-                    Kind::Flag => Builder::Flag(BooleanBuilder::new()),
-                    Kind::Text => Builder::Text(StringBuilder::new()),
+                    ColumnKind::Real => Builder::Real(Float64Builder::new()),
+                    ColumnKind::Flag => Builder::Flag(BooleanBuilder::new()),
+                    ColumnKind::Text => Builder::Text(StringBuilder::new()),
                 })
                 .collect(),
         )

@@ -189,14 +189,14 @@ mod tests {
                 assert!(said.starts_with("refusing to write the result over the robot file"), "{said}");
                 assert!(said.ends_with("choose another name for -o"), "{said}");
                 let mut guard = Guard::default();
-                guard.writes("the matrices", "--model", input).unwrap();
+                guard.writes("the matrices", "--matrices", input).unwrap();
                 assert!(guard.writes("the result", "-o", output).is_err(), "{input:?} {output:?}");
             }
         }
         let mut guard = Guard::default();
         guard.reads("the robot file", &at("robot.toml"));
         guard.writes("the result", "-o", &at("sub/robot.toml")).unwrap();
-        guard.writes("the matrices", "--model", &at("other")).unwrap();
+        guard.writes("the matrices", "--matrices", &at("other")).unwrap();
     }
 
     #[test]
@@ -205,10 +205,10 @@ mod tests {
         let at = |name: &str| folder.path().join(name);
         let mut guard = Guard::default();
         guard.writes("the result", "-o", &at("new.npz")).unwrap();
-        let said = guard.writes("the matrices", "--model", &at("./new.npz")).unwrap_err().to_string();
+        let said = guard.writes("the matrices", "--matrices", &at("./new.npz")).unwrap_err().to_string();
         assert!(said.starts_with("refusing to write the matrices and the result both to"), "{said}");
         // Whether this is the same place is the file system's choice, and only that.
-        let same = guard.writes("the matrices", "--model", &at("NEW.npz")).is_err();
+        let same = guard.writes("the matrices", "--matrices", &at("NEW.npz")).is_err();
         fs::write(at("new.npz"), "").unwrap();
         assert_eq!(same, at("NEW.npz").exists());
     }
@@ -237,9 +237,9 @@ mod tests {
         fs::create_dir(at("model")).unwrap();
         let mut guard = Guard::default();
         guard.writes("the result", "-o", &at("model/M.csv")).unwrap();
-        assert!(guard.writes_folder("the matrices", "--model", &at("model")).is_err());
+        assert!(guard.writes_folder("the matrices", "--matrices", &at("model")).is_err());
         let mut guard = Guard::default();
-        guard.writes_folder("the matrices", "--model", &at("model")).unwrap();
+        guard.writes_folder("the matrices", "--matrices", &at("model")).unwrap();
         assert!(guard.writes("the result", "-o", &at("model/M.csv")).is_err());
         guard.writes("the result", "-o", &at("model.txt")).unwrap();
     }
@@ -259,6 +259,6 @@ mod tests {
         let mut guard = Guard::default();
         guard.reads("the robot file", Path::new("/dev/null"));
         guard.writes("the result", "-o", Path::new("/dev/null")).unwrap();
-        guard.writes("the matrices", "--model", Path::new("/dev/null")).unwrap();
+        guard.writes("the matrices", "--matrices", Path::new("/dev/null")).unwrap();
     }
 }

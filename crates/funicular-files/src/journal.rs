@@ -4,7 +4,7 @@
 //! the record (JSON) and the robot file, every other one chunk, in order.
 
 use crate::{FilesError, Rows};
-use funicular_study::sweep::{Chunk, Difference, Kind, Part, Record, Values};
+use funicular_study::sweep::{Chunk, ColumnKind, Part, Record, RecordDifference, Values};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -39,7 +39,7 @@ pub(crate) enum Found {
     /// Chunks of a sweep.
     Chunks {
         /// How they differ from the one asked.
-        difference: Option<Difference>,
+        difference: Option<RecordDifference>,
         /// Rows it has, and all it is to have.
         done: usize,
         rows: usize,
@@ -150,7 +150,7 @@ pub(crate) fn look(file: &File, record: &Record) -> io::Result<Found> {
     let Ok(head) = serde_json::from_slice::<Value>(&head) else { return Ok(Found::Foreign) };
     let difference = record
         .difference(&head["record"], head["robot_file"].as_str().unwrap_or_default())
-        .or_else(|| Difference::of_values("part", &head["part"], &shown_part(record.part)));
+        .or_else(|| RecordDifference::of_values("part", &head["part"], &shown_part(record.part)));
     let same = difference.is_none();
     let mut end = file.stream_position()?;
     let (first, mut next) = (record.range().start, record.range().start);
@@ -255,11 +255,11 @@ pub(crate) fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
         let bits = get(bytes, rows.div_ceil(8))?;
         let bits = (0..rows).map(|i| bits[i / 8] >> (i % 8) & 1 == 1);
         columns.push(match column.kind {
-            Kind::Flag => Values::Flag(bits.collect()),
-            Kind::Real => Values::Real(optional(bits, || {
+            ColumnKind::Flag => Values::Flag(bits.collect()),
+            ColumnKind::Real => Values::Real(optional(bits, || {
                 Some(f64::from_bits(u64::from_le_bytes(get(bytes, 8)?.try_into().ok()?)))
             })?),
-            Kind::Text => Values::Text(optional(bits, || {
+            ColumnKind::Text => Values::Text(optional(bits, || {
                 let length = u32::from_le_bytes(get(bytes, 4)?.try_into().ok()?) as usize;
                 Some(Cow::Owned(String::from_utf8(get(bytes, length)?.to_vec()).ok()?))
             })?),

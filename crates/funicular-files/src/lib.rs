@@ -38,7 +38,7 @@ pub use table::Table;
 pub use threads::Outcome;
 
 use endings::Kind;
-use funicular_study::sweep::{Chunk, Difference, Record};
+use funicular_study::sweep::{Chunk, Record, RecordDifference};
 use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -128,7 +128,7 @@ pub enum FilesError {
         /// The file.
         path: PathBuf,
         /// What differs.
-        difference: Difference,
+        difference: RecordDifference,
         /// What to do.
         advice: &'static str,
     },

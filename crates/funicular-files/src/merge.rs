@@ -2,7 +2,7 @@
 
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Guard, Rows, behind_link, resumable_writer, write_whole};
-use funicular_study::sweep::{Chunk, Column, Kind, Part, Record, SCHEMA};
+use funicular_study::sweep::{Chunk, Column, ColumnKind, Part, Record, SCHEMA};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::io;
@@ -129,9 +129,9 @@ pub(crate) fn record_of(file: &ParquetFile, path: &Path) -> Result<Record, Files
 fn column(json: &Value) -> Option<Column> {
     let text = |key: &str| json[key].as_str();
     let kind = match text("kind")? {
-        "real" => Kind::Real,
-        "flag" => Kind::Flag,
-        "text" => Kind::Text,
+        "real" => ColumnKind::Real,
+        "flag" => ColumnKind::Flag,
+        "text" => ColumnKind::Text,
         _ => return None,
     };
     let (name, unit, about) = (text("name")?.to_owned(), text("unit")?.to_owned(), text("about")?.to_owned());

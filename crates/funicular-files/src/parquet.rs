@@ -10,7 +10,7 @@ use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
 use ::parquet::schema::types::ColumnPath;
-use funicular_study::sweep::{Chunk, Kind, Part, Record};
+use funicular_study::sweep::{Chunk, ColumnKind, Part, Record};
 use serde_json::Value;
 use std::fs::File;
 use std::io::{self, Write};
@@ -80,8 +80,8 @@ fn properties(record: &Record, complete: bool) -> WriterProperties {
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_key_value_metadata(Some(about));
     // Results repeat nowhere; a dictionary of them all would make the file larger.
-    let behind = record.columns.iter().skip_while(|column| column.kind == Kind::Real);
-    for column in behind.filter(|column| column.kind == Kind::Real) {
+    let behind = record.columns.iter().skip_while(|column| column.kind == ColumnKind::Real);
+    for column in behind.filter(|column| column.kind == ColumnKind::Real) {
         properties = properties.set_column_dictionary_enabled(ColumnPath::new(vec![column.name.clone()]), false);
     }
     properties.build()

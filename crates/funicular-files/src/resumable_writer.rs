@@ -4,7 +4,7 @@ use crate::atomic_file::{Temporary, is_regular_or_new};
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_whole};
-use funicular_study::sweep::{Chunk, Difference, Record};
+use funicular_study::sweep::{Chunk, Record, RecordDifference};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -176,7 +176,7 @@ pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Resul
 fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
     let file = ParquetFile::open(path)?;
     let other_part =
-        || Difference::of_values("part", &journal::shown_part(file.part), &journal::shown_part(record.part));
+        || RecordDifference::of_values("part", &journal::shown_part(file.part), &journal::shown_part(record.part));
     if let Some(difference) = record.difference(&file.json, &file.robot_file).or_else(other_part) {
         let advice = "choose another file, or replace this one without ⟪resume⟫";
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });

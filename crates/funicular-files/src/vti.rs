@@ -4,7 +4,7 @@ use crate::Rows;
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 use funicular_study::request::Axis;
-use funicular_study::sweep::{AXES, Column, Kind, Record, Values, axes_of};
+use funicular_study::sweep::{AXES, Column, ColumnKind, Record, Values, axes_of};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use std::io::{self, Write};
@@ -92,8 +92,8 @@ pub(crate) fn write(out: impl Write, record: &Record, rows: &dyn Rows) -> io::Re
 /// One column: its size in bytes, then its values, both in base64. One pass over all rows, so that no column is in memory.
 fn array(out: &mut Writer<impl Write>, record: &Record, rows: &dyn Rows, i: usize, column: &Column) -> io::Result<()> {
     let (kind, size) = match column.kind {
-        Kind::Real => ("Float64", 8),
-        Kind::Flag | Kind::Text => ("UInt8", 1),
+        ColumnKind::Real => ("Float64", 8),
+        ColumnKind::Flag | ColumnKind::Text => ("UInt8", 1),
     };
     let attributes = [("type", kind), ("Name", column.name.as_str()), ("format", "binary")];
     out.write_event(Event::Start(BytesStart::new("DataArray").with_attributes(attributes)))?;

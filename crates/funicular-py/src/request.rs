@@ -4,7 +4,7 @@ use crate::arrays::{Number, Numbers};
 use crate::errors;
 use crate::pose::PoseLike;
 use funicular_study::names::Named;
-use funicular_study::request::{Load, Model, Points, State, Tensions, Terms};
+use funicular_study::request::{Load, Model, ResponsePoints, State, Tensions, Terms};
 use pyo3::prelude::*;
 
 /// A choice of its name.
@@ -85,8 +85,8 @@ pub(crate) fn terms(assembly: &str, in_plane_only: bool) -> PyResult<Terms> {
 }
 
 /// Points of the platform where a response begins and ends.
-pub(crate) fn points(input_point_m: Option<Numbers>, output_point_m: Option<Numbers>) -> PyResult<Points> {
-    Ok(Points {
+pub(crate) fn points(input_point_m: Option<Numbers>, output_point_m: Option<Numbers>) -> PyResult<ResponsePoints> {
+    Ok(ResponsePoints {
         input_point_m: three(input_point_m, "input_point_m")?,
         output_point_m: three(output_point_m, "output_point_m")?,
     })

@@ -17,8 +17,8 @@ use pyo3::prelude::*;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// Frequencies between two looks for Ctrl-C: some 10 ms. A multiple of every number of lanes, so that the numbers do not
-/// depend on it.
+/// Frequencies between two looks for Ctrl-C: some 10 ms. A multiple of every number of lanes, so that the numbers do
+/// not depend on it.
 const CHUNK: usize = 16_384;
 
 fn highest(frequencies: &[f64]) -> f64 {
@@ -163,8 +163,8 @@ pub(crate) fn cable<'py>(
         return Err(errors::input("`hz` is no row of frequencies: give a list of at least one".to_owned()));
     }
     let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
-    let found =
-        py.detach(|| cable::about(&of.at_rest, cable::Wanted { name, frequency_hz, cable_model, in_plane_only }));
+    let found = py
+        .detach(|| cable::about(&of.at_rest, cable::RequestedCable { name, frequency_hz, cable_model, in_plane_only }));
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 

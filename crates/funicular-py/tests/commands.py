@@ -8,7 +8,7 @@ from typing import Any
 import funicular
 
 # Options that say where a result goes or how it looks, and nothing of what is computed.
-OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--model", "--resume", "--discard", "--part", "--threads"}
+OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
 # Options without a value.
 SWITCHES = {"--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"}
 # Options that may be given many times, or hold lists of names.

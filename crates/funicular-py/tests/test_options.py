@@ -49,7 +49,7 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     (None, "--points"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
     (None, "--log"): ("`hz=numpy.geomspace(from_hz, to_hz, points)`", np.geomspace),
     (None, "--quantity"): ("`quantities=` of `Robot.map`, `Robot.sweep`", Robot.map),
-    (None, "--model"): ("`model.save(path)`; `model.state_space()`, `to_scipy()`, `to_control()`", funicular.ReducedModel.save),
+    (None, "--matrices"): ("`model.save(path)`; `model.state_space()`, `to_scipy()`, `to_control()`", funicular.ReducedModel.save),
     ("map", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
     ("sweep", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
     ("map", "--output-file"): ("`file=` of `Robot.map`, `Robot.sweep`", Robot.map),

@@ -1,7 +1,7 @@
-//! One file per command: what its request computes, and the results as data.
+//! Analyses, one file per command: computation of a request, and its results as data.
 //!
-//! Every `run` takes a robot that was read and checked, and the request; it returns plain data whose serialisation is the
-//! JSON of the program. Numbers that do not exist are absent, never NaN.
+//! Every `run` takes the request and a robot that was read and checked. It returns plain data whose serialisation is
+//! the JSON of the program. Numbers that do not exist are absent, never NaN.
 
 pub mod cable;
 pub mod check;
@@ -18,12 +18,12 @@ pub mod validate;
 
 use serde::Serialize;
 
-/// Results of one command. The serialisation is the JSON without the keys that all results have.
+/// Results of one command. They serialise to the JSON of the program without the keys that all results have.
 pub trait Found: Serialize {
-    /// The name of the command.
+    /// Name of the command.
     const COMMAND: &'static str;
 
-    /// Name of the robot; empty where the results belong to no single one.
+    /// Name of the robot; empty if the results do not belong to a single robot.
     fn robot(&self) -> &str;
 
     /// Sentences that the user should know before trusting the numbers.

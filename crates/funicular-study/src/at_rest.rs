@@ -1,7 +1,7 @@
-//! The static state that an analysis starts from: as the robot file says, or as the request says.
+//! Static state that an analysis starts from, given by the request or else by the robot file.
 
 use crate::names::TensionRuleName;
-use crate::request::{self, Load, Model, Points, Tensions, Terms};
+use crate::request::{self, Load, Model, ResponsePoints, Tensions, Terms};
 use crate::signals::{Input, Output};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -13,23 +13,24 @@ use funicular::robot::{self, PlatformMotion, Pose, Robot, State, TensionLimits, 
 use funicular::statics::{self, Equilibrium, Solution, StaticModel, TensionRule};
 use funicular::warnings;
 
-/// A robot at rest.
+/// Robot at an equilibrium.
 #[derive(Debug, Clone)]
 pub struct AtRest {
-    /// The robot with everything that the request changes.
+    /// Robot with all changes of the request.
     pub robot: Robot,
-    /// Its equilibrium.
+    /// Equilibrium of the robot.
     pub equilibrium: Equilibrium,
-    /// The requested pose where the cables cannot hold it and this is the nearest, and how far it is [m].
+    /// Requested pose and its distance from the equilibrium's pose [m]. Present if the cables cannot hold the requested
+    /// pose; the equilibrium then has the nearest pose that they can hold.
     pub requested_pose: Option<(Pose, f64)>,
-    /// The rule that chose the tensions, where there was a choice.
+    /// Rule that chose the tensions, if there was a choice.
     pub rule: Option<TensionRule>,
 }
 
-/// Solves the static problem that a request poses.
+/// Solves the static problem of a request.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, or a robot without that equilibrium.
+/// A request that contradicts itself or the robot, or a robot without such an equilibrium.
 pub fn equilibrium(robot: Robot, state: &request::State, tensions: &Tensions) -> Result<AtRest> {
     let robot = with_limits(&with_state(robot, state)?, tensions)?;
     refuse_no_state(&robot)?;
@@ -37,10 +38,10 @@ pub fn equilibrium(robot: Robot, state: &request::State, tensions: &Tensions) ->
     Ok(AtRest { robot, equilibrium, requested_pose, rule })
 }
 
-/// Refuses a robot of which neither lengths nor a pose are known.
+/// Refuses a robot with neither known lengths nor a known pose.
 ///
 /// # Errors
-/// What to give.
+/// A message that says which value to give.
 pub fn refuse_no_state(robot: &Robot) -> Result<()> {
     if robot.state == State::Unknown {
         bail!(
@@ -51,7 +52,7 @@ pub fn refuse_no_state(robot: &Robot) -> Result<()> {
     Ok(())
 }
 
-/// The robot with the limits of tension that a request gives.
+/// Robot with the tension limits of a request.
 ///
 /// # Errors
 /// A minimum that is not below the maximum of a cable.
@@ -64,8 +65,8 @@ pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
             && minimum >= maximum
         {
             bail!(
-                "the least tension of cable \"{}\" is {minimum} N and its greatest {maximum} N: give ⟪min_tension_n⟫ \
-                 below ⟪max_tension_n⟫ (what is not given is as the robot file says)",
+                "cable \"{}\": minimum tension {minimum} N is not below its maximum {maximum} N: give ⟪min_tension_n⟫ \
+                 below ⟪max_tension_n⟫ (a limit that is not given comes from the robot file)",
                 cable.name
             );
         }
@@ -73,15 +74,17 @@ pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
     Ok(robot)
 }
 
-/// The tension rule that a request names; wanted tensions alone name `closest`.
+/// Tension rule of a request. Target tensions without a rule stand for the rule `closest`.
 ///
 /// # Errors
-/// A rule without what it needs, or with what it does not.
+/// The rule `closest` without target tensions, or target tensions with another rule.
 pub fn rule(tensions: &Tensions) -> Result<Option<TensionRule>> {
     Ok(match (tensions.tension_rule, tensions.target_tension_n.clone()) {
         (None | Some(TensionRuleName::Closest), Some(wanted)) => Some(TensionRule::Closest(wanted)),
         (Some(TensionRuleName::Closest), None) => bail!("⟪tension_rule⟫ closest needs ⟪target_tension_n⟫"),
-        (Some(_), Some(_)) => bail!("⟪target_tension_n⟫ goes with ⟪tension_rule⟫ closest only"),
+        (Some(_), Some(_)) => {
+            bail!("⟪target_tension_n⟫ is used by ⟪tension_rule⟫ closest only: leave out one of the two options")
+        }
         (Some(TensionRuleName::Lowest), None) => Some(TensionRule::Lowest),
         (Some(TensionRuleName::Middle), None) => Some(TensionRule::Middle),
         (Some(TensionRuleName::Stiffest), None) => Some(TensionRule::Stiffest),
@@ -89,10 +92,10 @@ pub fn rule(tensions: &Tensions) -> Result<Option<TensionRule>> {
     })
 }
 
-/// The robot with the state, the mass and the loads that a request gives.
+/// Robot with the state, the mass and the loads of a request.
 ///
 /// # Errors
-/// A number out of its range, a pose or load that the platform cannot have.
+/// A number out of its range, or a pose or load that the platform cannot have.
 pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     state.check()?;
     if state.lengths_m.is_some() && state.pose.is_some() {
@@ -112,10 +115,10 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     with_load(robot, &state.load)
 }
 
-/// Refuses a pose that the platform cannot have, whatever its cables do.
+/// Refuses a pose that the platform cannot have for any cables.
 ///
 /// # Errors
-/// An orientation of a point mass, or a pose that a plane excludes.
+/// An orientation of a point mass, or a pose out of the plane of a planar platform.
 pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
     if robot.platform.motion == PlatformMotion::PointMass && pose.rot_wp.angle() != 0.0 {
         bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
@@ -123,7 +126,7 @@ pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
     Ok(robot.platform.motion.check(pose)?)
 }
 
-/// The robot with the loads that a request gives; others stay as the robot file has them.
+/// Robot with the loads of a request. Loads that the request does not give come from the robot file.
 fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
     let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = *load;
     let or = |given: Option<[f64; 3]>, of_file: Vec3| given.map_or(of_file, Vec3::from);
@@ -136,7 +139,7 @@ fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
         let speed = velocity_w.norm();
         if speed > Wind::FASTEST {
             bail!(
-                "⟪wind_m_s⟫ is a wind of {speed} m/s, it must be at most {} m/s: faster air is compressed",
+                "⟪wind_m_s⟫ is a wind of {speed} m/s, it must be at most {} m/s: air is compressible at higher speeds",
                 Wind::FASTEST
             );
         }
@@ -146,13 +149,13 @@ fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
         robot = robot.with_cable_load(load.into());
     }
     if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
-        bail!("⟪load_point_m⟫ is where a force acts, and there is none: give ⟪force_n⟫");
+        bail!("⟪load_point_m⟫ is the point of a force, but there is no force: give ⟪force_n⟫");
     }
     robot.load.check(&robot.platform.motion)?;
     Ok(robot)
 }
 
-/// The cable model of a request; by default the dynamic one of the same shape as the static model.
+/// Cable model of a request. The default is the dynamic model with the same shape as the static model.
 pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> CableModel {
     match (requested, static_model) {
         (Some(model), _) => model,
@@ -161,33 +164,33 @@ pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> 
     }
 }
 
-/// The linearisation of a request.
+/// Linearisation of a request.
 pub fn linearisation(model: &Model, static_model: StaticModel) -> Linearisation {
     let Terms { assembly, in_plane_only } = model.terms;
     Linearisation { cable_model: cable_model(model.cable_model, static_model), assembly, in_plane_only }
 }
 
-/// Input and output of a response, checked against what the robot can do.
+/// Input and output of a response, checked for this robot.
 ///
 /// # Errors
-/// A signal that means nothing on the robot, or a point that is none.
-pub fn signals(robot: &Robot, input: &Input, output: &Output, points: &Points) -> Result<[Signal; 2]> {
+/// A signal that does not exist on the robot, or a point that is not finite.
+pub fn signals(robot: &Robot, input: &Input, output: &Output, points: &ResponsePoints) -> Result<[Signal; 2]> {
     points.check()?;
     let [from, to] = [points.input_point_m, points.output_point_m].map(|point| point.map(Vec3::from));
     Ok([input.signal(robot, from)?, output.signal(robot, to)?])
 }
 
 impl AtRest {
-    /// Input and output of a response on the linearised robot; forces may act on both.
+    /// Ports of the linearised robot for the input and the output of a response.
     ///
     /// # Errors
-    /// [`CableMotionError`]: a model without motion along its cables.
+    /// [`CableMotionError`]: a cable model without motion along the cables.
     pub fn ports(&self, dynamics: &Dynamics, signals: [Signal; 2]) -> Result<[Port; 2], CableMotionError> {
         let all = Port::all(&self.robot, &self.equilibrium, dynamics, &signals, true)?;
-        Ok(all.try_into().expect("as many ports as signals"))
+        Ok(all.try_into().expect("there are as many ports as signals"))
     }
 
-    /// The robot linearised about its equilibrium, with warnings for frequencies up to a limit [Hz].
+    /// Robot linearised about its equilibrium, with warnings for frequencies up to a limit [Hz].
     ///
     /// # Errors
     /// A cable model that has no stiffness at this equilibrium.

@@ -1,4 +1,4 @@
-//! One error for every analysis: its kind decides the exit code, its text is for the user.
+//! Error of every analysis. Its kind decides the exit code; its text is for the user.
 
 use crate::wording::{Words, message};
 use funicular::dynamics::DynamicsError;
@@ -6,30 +6,30 @@ use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
 use std::fmt;
 
-/// Kind of an error; every front end maps it to its own sign (exit code, exception).
+/// Kind of an error. Every front end maps it to an exit code or an exception.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// The request has to change.
+    /// Wrong request: the user has to change it.
     Input,
-    /// The request is fine, and the robot has no such solution.
+    /// Valid request for a robot that has no such solution.
     NoSolution,
-    /// The work was stopped from outside.
+    /// Error of work that was stopped from outside.
     Cancelled,
 }
 
-/// A request that has no results, with the reason.
+/// Error of a request without results, with the reason.
 #[derive(Debug)]
 pub struct Error {
     kind: ErrorKind,
     cause: anyhow::Error,
 }
 
-/// A result that cannot be given, though nothing is wrong with the input.
+/// Error of a valid request for which no result exists.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct NoSolution(pub String);
 
-/// Work that was stopped from outside.
+/// Error of work that was stopped from outside.
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before the end")]
 pub(crate) struct Cancelled;
@@ -40,12 +40,12 @@ impl Error {
         self.kind
     }
 
-    /// The message in the words of a front end: names of options as that front end writes them.
+    /// Message worded for a front end: options are named in the form of that front end.
     pub fn message(&self, words: Words) -> String {
         message(&self.cause, words)
     }
 
-    /// The error below, for front ends that know its type.
+    /// Underlying error, for front ends that know its type.
     pub fn cause(&self) -> &anyhow::Error {
         &self.cause
     }

@@ -1,4 +1,4 @@
-//! Frequencies from one to another.
+//! Frequencies of a range.
 
 use crate::request::FrequencyRange;
 use crate::values::{not_negative, positive};
@@ -8,22 +8,22 @@ use anyhow::{Result, anyhow, bail};
 pub const MAX_POINTS: usize = 1_000_000;
 
 impl FrequencyRange {
-    /// The frequencies [Hz], ascending; the first and the last are exact.
+    /// Frequencies [Hz], ascending. The first and the last are exact.
     ///
     /// # Errors
-    /// A range that does not ascend, a logarithmic one from zero, too few or too many points.
+    /// A range that does not ascend, a logarithmic range from zero, or too few or too many points.
     pub fn frequencies(&self) -> Result<Vec<f64>> {
         let Self { from_hz: from, to_hz: to, points, log } = *self;
         not_negative(from).map_err(|reason| anyhow!("⟪from_hz⟫: {reason}"))?;
         positive(to).map_err(|reason| anyhow!("⟪to_hz⟫: {reason}"))?;
         if !(2..=MAX_POINTS).contains(&points) {
-            bail!("⟪points⟫: {points} is not a number of frequencies from 2 to {MAX_POINTS}");
+            bail!("⟪points⟫: {points} frequencies are not possible: give a number from 2 to {MAX_POINTS}");
         }
         if to <= from {
             bail!("⟪to_hz⟫ {to} is not above ⟪from_hz⟫ {from}: the range has to ascend");
         }
         if log && from <= 0.0 {
-            bail!("⟪log⟫ needs a ⟪from_hz⟫ above zero: equal ratios never start from it");
+            bail!("⟪log⟫ needs ⟪from_hz⟫ above zero: equal ratios cannot start at zero");
         }
 
         let last = points - 1;
@@ -39,7 +39,8 @@ impl FrequencyRange {
         let grid: Vec<f64> = (0..=last).map(at).collect();
         if grid.windows(2).any(|pair| pair[1] <= pair[0]) {
             bail!(
-                "⟪points⟫ {points} are more than the numbers between {from} and {to} Hz can tell apart; ask for fewer"
+                "⟪points⟫: between {from} and {to} Hz there are fewer than {points} different numbers: request fewer \
+                 points"
             );
         }
         Ok(grid)

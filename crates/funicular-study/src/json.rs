@@ -1,4 +1,4 @@
-//! JSON: one line a key, every digit, and no `null`.
+//! JSON of results: one line per key, every digit, and no `null`.
 
 use crate::analyses::Found;
 use crate::error::{Error, NoSolution};
@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::ser::{CharEscape, Formatter};
 use std::io::{self, Write};
 
-/// Every result, with the keys that all have.
+/// Results of a command, with the keys that all results have.
 #[derive(Serialize)]
 struct Envelope<'a, R> {
     schema: &'static str,
@@ -19,7 +19,7 @@ struct Envelope<'a, R> {
     warnings: &'a [String],
 }
 
-/// Results of a command as JSON, with the warnings in the words of a front end.
+/// Results of a command as JSON, with the warnings worded for a front end.
 ///
 /// # Errors
 /// [`NoSolution`]: a result that is not finite.
@@ -28,8 +28,8 @@ pub fn of_results<R: Found>(results: &R, words: Words) -> Result<Vec<u8>, Error>
     let mut bytes = Vec::new();
     write(&mut bytes, R::COMMAND, results.robot(), results, &warnings).map_err(|error| {
         anyhow::Error::from(NoSolution(format!(
-            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the \
-             frequency or check the units"
+            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change \
+             the frequency or check the units"
         )))
     })?;
     Ok(bytes)
@@ -38,7 +38,7 @@ pub fn of_results<R: Found>(results: &R, words: Words) -> Result<Vec<u8>, Error>
 /// Writes results of a command for a robot.
 ///
 /// # Errors
-/// A result that is not finite (JSON has no word for it), or what `out` reports.
+/// A result that is not finite, which JSON cannot express, or an error of `out`.
 pub fn write<R: Serialize>(
     out: &mut impl Write,
     command: &'static str,
@@ -52,7 +52,7 @@ pub fn write<R: Serialize>(
     out.write_all(b"\n")
 }
 
-/// One line a key of an object, arrays on one line.
+/// Formatter that writes each key of an object on its own line and an array on one line.
 struct Lines {
     depth: usize,
 }
@@ -64,7 +64,7 @@ impl Lines {
 }
 
 impl Formatter for Lines {
-    /// serde_json writes a number that is not finite as `null`, and no key of ours is ever absent that way.
+    /// Refuses a `null`: serde_json writes it for a number that is not finite, and results leave out absent keys.
     fn write_null<W: ?Sized + Write>(&mut self, _: &mut W) -> io::Result<()> {
         Err(io::Error::other("a result is not a finite number"))
     }
@@ -107,18 +107,18 @@ mod tests {
     #[derive(Serialize)]
     struct Sample {
         values: Vec<f64>,
-        rows: Vec<Row>,
+        rows: Vec<SampleRow>,
     }
 
     #[derive(Serialize)]
-    struct Row {
+    struct SampleRow {
         x: f64,
     }
 
     #[test]
     fn arrays_take_one_line_and_objects_one_a_key() {
         let mut out = Vec::new();
-        let sample = Sample { values: vec![0.1, 2.0], rows: vec![Row { x: 1.0 }] };
+        let sample = Sample { values: vec![0.1, 2.0], rows: vec![SampleRow { x: 1.0 }] };
         write(&mut out, "modes", "r \"1\"", &sample, &[]).unwrap();
         let expected = "{\n  \"schema\": \"funicular/1\",\n  \"command\": \"modes\",\n  \"robot\": \"r \\\"1\\\"\",\n  \
             \"values\": [0.1, 2.0],\n  \"rows\": [{\n    \"x\": 1.0\n  }],\n  \"warnings\": []\n}\n";
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn a_result_that_is_not_finite_is_an_error() {
         for value in [f64::NAN, f64::INFINITY] {
-            assert!(write(&mut io::sink(), "c", "r", &Row { x: value }, &[]).is_err());
+            assert!(write(&mut io::sink(), "c", "r", &SampleRow { x: value }, &[]).is_err());
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Choices by name: how models, rules and terms stand in requests, on the command line and in Python.
+//! Names of models, rules and terms in requests, on the command line and in Python.
 
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
@@ -6,21 +6,21 @@ use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
 use serde::{Deserialize, Deserializer, Serializer};
 
-/// A closed set of choices, each with a name.
+/// Closed set of choices, each with a name.
 pub trait Named: Copy + PartialEq + Sized + 'static {
     /// Noun for the set, as in "static model".
     const WHAT: &'static str;
 
-    /// All choices, in the order in which they are listed.
+    /// All choices, in the order of lists and messages.
     const ALL: &'static [Self];
 
-    /// The name of the choice.
+    /// Name of the choice.
     fn name(self) -> &'static str;
 
-    /// The choice of a name.
+    /// Choice with a given name.
     ///
     /// # Errors
-    /// The names there are, with the nearest first if one is near.
+    /// A message that suggests a near name or else lists all names.
     fn from_name(name: &str) -> Result<Self, String> {
         if let Some(found) = Self::ALL.iter().find(|choice| choice.name() == name) {
             return Ok(*found);
@@ -30,7 +30,7 @@ pub trait Named: Copy + PartialEq + Sized + 'static {
     }
 }
 
-/// `; did you mean …` for a near name, else `; there are …` with the first names there are.
+/// End of a message: `; did you mean …` for a near name, else `; there are …` with the first names.
 pub fn suggestion(word: &str, names: &[String]) -> String {
     match nearest(word, names.iter().map(String::as_str)) {
         Some(name) => format!("; did you mean `{name}`?"),
@@ -38,7 +38,7 @@ pub fn suggestion(word: &str, names: &[String]) -> String {
     }
 }
 
-/// The names there are, the first of many.
+/// End of a message that lists the names; only the first ones if there are many.
 pub(crate) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     if names.is_empty() {
@@ -80,16 +80,16 @@ impl Named for Assembly {
     }
 }
 
-/// Names of [`TensionRule`].
+/// Tension rules by name; see [`TensionRule`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TensionRuleName {
-    /// Least sum of squares of the tensions above their minimum.
+    /// Minimum sum of squares of the tensions above their minimum.
     Lowest,
-    /// Least sum of squares of the differences from wanted tensions.
+    /// Minimum sum of squares of the differences from the target tensions.
     Closest,
-    /// Farthest from the limits, relative to the distance between them.
+    /// Maximum distance from the limits, relative to the distance between them.
     Middle,
-    /// Largest minimum eigenvalue of the scaled stiffness.
+    /// Maximum of the minimum eigenvalue of the scaled stiffness.
     Stiffest,
 }
 
@@ -128,11 +128,11 @@ pub(crate) fn deserialize<'de, T: Named, D: Deserializer<'de>>(from: D) -> Resul
     T::from_name(&String::deserialize(from)?).map_err(serde::de::Error::custom)
 }
 
-/// Choices that may be left open.
+/// Serde functions for a choice that may be absent.
 pub(crate) mod optional {
     use super::{Deserialize, Deserializer, Named, Serializer};
 
-    #[expect(clippy::ref_option, reason = "serde calls it so")]
+    #[expect(clippy::ref_option, reason = "serde passes this type")]
     pub(crate) fn serialize<T: Named, S: Serializer>(choice: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
         match choice {
             Some(choice) => to.serialize_some(choice.name()),

@@ -1,16 +1,16 @@
-//! What a user wants to know, as plain data.
+//! Requests: the analysis to run and its options, as plain data.
 //!
-//! In JSON a request is one flat object. `command` names the analysis, `robot` holds the text of the robot file, and every
-//! other key is an option with the name that the program (`--mass-kg`) and Python (`mass_kg=`) have for it. What is left
-//! out keeps its default.
+//! In JSON a request is one flat object. `command` names the analysis, `robot` holds the text of the robot file, and
+//! every other key is an option with the same name as in the program (`--mass-kg`) and in Python (`mass_kg=`). An
+//! option that is left out has its default.
 
 mod keys;
 mod parts;
 
 pub use keys::KEYS;
 pub use parts::{
-    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Points, Pose, RobotText, State,
-    Tensions, Terms,
+    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
+    State, Tensions, Terms,
 };
 
 use crate::error::Error;
@@ -23,50 +23,50 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// Name and version of the vocabulary of requests; a change of a key's meaning is another version.
+/// Name and version of the vocabulary of requests. The version changes if the meaning of a key changes.
 pub const SCHEMA: &str = "funicular-request/1";
 
-/// One question about one robot (or, for a few commands, about files).
+/// Request of one analysis of one robot, or, for a few commands, of files.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "command", rename_all = "kebab-case")]
 pub enum Request {
-    /// The robot file, checked.
+    /// Check of the robot file, and a description of the robot.
     Check(CheckRequest),
     /// Every number of the robot file.
     Parameters(ParametersRequest),
     /// Equilibrium: pose, tensions, sag.
     Statics(StaticsRequest),
-    /// The 6×6 stiffness at one frequency.
+    /// 6×6 stiffness at one frequency.
     Stiffness(StiffnessRequest),
     /// Every natural frequency below a limit.
     Modes(ModesRequest),
-    /// One frequency response and its peaks.
+    /// Frequency response and its peaks.
     Frf(FrfRequest),
-    /// Every cable model side by side.
+    /// Comparison of all cable models.
     Compare(CompareRequest),
-    /// Spring and catenary cables against ideal ones over platform mass.
+    /// Distances between the poses of ideal, spring and catenary cables over platform mass.
     PoseError(PoseErrorRequest),
     /// Dynamic stiffness of one cable over frequency.
     Cable(CableRequest),
-    /// A second-order model for control design.
+    /// Second-order model for control design.
     Reduce(ReduceRequest),
     /// Quantities over poses.
     Map(MapRequest),
     /// Quantities over values of the robot file.
     Sweep(SweepRequest),
-    /// One page about one robot.
+    /// HTML page about one robot.
     Report(ReportRequest),
-    /// The page about the starting paper.
+    /// HTML page that reproduces Yuan et al. 2014.
     Paper(PaperRequest),
-    /// A robot file from files of other programs.
+    /// Robot file made from files of other programs.
     Import(ImportRequest),
-    /// The robot at rest as a file of another program.
+    /// Robot at equilibrium as a file of another program.
     Export(ExportRequest),
-    /// The program against published and independent numbers.
+    /// Comparison of the program with published and independent numbers.
     Validate(ValidateRequest),
-    /// Parts of a map or sweep made one file.
+    /// Parts of a map or sweep combined in one file.
     Merge(MergeRequest),
-    /// The page about a map or sweep.
+    /// HTML page about a map or sweep.
     Plot(PlotRequest),
 }
 
@@ -121,9 +121,9 @@ pub struct StiffnessRequest {
 pub struct ModesRequest {
     /// The robot file.
     pub robot: RobotText,
-    /// Limit of the frequencies [Hz].
+    /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
-    /// Input of a response in which the modes take part; needs an output.
+    /// Input of the response to which the modes contribute; needs an output.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input: Option<String>,
     /// Output of that response; needs an input.
@@ -131,11 +131,11 @@ pub struct ModesRequest {
     pub output: Option<String>,
     /// Points of that response.
     #[serde(flatten)]
-    pub points: Points,
-    /// Number of points along every cable whose displacements are wanted.
+    pub points: ResponsePoints,
+    /// Number of points along every cable whose displacements in each mode are listed, ends included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations: Option<usize>,
-    /// Seek the damped partner of every mode; else damping ratios are of first order in the damping.
+    /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
     #[serde(default = "yes")]
     pub damped: bool,
     /// State and loads.
@@ -160,7 +160,7 @@ pub struct FrfRequest {
     pub output: String,
     /// Points of the platform.
     #[serde(flatten)]
-    pub signal_points: Points,
+    pub signal_points: ResponsePoints,
     /// Minimum height of a peak above the valleys beside it [dB].
     #[serde(default = "one")]
     pub prominence_db: f64,
@@ -177,7 +177,7 @@ pub struct FrfRequest {
 pub struct CompareRequest {
     /// The robot file.
     pub robot: RobotText,
-    /// Limit of the frequencies [Hz].
+    /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
     /// State and loads.
     #[serde(flatten)]
@@ -197,7 +197,7 @@ pub struct PoseErrorRequest {
     /// Unstrained lengths [m], one per cable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lengths_m: Option<Vec<f64>>,
-    /// Distance between spring and catenary pose from which on the spring is good enough [mm].
+    /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance_mm: Option<f64>,
 }
@@ -218,7 +218,7 @@ pub struct CableRequest {
     /// Cable model.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
     pub cable_model: Option<funicular::cable::CableModel>,
-    /// Leave out the stiffness out of the cable's plane.
+    /// Leave out the out-of-plane stiffness of the cable.
     #[serde(default)]
     pub in_plane_only: bool,
 }
@@ -230,19 +230,19 @@ pub struct ReduceRequest {
     pub robot: RobotText,
     /// Highest frequency that the model is for [Hz].
     pub below_hz: f64,
-    /// Input signals; none stands for all forces and moments on the platform.
+    /// Input signals; an empty list stands for all forces and moments on the platform.
     #[serde(default)]
     pub input: Vec<String>,
-    /// Output signals; none stands for all displacements and rotations of the platform.
+    /// Output signals; an empty list stands for all displacements and rotations of the platform.
     #[serde(default)]
     pub output: Vec<String>,
     /// Points of the platform.
     #[serde(flatten)]
-    pub points: Points,
-    /// Maximum relative error of the responses by modes left out.
+    pub points: ResponsePoints,
+    /// Maximum relative error of the responses due to omitted modes.
     #[serde(default = "one_thousandth")]
     pub tolerance: f64,
-    /// Frequency at which constant damping ratios are right when made viscous [Hz].
+    /// Frequency at which viscous damping reproduces constant damping ratios [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_at_hz: Option<f64>,
     /// State and loads.
@@ -258,10 +258,10 @@ pub struct ReduceRequest {
 pub struct MapRequest {
     /// The robot file.
     pub robot: RobotText,
-    /// Axes of the grid, each once; axes that it lacks are those of the state.
+    /// Axes of the grid, each once. An axis that is left out keeps the value of the state.
     #[serde(default)]
     pub grid: Vec<Axis>,
-    /// Poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+    /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poses: Option<Vec<[f64; 6]>>,
     /// Quantities and options of every point.
@@ -274,7 +274,7 @@ pub struct MapRequest {
 pub struct SweepRequest {
     /// The robot file.
     pub robot: RobotText,
-    /// Values that vary, the first fastest; an axis is a path into the robot file.
+    /// Values of the robot file that vary, each an axis named by its path. The first axis runs fastest.
     pub vary: Vec<Axis>,
     /// Quantities and options of every point.
     #[serde(flatten)]
@@ -286,18 +286,18 @@ pub struct SweepRequest {
 pub struct ReportRequest {
     /// The robot file.
     pub robot: RobotText,
-    /// Limit of the frequencies [Hz].
+    /// Upper limit of the frequencies [Hz].
     #[serde(default = "twenty")]
     pub below_hz: f64,
-    /// Force or moment of the response; default `fz`, or `fx` of a platform that cannot move along z.
+    /// Force or moment of the response. Default: `fz`, or `fx` if the platform cannot move along z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input: Option<String>,
-    /// Motion of the response; default `az`, or `ax` of a platform that cannot move along z.
+    /// Motion of the response. Default: `az`, or `ax` if the platform cannot move along z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
     /// Points of the platform.
     #[serde(flatten)]
-    pub points: Points,
+    pub points: ResponsePoints,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
@@ -317,15 +317,15 @@ pub struct ValidateRequest {}
 /// Request of `import`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ImportRequest {
-    /// The files of one robot.
+    /// Files of one robot.
     pub files: Vec<SourceFile>,
-    /// Set of cables of a CASPR file.
+    /// Name of the cable set in a CASPR file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cable_set: Option<String>,
-    /// Numbers of ropes that the files lack.
+    /// Rope values that the files do not give.
     #[serde(flatten)]
     pub ropes: ImportRopes,
-    /// Numbers of the platform that the files lack.
+    /// Platform values that the files do not give.
     #[serde(flatten)]
     pub platform: ImportPlatform,
 }
@@ -335,13 +335,13 @@ pub struct ImportRequest {
 pub struct ExportRequest {
     /// The robot file.
     pub robot: RobotText,
-    /// The program that the file is for.
+    /// Program that the file is for.
     #[serde(with = "crate::names")]
     pub to: crate::export::ExportFormat,
     /// Elements per cable.
     #[serde(default = "twenty_segments")]
     pub segments: usize,
-    /// Limit of the modes in the file [Hz].
+    /// Upper limit of the frequencies of modes in the file [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes_below_hz: Option<f64>,
     /// State and loads.
@@ -387,7 +387,7 @@ fn twenty_segments() -> usize {
 }
 
 impl Request {
-    /// The name of the command.
+    /// Name of the command.
     pub fn command(&self) -> &'static str {
         match self {
             Self::Check(_) => "check",
@@ -412,7 +412,7 @@ impl Request {
         }
     }
 
-    /// The robot file of the request, if it has one.
+    /// Robot file of the request, if it has one.
     pub fn robot(&self) -> Option<&RobotText> {
         match self {
             Self::Check(request) => Some(&request.robot),
@@ -433,31 +433,37 @@ impl Request {
         }
     }
 
-    /// Reads a request from JSON; a key that its command does not have is refused, with the nearest that it has.
+    /// Reads a request from JSON. A key that the command does not have is refused, and the nearest known key is
+    /// suggested.
     ///
     /// # Errors
-    /// Text that is no JSON, another schema, an unknown command or key, a value of another type.
+    /// Text that is not JSON, another schema, an unknown command or key, or a value of the wrong type.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let value: Value = serde_json::from_str(text).map_err(|error| anyhow!("the request is no JSON: {error}"))?;
+        let value: Value =
+            serde_json::from_str(text).map_err(|error| anyhow!("the request is not valid JSON: {error}"))?;
         Self::from_value(value)
     }
 
-    /// Reads a request from a JSON value, as [`Request::from_json`].
+    /// Reads a request from a JSON value, with the checks of [`Request::from_json`].
     ///
     /// # Errors
-    /// Another schema, an unknown command or key, a value of another type.
+    /// Another schema, an unknown command or key, or a value of the wrong type.
     pub fn from_value(value: Value) -> Result<Self, Error> {
-        let Value::Object(mut given) = value else { return Err(anyhow!("a request is a JSON object").into()) };
+        let Value::Object(mut given) = value else { return Err(anyhow!("the request is not a JSON object").into()) };
         match given.remove("schema") {
             None => {}
             Some(Value::String(schema)) if schema == SCHEMA => {}
-            Some(other) => return Err(anyhow!("the request's schema is {other}, this program reads {SCHEMA}").into()),
+            Some(other) => {
+                return Err(anyhow!("the schema of the request is {other}; this program reads {SCHEMA}").into());
+            }
         }
-        // `null` says nothing, as a key that is not there.
+        // A key with `null` counts as a key that is absent.
         given.retain(|_, value| !value.is_null());
         let request: Self = parsed(&given).map_err(|error| anyhow!("the request cannot be read: {error}"))?;
-        // Whatever was understood is written again; a key that is not was nobody's.
-        let Value::Object(understood) = request.to_value() else { unreachable!("a request is written as an object") };
+        // Every known key is written again. A key that is not written again is unknown to the command.
+        let Value::Object(understood) = request.to_value() else {
+            unreachable!("a request is serialised as an object")
+        };
         if let Some(unknown) = given.keys().find(|key| !understood.contains_key(*key)) {
             let names: Vec<String> = KEYS.iter().map(|(key, _)| (*key).to_owned()).collect();
             let nearest = suggestion(unknown, &names);
@@ -466,7 +472,7 @@ impl Request {
         Ok(request)
     }
 
-    /// The request as JSON, with its schema; what has no default and is not given is not there.
+    /// Request as JSON, with its schema. A key without a default is absent if it was not given.
     pub fn to_value(&self) -> Value {
         let mut object = Map::from_iter([("schema".to_owned(), Value::from(SCHEMA))]);
         if let Ok(Value::Object(keys)) = serde_json::to_value(self) {
@@ -476,7 +482,7 @@ impl Request {
     }
 }
 
-/// Serde's reading, with an error that does not repeat itself.
+/// Request read by serde. A missing command is reported separately, because serde's message for it is hard to read.
 fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> {
     if !given.contains_key("command") {
         bail!("it has no `command`");
@@ -487,7 +493,7 @@ fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> 
 /// Reads the name of an input signal.
 ///
 /// # Errors
-/// A name that is none, in the name of its key.
+/// A name that is not a signal; the message names the key.
 pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
     Input::parse(name).map_err(|reason| anyhow!("⟪input⟫ {name}: {reason}"))
 }
@@ -495,17 +501,17 @@ pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
 /// Reads the name of an output signal.
 ///
 /// # Errors
-/// A name that is none, in the name of its key.
+/// A name that is not a signal; the message names the key.
 pub(crate) fn output(name: &str) -> anyhow::Result<Output> {
     Output::parse(name).map_err(|reason| anyhow!("⟪output⟫ {name}: {reason}"))
 }
 
-/// Checks a number that has to be positive.
+/// Checks that the number of a key is positive.
 pub(crate) fn check_positive(key: &str, value: f64) -> anyhow::Result<()> {
     parts::check(key, Some(value), positive)
 }
 
-/// Checks a number that must not be negative.
+/// Checks that the number of a key is not negative.
 pub(crate) fn check_not_negative(key: &str, value: f64) -> anyhow::Result<()> {
     parts::check(key, Some(value), not_negative)
 }
@@ -513,10 +519,10 @@ pub(crate) fn check_not_negative(key: &str, value: f64) -> anyhow::Result<()> {
 /// Maximum number of points along a cable whose displacements are listed.
 pub const MAX_STATIONS: usize = 1000;
 
-/// Checks a number of points along a cable, both ends included.
+/// Checks the number of points along a cable, both ends included.
 pub(crate) fn check_stations(count: usize) -> anyhow::Result<()> {
     if !(2..=MAX_STATIONS).contains(&count) {
-        bail!("⟪stations⟫: `{count}` is not a number of points: a whole number from 2 to {MAX_STATIONS}");
+        bail!("⟪stations⟫: {count} points are not possible: give a whole number from 2 to {MAX_STATIONS}");
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The robot file of a request: changed as requested, read, checked.
+//! Robot file of a request: its text is changed, read and checked.
 
 use crate::request::{Change, RobotText};
 use crate::set_values::{self, Assignment};
@@ -7,51 +7,51 @@ use funicular::robot::Robot;
 use funicular::robot::spec::SpecError;
 use thiserror::Error;
 
-/// Name and text of the robot that every front end carries.
+/// Name and text of the robot that is built into every front end.
 pub const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM);
 
 /// Maximum size of a robot file [bytes]. A cable takes some 200, so a larger file is another one given by mistake.
 pub const MAX_BYTES: usize = 16 << 20;
 
-/// A robot with the text that describes it.
+/// Robot with the text that describes it.
 #[derive(Debug, Clone)]
 pub struct RobotFile {
-    /// The robot.
+    /// Robot.
     pub robot: Robot,
-    /// Where the text is from, for messages and pages.
+    /// Origin of the text, for messages and pages.
     pub name: String,
-    /// The text with its changes.
+    /// Text with its changes.
     pub text: String,
 }
 
-/// A robot file that the reader refuses, with all its errors and the text they point into.
+/// Robot file that the reader refuses, with all errors and the text to which they refer.
 #[derive(Debug, Error)]
 #[error("{}", .error.render(name, text, false).trim_end())]
 pub struct Refused {
-    /// Where the text is from.
+    /// Origin of the text.
     pub name: String,
-    /// The text with its changes.
+    /// Text with its changes.
     pub text: String,
-    /// What the reader found.
+    /// Errors that the reader found.
     pub error: SpecError,
 }
 
-/// The text of a robot file from its bytes.
+/// Text of a robot file from its bytes.
 ///
 /// # Errors
-/// More than [`MAX_BYTES`] of them, or bytes that are not UTF-8.
+/// More than [`MAX_BYTES`] bytes, or bytes that are not UTF-8.
 pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String> {
     if bytes.len() > MAX_BYTES {
-        bail!("{name} is larger than {} MiB: it is no robot file", MAX_BYTES >> 20);
+        bail!("{name} is larger than {} MiB: it is not a robot file", MAX_BYTES >> 20);
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        anyhow!("{name} is no text: byte {} is not UTF-8; a robot file is TOML in UTF-8", at + 1)
+        anyhow!("{name} is not valid UTF-8 at byte {}: a robot file is TOML in UTF-8", at + 1)
     })
 }
 
 impl RobotText {
-    /// The robot that the front ends carry.
+    /// Robot that is built into the front ends.
     pub fn embedded() -> Self {
         Self { name: EMBEDDED.0.to_owned(), text: EMBEDDED.1.to_owned(), set: Vec::new() }
     }
@@ -74,7 +74,7 @@ impl RobotText {
 }
 
 impl RobotText {
-    /// The text with its changes.
+    /// Text with its changes.
     ///
     /// # Errors
     /// A change of a value that the file does not have.
@@ -88,7 +88,7 @@ impl RobotText {
 }
 
 impl Change {
-    /// The change as the editor of robot files takes it.
+    /// Change in the form that the editor of robot files takes.
     fn assignment(&self) -> Result<Assignment> {
         let Self { path, value } = self;
         set_values::of_json(path, value).map_err(|reason| anyhow!("⟪set⟫ {path}: {reason}"))

@@ -1,4 +1,4 @@
-//! A request in, results out.
+//! Execution of a request.
 
 use crate::analyses::{
     cable::{self, CableResult},
@@ -22,7 +22,7 @@ use anyhow::{Result, anyhow};
 use funicular::robot::Robot;
 use serde::Serialize;
 
-/// Results of any command that computes them from a request alone.
+/// Results of any command that needs nothing but its request.
 #[derive(Serialize)]
 #[serde(untagged)]
 #[expect(missing_docs, reason = "each variant is named after its command and holds its results")]
@@ -41,10 +41,11 @@ pub enum Results {
 }
 
 impl Results {
-    /// The results as JSON, with the warnings in the words of a front end.
+    /// Results as JSON, with the warnings worded for a front end.
     ///
     /// # Errors
-    /// A result that is not a finite number, as at an undamped resonance: kind [`NoSolution`](crate::ErrorKind).
+    /// A result that is not a finite number, for example at an undamped resonance: kind
+    /// [`NoSolution`](crate::ErrorKind).
     pub fn to_json(&self, words: Words) -> Result<Vec<u8>, Error> {
         match self {
             Self::Check(found) => json::of_results(found, words),
@@ -65,17 +66,17 @@ impl Results {
 /// Runs a request.
 ///
 /// # Errors
-/// [`Error`]: a request that has to change, a robot without that result, or work that was stopped. Commands that make
-/// files of many rows (`map`, `sweep`, `merge`, `plot`) are run by front ends with a disk.
+/// [`Error`]: a request that has to change, a robot without such a result, or work that was stopped. Commands that
+/// write files of many rows (`map`, `sweep`, `merge`, `plot`) are run by front ends with a disk.
 pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Results, Error> {
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
     Ok(run_on(request, robot, watch)?)
 }
 
-/// Runs a request whose robot was read already, if it has one; the errors keep their types.
+/// Runs a request whose robot, if it has one, has been read before. The errors keep their types.
 ///
 /// # Errors
-/// Those of [`run`], but the robot file's own.
+/// The errors of [`run`], except those of the robot file.
 pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) -> Result<Results> {
     let robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
     Ok(match request {
@@ -90,6 +91,6 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
         Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of)?),
         Request::Validate(_) => Results::Validate(validate::run()?),
-        other => return Err(anyhow!("`{}` makes a file: the program runs it, and Python", other.command())),
+        other => return Err(anyhow!("`{}` writes a file: run it with the program or in Python", other.command())),
     })
 }

@@ -1,5 +1,6 @@
-//! `PATH=VALUE`: changes the text of a robot file before it is read, so that every check of the reader holds and its
-//! errors point at the changed line. A path may end at one number of an array: `cables.1.anchor_m.z`.
+//! Changes `PATH=VALUE` of the text of a robot file. They are made before the file is read, so that all checks of the
+//! reader apply and its errors point at the changed line. A path may end at one number of an array:
+//! `cables.1.anchor_m.z`.
 
 use crate::names::{listed, suggestion};
 use crate::request::Change;
@@ -8,19 +9,19 @@ use std::str::FromStr;
 use thiserror::Error;
 use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
 
-/// One value, and where it goes.
+/// Value and its place in the robot file.
 #[derive(Debug, Clone)]
 pub struct Assignment {
-    /// As the user wrote it.
+    /// Text as the user wrote it.
     text: String,
-    /// The option that asked for it, between ⟪ and ⟫.
+    /// Option that sets the value, between ⟪ and ⟫.
     option: &'static str,
     path: Vec<String>,
     value: Value,
 }
 
 impl Assignment {
-    /// As the user wrote it.
+    /// Text as the user wrote it.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -29,7 +30,7 @@ impl Assignment {
 /// Name of the option that sets values, in messages.
 const OPTION: &str = "⟪set⟫";
 
-/// Why a value cannot be set: which, and what there is instead.
+/// Error of a value that cannot be set: the value, the reason, and the existing names.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{0}")]
 pub struct EditError(String);
@@ -43,13 +44,13 @@ macro_rules! bail {
 /// Keys of a robot file, from its root to a value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    /// As the user wrote it.
+    /// Text as the user wrote it.
     pub text: String,
     keys: Vec<String>,
 }
 
 impl Path {
-    /// The key of the value, whose ending is the unit; of one number of an array that of the array.
+    /// Key of the value, whose ending is the unit; for one number of an array the key of the array.
     pub fn key(&self) -> &str {
         let beyond = usize::from(parameters::component(&self.keys).is_some());
         self.keys.iter().rev().nth(beyond).map_or("", String::as_str)
@@ -60,35 +61,36 @@ impl Path {
         &self.keys
     }
 
-    /// Whether another leads to the same value, however it is quoted.
+    /// True if another path leads to the same value, for any quoting.
     pub fn is_same(&self, other: &Self) -> bool {
         self.keys == other.keys
     }
 
-    /// A number for the value there, as the user's `option` asked.
+    /// Assignment of a number to the value at this path, requested by `option`.
     pub fn with(&self, option: &'static str, value: f64) -> Assignment {
         let text = format!("{}={value}", self.text);
         Assignment { text, option, path: self.keys.clone(), value: Value::from(value) }
     }
 }
 
-/// Parses `path.to.key`: keys separated by dots, quoted where they hold anything but letters, digits, _ and -.
+/// Parses `path.to.key`: keys separated by dots, quoted if they hold anything except letters, digits, _ and -.
 ///
 /// # Errors
-/// A text for the user.
+/// A message for the user.
 pub fn path(text: &str) -> Result<Path, String> {
     let keys = Key::parse(text).map_err(|_| {
         format!(
-            "`{text}` is not a path: keys separated by dots, quoted if they hold anything but letters, digits, _ and -"
+            "`{text}` is not a path: write keys separated by dots, quoted if they hold anything except letters, \
+             digits, _ and -"
         )
     })?;
     Ok(Path { text: text.trim().to_owned(), keys: keys.iter().map(|key| key.get().to_owned()).collect() })
 }
 
-/// Parses `path.to.key=value`; the value is TOML, and a bare word is text. For `--set`.
+/// Parses `path.to.key=value` of `--set`. The value is TOML; a bare word is a text.
 ///
 /// # Errors
-/// A text for the user.
+/// A message for the user.
 ///
 /// # Example
 /// ```
@@ -104,27 +106,27 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
     let value = value.trim();
     let value = match Value::from_str(value) {
         Ok(value) => value,
-        // A shell takes the quotes off `"point-mass"`; nobody means anything but text by such a word.
+        // A shell removes the quotes of `"point-mass"`. A bare word can only be meant as text.
         Err(_) if is_word(value) => Value::from(value),
         Err(_) => return Err(format!("`{value}` is not a TOML value: a number, \"text\" or an [array]")),
     };
     Ok(Assignment { text: text.to_owned(), option: OPTION, path, value })
 }
 
-/// The change that a text like `platform.mass_kg=20` asks for, as a request has it.
+/// Change of a request from a text such as `platform.mass_kg=20`.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// A message that says what is wrong with the text.
 pub fn change(text: &str) -> Result<Change, String> {
     let Assignment { value, .. } = assignment(text)?;
     let (path, _) = split(text).unwrap_or((text, ""));
     Ok(Change { path: path.trim().to_owned(), value: to_json(&value)? })
 }
 
-/// The assignment of a value in JSON to a path.
+/// Assignment of a JSON value to a path.
 ///
 /// # Errors
-/// A path that is none, or a value that a robot file cannot hold.
+/// A text that is not a path, or a value that a robot file cannot hold.
 pub fn of_json(at: &str, value: &serde_json::Value) -> Result<Assignment, String> {
     let value = from_json(value)?;
     let text = format!("{at}={}", value.to_string().trim());
@@ -137,7 +139,7 @@ fn to_json(value: &Value) -> Result<serde_json::Value, String> {
         Value::Integer(number) => (*number.value()).into(),
         Value::Float(number) if number.value().is_finite() => (*number.value()).into(),
         Value::Float(number) => {
-            return Err(format!("{} is no value of a robot file: it must be finite", number.value()));
+            return Err(format!("{} is not possible in a robot file: it must be finite", number.value()));
         }
         Value::Boolean(truth) => (*truth.value()).into(),
         Value::Array(items) => items.iter().map(to_json).collect::<Result<Vec<_>, _>>()?.into(),
@@ -147,10 +149,10 @@ fn to_json(value: &Value) -> Result<serde_json::Value, String> {
     })
 }
 
-/// A value in JSON as a robot file holds it.
+/// TOML value of a JSON value.
 ///
 /// # Errors
-/// A value that no robot file holds.
+/// A value that a robot file cannot hold.
 pub fn from_json(value: &serde_json::Value) -> Result<Value, String> {
     use serde_json::Value as Json;
     Ok(match value {
@@ -159,7 +161,7 @@ pub fn from_json(value: &serde_json::Value) -> Result<Value, String> {
         Json::Number(number) => match (number.as_i64(), number.as_f64()) {
             (Some(whole), _) => Value::from(whole),
             (None, Some(number)) => Value::from(number),
-            (None, None) => return Err(format!("{number} is not a number of a robot file")),
+            (None, None) => return Err(format!("{number} is out of the range of numbers in a robot file")),
         },
         Json::Array(items) => items.iter().map(from_json).collect::<Result<toml_edit::Array, _>>()?.into(),
         Json::Null | Json::Object(_) => {
@@ -168,7 +170,7 @@ pub fn from_json(value: &serde_json::Value) -> Result<Value, String> {
     })
 }
 
-/// The parts before and after the first `=` outside quotes.
+/// Parts of a text before and after the first `=` outside quotes.
 pub fn split(text: &str) -> Option<(&str, &str)> {
     let mut quote = None;
     for (at, c) in text.char_indices() {
@@ -186,12 +188,12 @@ fn is_word(value: &str) -> bool {
     value.starts_with(|c: char| c.is_alphabetic()) && value.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_')
 }
 
-/// The text with all assignments made, in order.
+/// Text of the robot file after all assignments, made in their order.
 ///
 /// # Errors
-/// [`EditError`] for a place that the file does not have.
+/// [`EditError`] for a path that the file does not have.
 pub fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
-    // The reader explains a file that is no TOML better than this parser would.
+    // The reader has better messages for a file that is not TOML than this parser.
     let Ok(mut document) = text.trim_start_matches('\u{feff}').parse::<DocumentMut>() else {
         return Ok(text.to_owned());
     };
@@ -213,7 +215,7 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parents = parents.iter();
     let mut walked: Vec<&str> = Vec::new();
-    // A comment can follow a value that has a line of its own.
+    // A comment can follow only a value on its own line.
     let mut in_lines = true;
     while let Some(parent) = parents.next() {
         walked.push(parent);
@@ -229,7 +231,7 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
         } else {
             match item.as_table_like_mut() {
                 Some(inner) => inner,
-                None => bail!("`{}` is a value, it has no keys", walked.join(".")),
+                None => bail!("`{}` is a value and has no keys", walked.join(".")),
             }
         };
     }
@@ -242,7 +244,7 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
     }
 }
 
-/// The array of a key with another number in it.
+/// Array of a key with one number replaced.
 fn with_component(
     item: Option<&Item>,
     component: &ComponentOfKey,
@@ -253,12 +255,12 @@ fn with_component(
     let mut array = match (item.map(Item::as_value), component.default) {
         (Some(Some(Value::Array(array))), _) => array.clone(),
         (None, Some(default)) => default.into_iter().collect(),
-        (None, None) => bail!("the robot file has no `{key}` there: give the whole of it"),
-        (Some(_), _) => bail!("`{key}` is no array in the robot file, it has no `{name}`"),
+        (None, None) => bail!("the robot file has no `{key}` there: give all its numbers"),
+        (Some(_), _) => bail!("`{key}` is not an array in the robot file and has no `{name}`"),
     };
     let ComponentOfKey { row, column, .. } = *component;
     let count = array.len();
-    let Some(element) = array.get_mut(row) else { bail!("`{key}` has {count} elements, it has no `{name}`") };
+    let Some(element) = array.get_mut(row) else { bail!("`{key}` has {count} elements and no `{name}`") };
     match (element.is_array(), column) {
         (true, Some(column)) => {
             for (row, column) in [(row, column), (column, row)] {
@@ -268,21 +270,21 @@ fn with_component(
             }
         }
         (false, Some(column)) if column != row => {
-            bail!("`{key}` has the principal moments only, no `{name}`: give three rows of three numbers")
+            bail!("`{key}` has only the principal moments and no `{name}`: give three rows of three numbers")
         }
         _ => replace(element, number),
     }
     Ok(Value::Array(array))
 }
 
-/// Puts a number in the place of another, with the space around it.
+/// Replaces a number and keeps the space around it.
 fn replace(element: &mut Value, number: &Value) {
     let decor = element.decor().clone();
     *element = number.clone();
     *element.decor_mut() = decor;
 }
 
-/// The cable of that name, in `[[cables]]` or `cables = [{ … }]`.
+/// Cable with a given name, in `[[cables]]` or `cables = [{ … }]`.
 fn cable<'d>(item: &'d mut Item, name: &str) -> Result<&'d mut dyn TableLike> {
     let mut names = Vec::new();
     let tables: Vec<&mut dyn TableLike> = match item {
@@ -291,7 +293,7 @@ fn cable<'d>(item: &'d mut Item, name: &str) -> Result<&'d mut dyn TableLike> {
             .iter_mut()
             .filter_map(|value| value.as_inline_table_mut().map(|table| table as &mut dyn TableLike))
             .collect(),
-        _ => bail!("`cables` is no list of tables in the robot file"),
+        _ => bail!("`cables` is not a list of tables in the robot file"),
     };
     for table in tables {
         match table.get("name").and_then(Item::as_str) {
@@ -305,7 +307,7 @@ fn cable<'d>(item: &'d mut Item, name: &str) -> Result<&'d mut dyn TableLike> {
 
 fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assignment, mut value: Value) -> Result<()> {
     if in_lines {
-        // An error shows the line, and so where it comes from.
+        // An error shows this line, and the comment shows where the value comes from.
         let origin: String = assignment.text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         *value.decor_mut() = Decor::new(" ", format!(" # set: {origin}"));
     }
@@ -315,10 +317,10 @@ fn put(table: &mut dyn TableLike, key: &str, in_lines: bool, assignment: &Assign
                 Some(inner) => inner.iter().map(|(name, _)| name.to_owned()).collect(),
                 None => Vec::new(),
             };
-            bail!("it names a table; set one of its values{}", listed(&keys))
+            bail!("it names a table: set one of its values{}", listed(&keys))
         }
         Some(item) => *item = Item::Value(value),
-        // A key that the reader does not know is refused there, with the nearest that it knows.
+        // The reader refuses an unknown key and suggests the nearest known key.
         None => drop(table.insert(key, Item::Value(value))),
     }
     Ok(())
@@ -370,17 +372,17 @@ mod tests {
                 .contains("gravity_m_s2 = [0, 0, -1.6] # set: gravity_m_s2.z=-1.6\n")
         );
         assert!(set(file, "platform.inertia_kg_m2.xz=9").unwrap().contains("[[1, 2, 9], [2, 4, 5], [9, 5, 6]]"));
-        // A vector that the file leaves out begins with its default.
+        // A vector that the file leaves out starts from its default.
         assert!(set(file, "platform.center_of_mass_m.x=0.1").unwrap().contains("center_of_mass_m = [0.1, 0.0, 0.0]"));
         assert!(set("", "gravity_m_s2.x=1").unwrap().contains("gravity_m_s2 = [1, 0.0, -9.81]"));
 
-        assert!(set(file, "wind.velocity_m_s.x=3").unwrap_err().contains("give the whole of it"));
+        assert!(set(file, "wind.velocity_m_s.x=3").unwrap_err().contains("give all its numbers"));
         assert!(
             set("[platform]\ninertia_kg_m2 = [1, 2, 3]", "platform.inertia_kg_m2.xy=1")
                 .unwrap_err()
                 .contains("principal")
         );
-        assert!(set("gravity_m_s2 = 3", "gravity_m_s2.x=3").unwrap_err().contains("no array"));
+        assert!(set("gravity_m_s2 = 3", "gravity_m_s2.x=3").unwrap_err().contains("not an array"));
         assert!(set("gravity_m_s2 = []", "gravity_m_s2.x=3").unwrap_err().contains("0 elements"));
     }
 

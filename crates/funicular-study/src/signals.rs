@@ -1,7 +1,7 @@
-//! Signals by their names: `fz` is a vertical force on the platform, `az` its vertical acceleration, `cable:3@0.5:az` that of
-//! the middle of cable "3".
+//! Names of signals: `fz` is a vertical force on the platform, `az` the vertical acceleration of the platform, and
+//! `cable:3@0.5:az` the vertical acceleration of the middle of cable "3".
 //!
-//! A name is read once, checked against what the robot can do, and becomes a [`Signal`].
+//! A name is read once, checked for the robot, and converted to a [`Signal`].
 
 use crate::values::{self, MIN_POSITIVE, NumberError};
 use funicular::math::Vec3;
@@ -10,87 +10,93 @@ use funicular::robot::{PlatformMotion, Robot};
 use funicular::suggest::nearest;
 use thiserror::Error;
 
-/// Part of a direction below which a planar platform cannot follow it.
+/// Minimum in-plane fraction of a direction that a planar platform can follow.
 const IN_PLANE: f64 = 1e-9;
 
-/// A name that is none, or one that means nothing on a robot.
+/// Error of a name that is not a signal, or of a signal that does not exist on a robot.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SignalError {
-    /// A number that cannot be read or used.
+    /// Number that cannot be read or used.
     #[error(transparent)]
     Number(#[from] NumberError),
-    /// Not three components.
+    /// Direction without exactly three components.
     #[error("{0} numbers where x,y,z are needed")]
     Components(usize),
-    /// A direction without length.
+    /// Direction of length zero.
     #[error("a direction cannot be zero")]
     ZeroDirection,
-    /// A point on a cable that is not written as one.
+    /// Point on a cable with an incomplete name.
     #[error("{0} is missing: a point on a cable is cable:NAME@FRACTION:DIRECTION, as in cable:3@0.5:z")]
     Form(&'static str),
-    /// A point beyond a cable's ends.
-    #[error("{0} is not a part of the cable's length: 0 is the platform, 1 the anchor")]
+    /// Point beyond the ends of a cable.
+    #[error("{0} is not a fraction of the cable's length: give 0 (platform) to 1 (anchor)")]
     Fraction(f64),
-    /// A moment on a cable.
-    #[error("{0} is not a force, and only forces act on a cable")]
+    /// Moment on a cable.
+    #[error("{0} is not a force: only forces can act on a cable")]
     NotAForce(String),
-    /// A rotation of a cable.
-    #[error("{0} is not a translation, and the points of a cable do not turn")]
+    /// Rotation of a cable.
+    #[error("{0} is not a translation: points of a cable have no rotation")]
     NotATranslation(String),
-    /// No input.
+    /// Name that is not an input.
     #[error(
         "not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
          axes), or a force on a cable as in cable:3@0.5:fz"
     )]
     NotAnInput,
-    /// No output.
+    /// Name that is not an output.
     #[error(
         "not an output: x, y, z, rx, ry, rz (displacement, rotation), with v (velocity) or a (acceleration) before it \
          as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), or a point \
          of a cable as in cable:3@0.5:az"
     )]
     NotAnOutput,
-    /// A cable that the robot does not have.
+    /// Cable that the robot does not have.
     #[error("the robot has no cable \"{name}\"{}", near_or_all(name, names))]
     NoSuchCable {
-        /// Name asked.
+        /// Requested name.
         name: String,
-        /// Names there are.
+        /// Names of the robot's cables.
         names: Vec<String>,
     },
-    /// A point of the platform for a signal on a cable.
-    #[error("the {side}'s point is one of the platform, and the {side} {name} is on a cable: leave out the point")]
+    /// Point of the platform for a signal on a cable.
+    #[error(
+        "the point of the {side} is a point of the platform, but the {side} {name} is on a cable: leave out the point"
+    )]
     PointOfCable {
         /// `input` or `output`.
         side: &'static str,
-        /// Its name.
+        /// Name of the signal.
         name: String,
     },
-    /// A point for a moment or a rotation.
-    #[error("the {side}'s point has no effect: the {side} {name} is the same at every point; leave out the point")]
+    /// Point for a moment or a rotation.
+    #[error(
+        "the point of the {side} has no effect, because the {side} {name} is the same at every point: leave out the \
+         point"
+    )]
     PointOfRotation {
         /// `input` or `output`.
         side: &'static str,
-        /// Its name.
+        /// Name of the signal.
         name: String,
     },
-    /// A rotation of a point mass.
+    /// Rotation of a point mass.
     #[error(
-        "a point mass does not turn: the {side} {name} is not possible; use a force (fx) and a translation (x, vx, ax)"
+        "a point mass has no rotation, so the {side} {name} is not possible: use a force (fx) and a translation (x, \
+         vx, ax)"
     )]
     PointMassTurns {
         /// `input` or `output`.
         side: &'static str,
-        /// Its name.
+        /// Name of the signal.
         name: String,
     },
-    /// A point of a point mass.
-    #[error("a point mass has no points but its origin: leave out the {side}'s point")]
+    /// Point of a point mass other than its origin.
+    #[error("a point mass has no point except its origin: leave out the point of the {side}")]
     PointMassPoint {
         /// `input` or `output`.
         side: &'static str,
     },
-    /// What a planar platform cannot do.
+    /// Signal that a planar platform cannot follow.
     #[error(
         "the {side} {name} is out of the plane of the platform ({dof}, normal {}, {}, {}), in which a guide holds \
          it: choose a direction in the plane, or the rotation about its normal",
@@ -101,7 +107,7 @@ pub enum SignalError {
     OutOfPlane {
         /// `input` or `output`.
         side: &'static str,
-        /// Its name.
+        /// Name of the signal.
         name: String,
         /// Kind of the platform.
         dof: &'static str,
@@ -110,7 +116,7 @@ pub enum SignalError {
     },
 }
 
-/// `; did you mean …?` for a near name, else all names of cables there are.
+/// End of a message: `; did you mean …?` for a near name, else the names of all cables.
 fn near_or_all(name: &str, names: &[String]) -> String {
     if let Some(near) = nearest(name, names.iter().map(String::as_str)) {
         return format!("; did you mean `{near}`?");
@@ -119,7 +125,7 @@ fn near_or_all(name: &str, names: &[String]) -> String {
     format!("; its cables are {}", all.join(", "))
 }
 
-/// `x,y,z`, of any length but zero.
+/// Reads a direction `x,y,z` of any length except zero.
 fn direction(text: &str) -> Result<Vec3, SignalError> {
     let components = text.split(',').map(values::number).collect::<Result<Vec<f64>, _>>()?;
     let [x, y, z] = components[..] else { return Err(SignalError::Components(components.len())) };
@@ -127,7 +133,7 @@ fn direction(text: &str) -> Result<Vec3, SignalError> {
     if vector.norm() >= MIN_POSITIVE { Ok(vector) } else { Err(SignalError::ZeroDirection) }
 }
 
-/// The unit vector of a world axis.
+/// Unit vector of a world axis.
 fn axis(name: &str) -> Option<Vec3> {
     match name {
         "x" => Some(Vec3::x()),
@@ -137,11 +143,11 @@ fn axis(name: &str) -> Option<Vec3> {
     }
 }
 
-/// Name of a cable, and the fraction of its unstrained length from the platform.
+/// Name of a cable, and a fraction of its unstrained length from the platform.
 type CablePoint = (String, f64);
 
-/// `cable:NAME@FRACTION:WHAT`: the point, and WHAT. `None` if it does not begin so. The name may hold any character; the
-/// last `@` ends it.
+/// Splits `cable:NAME@FRACTION:WHAT` into the point and WHAT; `None` if the text does not begin with `cable:`. The name
+/// may hold any character; the last `@` ends it.
 fn on_cable(text: &str) -> Result<Option<(CablePoint, &str)>, SignalError> {
     let Some(rest) = text.strip_prefix("cable:") else { return Ok(None) };
     let (name, rest) = rest.rsplit_once('@').ok_or(SignalError::Form("`@`"))?;
@@ -153,14 +159,14 @@ fn on_cable(text: &str) -> Result<Option<(CablePoint, &str)>, SignalError> {
     Ok(Some(((name.to_owned(), fraction), what)))
 }
 
-/// What drives the platform or a cable.
+/// Input signal: a force or moment on the platform, or a force on a cable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
-    /// As it was written.
+    /// Name as the user wrote it.
     pub name: String,
-    /// Cable and fraction of its unstrained length from the platform, if not on the platform.
+    /// Cable and fraction of its unstrained length from the platform; `None` for a signal on the platform.
     pub on_cable: Option<(String, f64)>,
-    /// A moment, not a force.
+    /// True for a moment, false for a force.
     pub is_moment: bool,
     /// Direction in world axes.
     pub direction_w: Vec3,
@@ -204,25 +210,25 @@ impl Input {
         Ok(Self { name, on_cable: None, is_moment, direction_w })
     }
 
-    /// The signal on a robot, with the force at a point of the platform [m] (the origin, if none is given).
+    /// Signal on a robot, with the force at a point of the platform [m] (default: the origin).
     ///
     /// # Errors
-    /// [`SignalError`] if the robot cannot be driven so.
+    /// [`SignalError`] if the robot has no such input.
     pub fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
         let Self { name, on_cable, is_moment: turns, direction_w } = self;
-        End { side: "input", name, turns: *turns, on_cable: on_cable.as_ref(), direction_w: *direction_w }
+        ResponseEnd { side: "input", name, turns: *turns, on_cable: on_cable.as_ref(), direction_w: *direction_w }
             .signal(robot, point_p)
     }
 }
 
-/// What is measured of the platform or a cable.
+/// Output signal: a motion of the platform or of a point on a cable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
-    /// As it was written.
+    /// Name as the user wrote it.
     pub name: String,
-    /// Cable and fraction of its unstrained length from the platform, if not on the platform.
+    /// Cable and fraction of its unstrained length from the platform; `None` for a signal on the platform.
     pub on_cable: Option<(String, f64)>,
-    /// A rotation, not a translation.
+    /// True for a rotation, false for a translation.
     pub is_rotation: bool,
     /// Displacement, velocity or acceleration.
     pub quantity: Quantity,
@@ -279,28 +285,28 @@ impl Output {
         Ok((quantity, true, about))
     }
 
-    /// The signal on a robot, as [`Input::signal`].
+    /// Signal on a robot, measured at a point of the platform [m] (default: the origin).
     ///
     /// # Errors
-    /// [`SignalError`] if the robot does not move so.
+    /// [`SignalError`] if the robot has no such output.
     pub fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
         let Self { name, on_cable, is_rotation: turns, direction_w, .. } = self;
-        End { side: "output", name, turns: *turns, on_cable: on_cable.as_ref(), direction_w: *direction_w }
+        ResponseEnd { side: "output", name, turns: *turns, on_cable: on_cable.as_ref(), direction_w: *direction_w }
             .signal(robot, point_p)
     }
 }
 
-/// One end of a response.
-struct End<'a> {
+/// Input or output of a response.
+struct ResponseEnd<'a> {
     side: &'static str,
     name: &'a str,
-    /// A moment or a rotation.
+    /// True for a moment or a rotation.
     turns: bool,
     on_cable: Option<&'a CablePoint>,
     direction_w: Vec3,
 }
 
-impl End<'_> {
+impl ResponseEnd<'_> {
     fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
         let Self { side, name, turns, on_cable, direction_w } = *self;
         let name = name.to_owned();
@@ -318,7 +324,7 @@ impl End<'_> {
             PlatformMotion::Planar(plane) if on_cable.is_none() => {
                 let (normal, u) = (plane.normal_w(), direction_w.normalize());
                 let along = normal.dot(&u);
-                // A planar platform moves along its plane and turns about the normal.
+                // A planar platform moves in its plane and rotates about the normal.
                 let possible = if turns { along.abs() } else { (u - normal * along).norm() };
                 if possible < IN_PLANE {
                     let dof = robot.platform.motion.name();
@@ -337,7 +343,7 @@ impl End<'_> {
     }
 }
 
-/// The cable of a name, file order.
+/// Index of the cable with a name, in the order of the file.
 fn cable_of(robot: &Robot, name: &str) -> Result<usize, SignalError> {
     robot.cables.iter().position(|cable| cable.name == *name).ok_or_else(|| SignalError::NoSuchCable {
         name: name.to_owned(),

@@ -1,7 +1,8 @@
-//! Maps and sweeps: a request made ready to run, what its file says of itself, and rows for a page.
+//! Maps and sweeps: preparation of a request, description of its file, and rows for a page.
 //!
-//! A request becomes a [`PreparedSweep`], and that a [`Plan`] of points, quantities and options, whose rows come in chunks. A
-//! front end runs the chunks on its own threads and keeps them in its own files, which a [`Record`] describes.
+//! A request becomes a [`PreparedSweep`] and then a [`Plan`] of points, quantities and options. Its rows come in
+//! chunks. A front end runs the chunks on its own threads and keeps them in its own files, which a [`Record`]
+//! describes.
 
 mod columns;
 mod digest;
@@ -15,12 +16,12 @@ mod row;
 mod status;
 mod steps;
 
-pub use columns::{Chunk, Column, Kind, Values};
+pub use columns::{Chunk, Column, ColumnKind, Values};
 pub use frequency::{PointModes, lowest_modes};
 pub use plan::{MAX_HZ, MAX_POINTS, Options, Plan, SweepError};
 pub use points::{AXES, Point, Points, Poses};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
-pub use record::{Difference, Part, Record, SCHEMA, kind_name};
+pub use record::{Part, Record, RecordDifference, SCHEMA, kind_name};
 pub use robot_values::{RobotValues, ValueAxis};
 pub use status::CODES;
 pub use steps::{Steps, digits};
@@ -35,16 +36,16 @@ use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics;
 use serde_json::{Map, Value, json};
 
-/// A map or sweep that is ready to run.
+/// Map or sweep that is ready to run.
 pub struct PreparedSweep {
-    /// The request with its open choices made: the same rows, and the same words in their file, whoever asked.
+    /// Request with its defaults filled in, so that all front ends compute the same rows and write the same plan.
     request: Request,
-    /// One of the robots.
+    /// One robot of the sweep.
     robot: Robot,
     /// Text of the robot file, with its changes.
     robot_file: String,
     points: Box<dyn Points + Send>,
-    /// Orientation at which axes of a grid stay that it does not have, every digit kept.
+    /// Orientation of a grid along axes that the grid does not have, with every digit.
     base: Option<Pose>,
     quantities: Vec<Quantity>,
     options: Options,
@@ -54,12 +55,12 @@ impl PreparedSweep {
     /// Prepares a request of `map` or `sweep`.
     ///
     /// # Errors
-    /// A request of another command, or one that contradicts itself or the robot.
+    /// A request of another command, or a request that contradicts itself or the robot.
     pub fn new(request: &Request) -> Result<Self> {
         match request {
             Request::Map(map) => Self::of_map(map),
             Request::Sweep(sweep) => Self::of_sweep(sweep),
-            other => bail!("`{}` is no map and no sweep", other.command()),
+            other => bail!("`{}` is neither a map nor a sweep", other.command()),
         }
     }
 
@@ -73,7 +74,7 @@ impl PreparedSweep {
         let points = match &request.poses {
             Some(_) if !request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫, not both"),
             Some(_) if request.point.state.pose.is_some() || request.point.state.lengths_m.is_some() => {
-                bail!("⟪poses⟫ says where the robot is: leave out ⟪pose⟫ and ⟪lengths_m⟫")
+                bail!("⟪poses⟫ gives the poses of the robot: leave out ⟪pose⟫ and ⟪lengths_m⟫")
             }
             Some(poses) => {
                 check_poses(poses, &robot)?;
@@ -117,10 +118,10 @@ impl PreparedSweep {
         Ok(Self { request, robot, robot_file: text, points, base: None, quantities, options })
     }
 
-    /// The sweep of a file again, from what the file says of itself.
+    /// Restores the sweep of a file from the plan in the file.
     ///
     /// # Errors
-    /// A plan that this version does not know in full.
+    /// A plan that this version does not understand completely.
     pub fn of_record(record: &Record) -> Result<Self> {
         let mut plan = record.plan.clone();
         let robot = RobotText { name: String::new(), text: record.robot_file.clone(), set: Vec::new() };
@@ -128,34 +129,34 @@ impl PreparedSweep {
         plan.remove("orientation_wxyz");
         let prepared = Self::new(&Request::from_value(Value::Object(plan)).map_err(|error| anyhow!("{error}"))?)?;
 
-        // The proof that nothing was left out.
+        // The plan is made again and compared, which proves that nothing was left out.
         if prepared.description() != record.plan {
-            bail!("its plan is not one of this program");
+            bail!("its plan is not a plan of this version of the program");
         }
         Ok(prepared)
     }
 
-    /// The request with its open choices made.
+    /// Request with its defaults filled in.
     pub fn request(&self) -> &Request {
         &self.request
     }
 
-    /// One of the robots.
+    /// One robot of the sweep.
     pub fn robot(&self) -> &Robot {
         &self.robot
     }
 
-    /// The points.
+    /// Points of the sweep.
     pub fn points(&self) -> &dyn Points {
         self.points.as_ref()
     }
 
-    /// The options of every point.
+    /// Options of every point.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// The rows to compute.
+    /// Plan of the rows to compute.
     ///
     /// # Errors
     /// [`SweepError`]: quantities that the robot or the models do not have, or too many points.
@@ -163,7 +164,7 @@ impl PreparedSweep {
         Plan::new(self.points.as_ref(), &self.robot, &self.quantities, &self.options)
     }
 
-    /// What a file of these rows says of itself.
+    /// Description that a file of these rows contains.
     pub fn record(&self, plan: &Plan, part: Option<Part>) -> Record {
         Record {
             robot_file: self.robot_file.clone(),
@@ -175,8 +176,8 @@ impl PreparedSweep {
         }
     }
 
-    /// The request as the file keeps it: the robot by its name, since its text stands elsewhere, and a list of poses by
-    /// its digest.
+    /// Request in the form that the file keeps: the robot by its name, since its text is stored separately, and a list
+    /// of poses by its digest.
     fn description(&self) -> Map<String, Value> {
         let Value::Object(mut keys) = self.request.to_value() else { return Map::new() };
         keys.remove("schema");
@@ -195,39 +196,39 @@ impl PreparedSweep {
     }
 }
 
-/// Rows of a map or sweep, wherever they are kept, on their way into a page.
+/// Stored rows of a map or sweep, as the source of a page.
 pub trait SweepRows {
-    /// What the rows say of themselves.
+    /// Description of the rows.
     fn record(&self) -> &Record;
 
     /// Number of rows.
     fn rows(&self) -> usize;
 
-    /// Place of the first row among those of all parts.
+    /// Index of the first row among the rows of all parts.
     fn first_row(&self) -> usize;
 
-    /// Whether all rows are there.
+    /// True if all rows are there.
     fn is_complete(&self) -> bool;
 
-    /// Hands out the rows in chunks, in order.
+    /// Passes the rows to `take` in chunks, in order.
     ///
     /// # Errors
-    /// A file that is damaged.
+    /// A damaged file.
     fn each(&self, take: &mut dyn FnMut(&Chunk)) -> Result<()>;
 }
 
-/// Axes of a plan that a file holds: those of a grid of poses, or values of the robot file.
+/// Axes in the plan of a file: axes of a grid of poses, or values of the robot file.
 pub fn axes_of(plan: &Map<String, Value>) -> Option<Vec<Axis>> {
     let axes = plan.get("grid").or_else(|| plan.get("vary"))?;
     serde_json::from_value(axes.clone()).ok()
 }
 
-/// The robot of a point with what the request sets.
+/// Robot of a point with the changes of the request.
 fn adjusted(robot: Robot, point: &EachPoint) -> Result<Robot> {
     at_rest::with_limits(&at_rest::with_state(robot, &point.state)?, &point.tensions)
 }
 
-/// Quantities and options of every point; the open choices of the request are made in it, too.
+/// Quantities and options of every point. Fills in the defaults of the request.
 fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Options)> {
     positive(point.up_to_hz).map_err(|reason| anyhow!("⟪up_to_hz⟫: {reason}"))?;
     let quantities = (point.quantities.iter())
@@ -239,7 +240,7 @@ fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Optio
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if rule.is_some() && cables <= dof {
         bail!(
-            "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions at a \
+            "a tension rule has no choice: {cables} cables for {dof} degrees of freedom have one set of tensions per \
              pose; leave out ⟪tension_rule⟫ and ⟪target_tension_n⟫"
         );
     }
@@ -264,14 +265,14 @@ fn steps_of(axes: &[Axis], key: &str) -> Result<Vec<(String, Steps)>> {
         .collect()
 }
 
-/// The pose at which the axes stay that the grid does not have: that of the request, or of the robot's state.
+/// Pose for the axes that the grid does not have: the pose of the request, or else of the robot's state.
 fn base(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
     Ok(match &robot.state {
         State::Pose(pose) => Some(*pose),
         State::Unknown => None,
         State::Lengths(lengths) => {
             let rest = statics::forward(robot, lengths, request.point.state.static_model, None).context(
-                "axes that the grid does not have are those of the robot's state, which gives none; give ⟪pose⟫",
+                "the grid does not have all axes and the robot's state has no pose to take them from: give ⟪pose⟫",
             )?;
             Some(rest.pose)
         }

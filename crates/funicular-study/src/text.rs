@@ -1,6 +1,6 @@
-//! Rounded numbers and counted nouns, as messages, tables and pages show them.
+//! Rounded numbers and counted nouns for messages, tables and pages.
 
-/// With a number of decimals; no minus before zero.
+/// Number with `count` decimals, without a minus before zero.
 pub fn decimals(value: f64, count: usize) -> String {
     let text = format!("{value:.count$}");
     match text.strip_prefix('-') {
@@ -9,7 +9,7 @@ pub fn decimals(value: f64, count: usize) -> String {
     }
 }
 
-/// With a number of significant digits; as a power of ten where that is shorter.
+/// Number with `digits` significant digits, with an exponent if that is shorter.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -22,7 +22,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// As [`significant`], without the zeros at the end: for numbers that the user chose.
+/// Number as in [`significant`], without zeros at the end: for numbers that the user chose.
 pub fn short(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
     if text.contains('.') && !text.contains('e') {
@@ -32,20 +32,20 @@ pub fn short(value: f64, digits: usize) -> String {
     }
 }
 
-/// What stands where there is no number.
+/// Text of a missing number.
 pub const NONE: &str = "–";
 
-/// As [`decimals`], or a dash.
+/// Number with `count` decimals, or a dash if there is no number.
 pub fn decimals_or_none(value: Option<f64>, count: usize) -> String {
     value.map_or_else(|| NONE.to_owned(), |value| decimals(value, count))
 }
 
-/// `a, b, c` with a number of decimals each.
+/// List `a, b, c` with `count` decimals each.
 pub fn vector(values: &[f64], count: usize) -> String {
     values.iter().map(|value| decimals(*value, count)).collect::<Vec<_>>().join(", ")
 }
 
-/// `1 mode`, `2 modes`.
+/// Count and noun, as in `1 mode`, `2 modes`.
 pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,7 +1,7 @@
-//! The core against numbers that others published or computed: the rows of docs/validation.md.
+//! Comparisons of the core with numbers that others published or computed: the rows of docs/validation.md.
 //!
-//! The numbers are in crates/funicular-study/reference, each table with its source. They are compared here and nowhere else:
-//! the core's own tests have limits, identities and other algorithms. One file per section, a test for each.
+//! The numbers are in crates/funicular-study/reference, each table with its source. They are compared only here: the
+//! core's own tests use limits, identities and other algorithms. There is one file per section, with a test.
 
 mod catenary;
 mod cube;
@@ -22,65 +22,65 @@ pub use markdown::markdown;
 use anyhow::Result;
 use serde::Serialize;
 
-/// Comparisons that belong together.
+/// Section of docs/validation.md: comparisons that belong together.
 #[derive(Serialize)]
 pub struct Section {
     /// Title.
     pub title: &'static str,
-    /// What is compared, and which differences are to be expected.
+    /// Description of the comparisons and of the differences to expect.
     pub note: &'static str,
-    /// The comparisons.
-    pub rows: Vec<Row>,
+    /// Comparisons.
+    pub rows: Vec<Comparison>,
 }
 
-/// One comparison.
+/// Comparison of numbers of the program with reference numbers.
 #[derive(Serialize)]
-pub struct Row {
-    /// Of what.
+pub struct Comparison {
+    /// Case: the robot or cable, and its state.
     pub case: String,
-    /// Where their numbers come from.
+    /// Source of the reference numbers.
     pub source: String,
-    /// What is compared, with its unit.
+    /// Compared quantity, with its unit.
     pub quantity: String,
-    /// Their numbers; of many, those that the quantity names.
+    /// Reference numbers; if there are many, the ones that the quantity names.
     pub theirs: Vec<f64>,
-    /// Ours, in the same order.
+    /// Numbers of the program, in the same order.
     pub ours: Vec<f64>,
-    /// Largest difference.
+    /// Maximum difference.
     pub difference: f64,
-    /// What the difference is.
-    pub kind: Kind,
-    /// Largest difference that passes.
+    /// Kind of the difference: absolute or relative.
+    pub kind: DifferenceKind,
+    /// Maximum difference that passes.
     pub tolerance: f64,
-    /// Why the tolerance is what it is.
+    /// Reason for the size of the tolerance.
     pub bounded_by: Bound,
-    /// The difference is within the tolerance.
+    /// True if the difference is within the tolerance.
     pub pass: bool,
 }
 
-/// What a difference is divided by.
+/// Kind of a difference.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
-    /// Nothing: it has the unit of the quantity.
+pub enum DifferenceKind {
+    /// Absolute, in the unit of the quantity.
     Absolute,
-    /// The size of their numbers.
+    /// Relative, divided by the size of the reference numbers.
     Relative,
 }
 
-/// What bounds a difference.
+/// Cause that bounds a difference.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "&'static str")]
 pub enum Bound {
-    /// Both are the same model; what is left is rounding, and no digit of it means anything.
+    /// Rounding only: both sides have the same model, and no digit of the difference has a meaning.
     Rounding,
-    /// Both are the same model, resolved by elements to a known error; below it, as with rounding.
+    /// Known error of elements that resolve the same model; digits of the difference have no meaning.
     Elements,
-    /// The digits that were printed, or the tolerance of the other program.
+    /// Number of printed digits, or the tolerance of the other program.
     Digits(&'static str),
-    /// The models differ: what one of them leaves out.
+    /// Difference of the models: the effect that one of them leaves out.
     Model(&'static str),
-    /// Whole numbers.
+    /// Integers, which must be equal.
     Count,
 }
 
@@ -95,10 +95,10 @@ impl From<Bound> for &'static str {
     }
 }
 
-/// Every comparison.
+/// Makes all comparisons, in sections.
 ///
 /// # Errors
-/// A reference file that cannot be read, or a robot of it without an equilibrium.
+/// A reference file that cannot be read, or a robot in it without an equilibrium.
 pub fn sections() -> Result<Vec<Section>> {
     let (published, independent) = (reference::published()?, reference::independent()?);
     Ok(vec![
@@ -113,46 +113,46 @@ pub fn sections() -> Result<Vec<Section>> {
     ])
 }
 
-/// Where rows of one case get their case and source.
+/// Case and source that several comparisons share.
 struct Case<'a> {
     name: String,
     source: &'a str,
 }
 
 impl Case<'_> {
-    /// Largest absolute difference of numbers.
-    fn absolute(&self, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64, bound: Bound) -> Row {
+    /// Comparison by the maximum absolute difference.
+    fn absolute(&self, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64, bound: Bound) -> Comparison {
         let difference = largest_difference(theirs, ours);
-        self.row(quantity, (theirs, ours), (difference, Kind::Absolute), tolerance, bound)
+        self.row(quantity, (theirs, ours), (difference, DifferenceKind::Absolute), tolerance, bound)
     }
 
-    /// Largest relative difference of numbers, each over its own size.
-    fn relative(&self, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64, bound: Bound) -> Row {
+    /// Comparison by the maximum relative difference, each relative to its own reference number.
+    fn relative(&self, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64, bound: Bound) -> Comparison {
         let difference = worst(theirs.iter().zip(ours).map(|(a, b)| over((a - b).abs(), a.abs())));
-        self.row(quantity, (theirs, ours), (difference, Kind::Relative), tolerance, bound)
+        self.row(quantity, (theirs, ours), (difference, DifferenceKind::Relative), tolerance, bound)
     }
 
-    /// Largest difference of numbers over the largest of theirs.
-    fn together(&self, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64, bound: Bound) -> Row {
+    /// Comparison by the maximum difference, relative to the largest reference number.
+    fn together(&self, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64, bound: Bound) -> Comparison {
         let difference = over(largest_difference(theirs, ours), largest(theirs));
-        self.row(quantity, (theirs, ours), (difference, Kind::Relative), tolerance, bound)
+        self.row(quantity, (theirs, ours), (difference, DifferenceKind::Relative), tolerance, bound)
     }
 
-    /// Numbers of things.
-    fn count(&self, quantity: &str, theirs: usize, ours: usize) -> Row {
+    /// Comparison of two counts.
+    fn count(&self, quantity: &str, theirs: usize, ours: usize) -> Comparison {
         self.absolute(quantity, &[theirs as f64], &[ours as f64], 0.0, Bound::Count)
     }
 
-    /// A row whose difference was found otherwise, `shown` (theirs, ours) standing for many numbers.
+    /// Comparison with a given difference of many numbers, of which only `shown` (theirs, ours) is printed.
     fn row(
         &self,
         quantity: &str,
         shown: (&[f64], &[f64]),
-        (difference, kind): (f64, Kind),
+        (difference, kind): (f64, DifferenceKind),
         tolerance: f64,
         bounded_by: Bound,
-    ) -> Row {
-        Row {
+    ) -> Comparison {
+        Comparison {
             case: self.name.clone(),
             source: self.source.to_owned(),
             quantity: quantity.to_owned(),
@@ -162,20 +162,20 @@ impl Case<'_> {
             kind,
             tolerance,
             bounded_by,
-            // A difference that is not a number is none to pass.
+            // NaN never passes.
             pass: shown.0.len() == shown.1.len() && difference <= tolerance,
         }
     }
 }
 
-/// A quotient that is zero for nothing over nothing.
+/// Quotient, with 0/0 = 0.
 fn over(difference: f64, size: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / size }
 }
 
-/// The largest; NaN if one is not a number.
+/// Maximum difference; NaN if one of them is NaN.
 fn worst(differences: impl Iterator<Item = f64>) -> f64 {
-    differences.fold(0.0, |most, d| if d > most || d.is_nan() { d } else { most })
+    differences.fold(0.0, |max, d| if d > max || d.is_nan() { d } else { max })
 }
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {

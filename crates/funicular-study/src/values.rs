@@ -1,31 +1,31 @@
-//! Ranges of numbers in requests: the rule for each kind of value, once for all front ends.
+//! Checks of numbers in requests, one rule for all front ends.
 
 use thiserror::Error;
 
-/// Smallest quantity that has to be positive, as in robot files.
+/// Minimum of a quantity that has to be positive, the same as in robot files.
 pub const MIN_POSITIVE: f64 = 1e-12;
 
-/// Largest magnitude of any number, as in robot files: no product of the analyses overflows within it.
+/// Maximum magnitude of any number, the same as in robot files. Below it no product in the analyses overflows.
 pub const MAX_MAGNITUDE: f64 = 1e12;
 
-/// A number in a text that is none, or not one to compute with.
+/// Text that is not a number, or a number that is not usable.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NumberError {
-    /// Nothing.
+    /// Empty text.
     #[error("a number is missing")]
     Missing,
-    /// No number.
+    /// Text that is not a number.
     #[error("`{0}` is not a number (write it without its unit, with a point for decimals)")]
     NotANumber(String),
     /// NaN or infinite.
     #[error("{0} is not a finite number")]
     NotFinite(String),
-    /// Too large.
+    /// Magnitude above the limit.
     #[error("{0} is beyond {MAX_MAGNITUDE:e} in magnitude")]
     TooLarge(String),
 }
 
-/// Reads a finite number of at most [`MAX_MAGNITUDE`] from a text.
+/// Reads a finite number with a magnitude of at most [`MAX_MAGNITUDE`] from a text.
 ///
 /// # Errors
 /// [`NumberError`].
@@ -40,22 +40,22 @@ pub fn number(text: &str) -> Result<f64, NumberError> {
     }
 }
 
-/// Checks that a number is finite and of at most [`MAX_MAGNITUDE`].
+/// Checks that a number is finite with a magnitude of at most [`MAX_MAGNITUDE`].
 ///
 /// # Errors
-/// What is wrong with the value.
+/// A message that says what is wrong with the value.
 pub fn finite(value: f64) -> Result<f64, String> {
     if value.abs() <= MAX_MAGNITUDE {
         return Ok(value);
     }
-    // The reader of texts says what is wrong; a number prints as a text that it reads as that number.
+    // `number` makes the message. A printed number is read back as the same number.
     number(&format!("{value:?}")).map_err(|error| error.to_string())
 }
 
 /// Checks that a number is at least [`MIN_POSITIVE`].
 ///
 /// # Errors
-/// What is wrong with the value.
+/// A message that says what is wrong with the value.
 pub fn positive(value: f64) -> Result<f64, String> {
     match finite(value)? {
         value if value >= MIN_POSITIVE => Ok(value),
@@ -67,7 +67,7 @@ pub fn positive(value: f64) -> Result<f64, String> {
 /// Checks that a number is zero or more.
 ///
 /// # Errors
-/// What is wrong with the value.
+/// A message that says what is wrong with the value.
 pub fn not_negative(value: f64) -> Result<f64, String> {
     match finite(value)? {
         value if value >= 0.0 => Ok(value),

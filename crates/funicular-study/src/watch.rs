@@ -1,19 +1,20 @@
-//! Progress of long work, told to whoever asked for it.
+//! Progress of long work, reported to a front end.
 
-/// A front end's eye on an analysis: it may draw a bar, and it may stop the work.
+/// Observer of an analysis. It can show progress, and it can stop the work.
 pub trait Watch {
-    /// Called between steps of the work: `done` of `total` `what` (a plural noun, as in "frequencies") are ready.
+    /// Reports progress between steps of the work: `done` of `total` `what` (a plural noun, such as "frequencies") are
+    /// ready.
     fn progress(&mut self, done: usize, total: usize, what: &'static str) {
         let _ = (done, total, what);
     }
 
-    /// Whether the work shall stop at its next step.
+    /// True if the work shall stop at its next step.
     fn is_cancelled(&self) -> bool {
         false
     }
 }
 
-/// Nobody watches.
+/// Observer that shows nothing and never stops the work.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Silent;
 

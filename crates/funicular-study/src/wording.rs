@@ -1,11 +1,11 @@
-//! Names of options in messages: one text, and each front end's way to write the option.
+//! Names of options in messages: one text for all front ends, each of which writes options in its own way.
 //!
-//! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program shows
-//! `--min-tension-n`, Python and JSON show `min_tension_n`.
+//! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program
+//! shows `--min-tension-n`, Python and JSON show `min_tension_n`.
 
 use funicular::statics::StaticsError;
 
-/// Front ends by how they write the name of an option.
+/// Ways in which front ends write the name of an option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Words {
     /// Command line: `--mass-kg`.
@@ -19,11 +19,11 @@ pub enum Words {
 /// Keys whose option on the command line has another name.
 const PROGRAM_NAMES: [(&str, &str); 2] = [("robot", "ROBOT"), ("files", "FILE")];
 
-/// Keys that Python writes otherwise: switches with their value, a method, a shorter keyword.
+/// Keys with another form in Python: switches with their value, a method, a shorter keyword.
 const PYTHON_NAMES: [(&str, &str); 4] =
     [("resume", "resume=True"), ("discard", "discard=True"), ("set", "with_"), ("output_file", "file")];
 
-/// A text with the names of options as a front end writes them.
+/// Text in which the names of options are written for a front end.
 ///
 /// # Example
 /// ```
@@ -45,13 +45,13 @@ pub fn worded(text: &str, words: Words) -> String {
     out + rest
 }
 
-/// The message of an error of any analysis as a front end writes it: its own text, and the option that helps.
+/// Message of an error of any analysis for a front end: the text of the error, and the option that helps.
 pub fn message(error: &anyhow::Error, words: Words) -> String {
     let remedy = error.downcast_ref().and_then(remedy).unwrap_or_default();
     worded(&format!("{error:#}{remedy}"), words)
 }
 
-/// The option of a request that helps against an error of the core, which knows no options.
+/// Hint to an option that helps against an error of the core, which does not know the options.
 fn remedy(error: &StaticsError) -> Option<&'static str> {
     match error {
         StaticsError::TensionsNotConverged { .. } => Some(", or give ⟪min_tension_n⟫"),
@@ -59,7 +59,7 @@ fn remedy(error: &StaticsError) -> Option<&'static str> {
     }
 }
 
-/// The name of one option as a front end writes it.
+/// Name of one option in the form of a front end.
 pub fn option(key: &str, words: Words) -> String {
     let own_name = |names: &[(&str, &'static str)]| names.iter().find(|(name, _)| *name == key).map(|(_, own)| *own);
     match words {
@@ -88,7 +88,7 @@ mod tests {
             z: 1.0,
         };
         assert!(!error.to_string().contains("--"));
-        let told = message(&error.into(), Words::Program);
-        assert!(told.ends_with("(`minimum_tension_n` in the robot file), or give --min-tension-n"), "{told}");
+        let message = message(&error.into(), Words::Program);
+        assert!(message.ends_with("(`minimum_tension_n` in the robot file), or give --min-tension-n"), "{message}");
     }
 }

@@ -6,7 +6,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Stability, StaticModel};
-use funicular_study::sweep::{CODES, Chunk, Kind, Options, Plan, Poses, Quantity, Steps, SweepError, Values};
+use funicular_study::sweep::{CODES, Chunk, ColumnKind, Options, Plan, Poses, Quantity, Steps, SweepError, Values};
 
 fn yuan() -> Robot {
     Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
@@ -218,6 +218,9 @@ fn columns_have_units_in_their_names() {
             "N m/rad" => "_n_m_per_rad",
             _ => "",
         };
-        assert!(column.kind == Kind::Real && column.name.ends_with(ending) && !column.about.is_empty(), "{column:?}");
+        assert!(
+            column.kind == ColumnKind::Real && column.name.ends_with(ending) && !column.about.is_empty(),
+            "{column:?}"
+        );
     }
 }

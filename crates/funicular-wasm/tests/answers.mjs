@@ -175,9 +175,9 @@ test("errors are those of the program, with the same status", () => {
       return true;
     });
   }
-  assert.throws(() => funicular.answerText("{"), { name: "RequestError", status: 2, message: /^the request is no JSON/ });
+  assert.throws(() => funicular.answerText("{"), { name: "RequestError", status: 2, message: /^the request is not valid JSON/ });
   assert.throws(() => funicular.answerText("[".repeat(100000)), { name: "RequestError", status: 2 });
-  assert.throws(() => funicular.answer({ command: "map", grid: [] }, robots.cogiro), { status: 2, message: /makes a file/ });
+  assert.throws(() => funicular.answer({ command: "map", grid: [] }, robots.cogiro), { status: 2, message: /writes a file/ });
 });
 
 test("the module needs nothing from outside", () => {

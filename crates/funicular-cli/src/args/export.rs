@@ -9,15 +9,16 @@ pub(crate) struct ExportArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// The program that the file is for
+    /// Program that the file is for
     #[arg(long, value_name = "PROGRAM", value_enum)]
     pub(crate) to: ExportFormat,
 
-    /// Parts of each cable, 1 to 1000: bars of OpenSees, segments of MoorDyn, pieces of a curve of VTK
+    /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000), allow_hyphen_values = true, default_value = "20")]
     pub(crate) segments: u64,
 
-    /// Modes up to this frequency [Hz]: in VTK a field each; in OpenSees those to compare with [default: none; the first ten]
+    /// Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes to
+    /// compare with [default: no modes in VTK, the first ten in OpenSees]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) modes_below_hz: Option<f64>,
 
@@ -26,12 +27,12 @@ pub(crate) struct ExportArgs {
     #[command(flatten)]
     pub(crate) tensions: TensionArgs,
 
-    /// Write to FILE, as a whole or not at all; - is standard output
+    /// Write to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output_file: PathBuf,
 }
 
-/// A program that files are written for.
+/// Program that files are written for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ExportFormat {
     /// Python script for OpenSeesPy

@@ -11,7 +11,7 @@ pub(crate) struct ImportArgs {
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
 
-    /// Set of cables, where a CASPR file has several [default: as the file says]
+    /// Name of the cable set if a CASPR file has several [default: from the file]
     #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
     pub(crate) cable_set: Option<String>,
 
@@ -20,38 +20,38 @@ pub(crate) struct ImportArgs {
     #[command(flatten)]
     pub(crate) platform: ImportedPlatformArgs,
 
-    /// Write the robot file to FILE, as a whole or not at all; - is standard output
+    /// Write the robot file to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output_file: PathBuf,
 }
 
-/// Values of the ropes that a source may lack. An option takes precedence over the file.
+/// Rope values that a source may lack. An option takes precedence over the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Ropes")]
 pub(crate) struct RopeArgs {
-    /// Mass per unstrained length [kg/m]; 0 is massless
+    /// Mass of the ropes per unstrained length [kg/m]; 0 for massless ropes
     #[arg(long, value_name = "KG_PER_M", value_parser = values::not_negative, allow_hyphen_values = true)]
     pub(crate) mass_kg_per_m: Option<f64>,
 
-    /// Axial stiffness EA [N]
+    /// Axial stiffness EA of the ropes [N]
     #[arg(long, value_name = "N", value_parser = values::positive, allow_hyphen_values = true,
         conflicts_with_all = ["youngs_modulus_pa", "diameter_m"])]
     pub(crate) axial_stiffness_n: Option<f64>,
 
-    /// Young's modulus of the full circular section [Pa], with the diameter
+    /// Young's modulus of the full circular section of the ropes [Pa]; needs the diameter
     #[arg(long, value_name = "PA", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) youngs_modulus_pa: Option<f64>,
 
-    /// Diameter [m]
+    /// Diameter of the ropes [m]
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) diameter_m: Option<f64>,
 }
 
-/// Values of the platform that a source may lack. An option takes precedence over the file.
+/// Platform values that a source may lack. An option takes precedence over the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Platform")]
 pub(crate) struct ImportedPlatformArgs {
-    /// Mass [kg]
+    /// Mass of the platform [kg]
     #[arg(long, value_name = "KG", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) mass_kg: Option<f64>,
 
@@ -63,7 +63,7 @@ pub(crate) struct ImportedPlatformArgs {
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) center_of_mass_m: Option<Vec3>,
 
-    /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] of the state, R = Rz(yaw) Ry(pitch) Rx(roll) [default: as the file says]
+    /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll) [default: from the file]
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) pose: Option<PoseNumbers>,
 }

@@ -1,4 +1,4 @@
-//! Arguments become requests: names and values as the command line has them, and nothing is decided here.
+//! Conversion of arguments to requests. Names and values are copied; no decision is made here.
 
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
@@ -8,13 +8,13 @@ use super::{
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
 use funicular_study::request::{
-    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Points, Pose, RobotText, State,
-    Tensions, Terms,
+    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
+    State, Tensions, Terms,
 };
 use std::path::Path;
 
 impl ChangeArgs {
-    /// The text of a robot file with the changes of `--set`.
+    /// Text of a robot file with the changes of `--set`.
     pub(crate) fn robot(&self, name: String, text: String) -> RobotText {
         RobotText { name, text, set: self.set.clone() }
     }
@@ -49,7 +49,7 @@ impl TensionArgs {
     pub(crate) fn request(&self) -> Tensions {
         Tensions {
             tension_rule: self.tension_rule.map(Rule::from),
-            target_tension_n: self.target_tension_n.as_ref().map(|wanted| wanted.0.clone()),
+            target_tension_n: self.target_tension_n.as_ref().map(|target| target.0.clone()),
             min_tension_n: self.min_tension_n,
             max_tension_n: self.max_tension_n,
         }
@@ -80,8 +80,8 @@ impl TermArgs {
 }
 
 impl PointArgs {
-    fn request(&self) -> Points {
-        Points {
+    fn request(&self) -> ResponsePoints {
+        ResponsePoints {
             input_point_m: self.input_point_m.map(Into::into),
             output_point_m: self.output_point_m.map(Into::into),
         }
@@ -202,7 +202,7 @@ impl EachArgs {
 }
 
 impl MapArgs {
-    /// `poses` are those of the file of `--poses`.
+    /// Request of a map; `poses` are the poses in the file of `--poses`.
     pub(crate) fn request(&self, robot: RobotText, poses: Option<Vec<[f64; 6]>>) -> request::MapRequest {
         let grid = self.grid.iter().map(|(axis, steps)| Axis::new(axis.clone(), steps)).collect();
         request::MapRequest { robot, grid, poses, point: self.point.request() }

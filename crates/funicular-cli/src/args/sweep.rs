@@ -11,12 +11,12 @@ pub(crate) struct MapArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// An axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], from A to B in N values, or the values (repeatable);
-    /// axes that are not given are those of the robot's state, or of --pose
+    /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+    /// (repeatable); an axis that is not given keeps the value of the robot's state or of --pose
     #[arg(long, value_name = "AXIS=A:B:N|V,V,…", value_parser = values::grid_axis, required_unless_present = "poses")]
     pub(crate) grid: Vec<(String, Steps)>,
 
-    /// Poses of a CSV file instead of a grid: columns x_m, y_m, z_m and, if they turn, roll_deg, pitch_deg, yaw_deg
+    /// List of poses in a CSV file instead of a grid: columns x_m, y_m, z_m and optionally roll_deg, pitch_deg, yaw_deg
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["grid", "pose", "lengths_m"])]
     pub(crate) poses: Option<PathBuf>,
 
@@ -31,7 +31,8 @@ pub(crate) struct SweepArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// A number of the robot file, from A to B in N values, or the values (repeatable: all combinations, the first fastest)
+    /// Number of the robot file that varies, with N values from A to B, or with listed values (repeatable: all
+    /// combinations, the first fastest)
     #[arg(long, value_name = "PATH=A:B:N|V,V,…", value_parser = values::variation, required = true)]
     pub(crate) vary: Vec<ValueAxis>,
 
@@ -41,7 +42,7 @@ pub(crate) struct SweepArgs {
     pub(crate) run: RunArgs,
 }
 
-/// How every point is computed.
+/// Options of the evaluation of every point.
 #[derive(Debug, Args)]
 pub(crate) struct EachArgs {
     #[command(flatten)]
@@ -54,14 +55,14 @@ pub(crate) struct EachArgs {
     pub(crate) model: ModelArgs,
 }
 
-/// What is asked of every point.
+/// Quantities to compute at every point.
 #[derive(Debug, Args)]
 pub(crate) struct WhatArgs {
-    // Help: the names of all quantities.
+    // The help lists the names of all quantities.
     #[arg(long, help = quantities(), value_name = "Q,Q,…", value_parser = values::quantity, value_delimiter = ',', default_value = "tension-min,tension-max")]
     pub(crate) quantity: Vec<Quantity>,
 
-    /// Where the search for natural frequencies ends [Hz]
+    /// Upper limit of the search for natural frequencies [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular_study::sweep::MAX_HZ)]
     pub(crate) up_to_hz: f64,
 }
@@ -69,56 +70,58 @@ pub(crate) struct WhatArgs {
 /// Help of the option for quantities.
 fn quantities() -> String {
     let names: Vec<&str> = Quantity::names().collect();
-    format!("What to compute, docs/sweeps.md has the list: {}", names.join(", "))
+    format!("Quantities to compute at every point, described in docs/sweeps.md: {}", names.join(", "))
 }
 
-/// How rows are computed and where they go.
+/// Computation of the rows, and their destination.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct RunArgs {
-    /// What goes to standard output: a summary as text or json, or, without -o, all rows as csv [default: text]
+    /// Format of standard output: a summary as text or json, or, without -o, all rows as csv [default: text]
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 
-    /// Write the rows to FILE.parquet, .csv or .vti (ParaView), as a whole; until then they are in FILE.partial
+    /// Write the rows to FILE.parquet, .csv or .vti (ParaView) when all are computed; until then they are kept in
+    /// FILE.partial
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output_file: Option<PathBuf>,
 
-    /// Go on with what FILE.partial holds of the same sweep; begin if there is nothing
+    /// Continue with the rows in FILE.partial of the same sweep; start if there are none
     #[arg(long, requires = "output_file", conflicts_with = "discard")]
     pub(crate) resume: bool,
 
-    /// Forget what FILE.partial holds
+    /// Discard the rows in FILE.partial and start again
     #[arg(long, requires = "output_file")]
     pub(crate) discard: bool,
 
-    /// The k-th of n parts, each with a FILE.parquet of its own, for `funicular merge`
+    /// Compute only part K of N parts, each with its own FILE.parquet, for `funicular merge`
     #[arg(long, value_name = "K/N", requires = "output_file")]
     pub(crate) part: Option<Part>,
 
-    /// Threads [default: one a core]; the rows do not depend on it
+    /// Number of threads [default: one per core]; the rows do not depend on it
     #[arg(long, value_name = "N", value_parser = values::threads, allow_hyphen_values = true)]
     pub(crate) threads: Option<NonZeroUsize>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// The parts, in any order
+    /// Parts, in any order
     #[arg(value_name = "PART.parquet", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
-    /// Write all rows to FILE.parquet, .csv or .vti, as a whole or not at all
+    /// Write all rows to FILE.parquet, .csv or .vti, completely or not at all
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output_file: PathBuf,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct PlotArgs {
-    /// What `map` or `sweep` has written
+    /// File that `map` or `sweep` has written
     #[arg(value_name = "FILE.parquet")]
     pub(crate) file: PathBuf,
 
-    /// Write the page to FILE, as a whole or not at all; - is standard output [default: as FILE.parquet, ending in .html]
+    /// Write the page to FILE, completely or not at all; - is standard output [default: FILE.parquet with the ending
+    /// .html]
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output_file: Option<PathBuf>,
 }

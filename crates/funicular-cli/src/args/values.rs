@@ -1,4 +1,4 @@
-//! Values on the command line: text in, checked numbers out, each error with the value and what it must be.
+//! Values on the command line, read from text and checked. Each error contains the value and its permitted range.
 
 use funicular::math::Vec3;
 use funicular_files::threads::{self, THREADS};
@@ -8,40 +8,40 @@ use funicular_study::sweep::{self, Steps, ValueAxis};
 use funicular_study::{set_values, values};
 use std::num::NonZeroUsize;
 
-/// A finite number.
+/// Reads a finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
     values::number(text).map_err(|error| error.to_string())
 }
 
-/// A positive number.
+/// Reads a positive number.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     values::positive(finite(text)?)
 }
 
-/// A number that is not negative.
+/// Reads a number that is not negative.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     values::not_negative(finite(text)?)
 }
 
-/// Numbers separated by commas.
+/// Reads numbers separated by commas.
 fn list(text: &str) -> Result<Vec<f64>, String> {
     text.split(',').map(finite).collect()
 }
 
-/// Unstrained lengths [m], one a cable.
+/// Unstrained lengths [m], one per cable.
 #[derive(Debug, Clone)]
 pub(crate) struct Lengths(pub(crate) Vec<f64>);
 
-/// `6.863,6.565,…`
+/// Reads `6.863,6.565,…`.
 pub(crate) fn lengths(text: &str) -> Result<Lengths, String> {
     Ok(Lengths(text.split(',').map(positive).collect::<Result<_, _>>()?))
 }
 
-/// Tensions [N], one or one a cable.
+/// Tensions [N], one for all cables or one per cable.
 #[derive(Debug, Clone)]
 pub(crate) struct Tensions(pub(crate) Vec<f64>);
 
-/// `500` or `500,450,…`
+/// Reads `500` or `500,450,…`.
 pub(crate) fn tensions(text: &str) -> Result<Tensions, String> {
     Ok(Tensions(text.split(',').map(not_negative).collect::<Result<_, _>>()?))
 }
@@ -50,7 +50,7 @@ pub(crate) fn tensions(text: &str) -> Result<Tensions, String> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PoseNumbers(pub(crate) [f64; 6]);
 
-/// `x,y,z` or `x,y,z,roll,pitch,yaw`
+/// Reads `x,y,z` or `x,y,z,roll,pitch,yaw`.
 pub(crate) fn pose(text: &str) -> Result<PoseNumbers, String> {
     match list(text)?[..] {
         [x, y, z] => Ok(PoseNumbers([x, y, z, 0.0, 0.0, 0.0])),
@@ -63,7 +63,7 @@ pub(crate) fn pose(text: &str) -> Result<PoseNumbers, String> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inertia(pub(crate) [f64; 6]);
 
-/// `xx,yy,zz` or `xx,yy,zz,xy,xz,yz`, the entries of the tensor
+/// Reads `xx,yy,zz` or `xx,yy,zz,xy,xz,yz`, the entries of the tensor.
 pub(crate) fn inertia(text: &str) -> Result<Inertia, String> {
     match list(text)?[..] {
         [xx, yy, zz] => Ok(Inertia([xx, yy, zz, 0.0, 0.0, 0.0])),
@@ -72,7 +72,7 @@ pub(crate) fn inertia(text: &str) -> Result<Inertia, String> {
     }
 }
 
-/// `x,y,z`
+/// Reads `x,y,z`.
 pub(crate) fn point(text: &str) -> Result<Vec3, String> {
     match list(text)?[..] {
         [x, y, z] => Ok(Vec3::new(x, y, z)),
@@ -80,15 +80,15 @@ pub(crate) fn point(text: &str) -> Result<Vec3, String> {
     }
 }
 
-/// Points along a cable, both ends included.
+/// Reads a number of points along a cable, both ends included.
 pub(crate) fn stations(text: &str) -> Result<usize, String> {
     match text.trim().parse::<usize>() {
         Ok(count @ 2..=MAX_STATIONS) => Ok(count),
-        _ => Err(format!("`{text}` is not a number of points: a whole number from 2 to {MAX_STATIONS}")),
+        _ => Err(format!("`{text}` is not a number of points: give a whole number from 2 to {MAX_STATIONS}")),
     }
 }
 
-/// Masses from one to another in equal steps [kg].
+/// Range of masses in equal steps [kg].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MassRange {
     pub(crate) from: f64,
@@ -96,7 +96,7 @@ pub(crate) struct MassRange {
     pub(crate) count: usize,
 }
 
-/// `from:to:count`
+/// Reads `from:to:count`.
 pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
     let parts: Vec<&str> = text.split(':').collect();
     let [from, to, count] = parts[..] else {
@@ -108,37 +108,40 @@ pub(crate) fn mass_range(text: &str) -> Result<MassRange, String> {
     }
     match count.trim().parse::<usize>() {
         Ok(count @ 2..=MAX_MASSES) => Ok(MassRange { from, to, count }),
-        _ => Err(format!("`{count}` is not a count of masses: a whole number from 2 to {MAX_MASSES}")),
+        _ => Err(format!("`{count}` is not a number of masses: give a whole number from 2 to {MAX_MASSES}")),
     }
 }
 
-/// Most values that a list of them may have; a range may have more.
+/// Maximum number of values in a list. A range may have more.
 const MAX_LISTED: usize = 10_000;
 
-/// `A:B:N`, or values separated by commas.
+/// Reads `A:B:N`, or values separated by commas.
 fn steps(text: &str) -> Result<Steps, String> {
     let parts: Vec<&str> = text.split(':').collect();
     match parts[..] {
         [_] => {
             let values = list(text)?;
             if values.len() > MAX_LISTED {
-                return Err(format!("{} values are more than the {MAX_LISTED} of a list", values.len()));
+                return Err(format!(
+                    "the list has {} values, at most {MAX_LISTED} are possible: give a range",
+                    values.len()
+                ));
             }
             Ok(Steps::List(values))
         }
         [from, to, count] => {
             let (from, to) = (finite(from)?, finite(to)?);
-            let most = sweep::MAX_POINTS;
+            let max = sweep::MAX_POINTS;
             match count.trim().parse::<usize>() {
-                Ok(count) if count <= most => Steps::range(from, to, count),
-                _ => Err(format!("`{count}` is not a number of values: a whole number from 2 to {most}")),
+                Ok(count) if count <= max => Steps::range(from, to, count),
+                _ => Err(format!("`{count}` is not a number of values: give a whole number from 2 to {max}")),
             }
         }
         _ => Err("not a range: write from:to:count, as in -4:4:81, or values, as in 0.5,1,2".to_owned()),
     }
 }
 
-/// `x=-4:4:81`
+/// Reads `x=-4:4:81`.
 pub(crate) fn grid_axis(text: &str) -> Result<(String, Steps), String> {
     let (axis, values) = text.split_once('=').ok_or("it has no `=`: write AXIS=from:to:count, as in x=-4:4:81")?;
     let axis = axis.trim();
@@ -148,23 +151,23 @@ pub(crate) fn grid_axis(text: &str) -> Result<(String, Steps), String> {
     Ok((axis.to_owned(), steps(values)?))
 }
 
-/// `platform.mass_kg=10:90:81`
+/// Reads `platform.mass_kg=10:90:81`.
 pub(crate) fn variation(text: &str) -> Result<ValueAxis, String> {
     let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
     let (path, values) = set_values::split(text).ok_or(form)?;
     ValueAxis::new(path, steps(values)?)
 }
 
-/// The name of a quantity of a sweep.
+/// Reads the name of a quantity of a sweep.
 pub(crate) fn quantity(text: &str) -> Result<sweep::Quantity, String> {
     text.parse().map_err(|error: sweep::UnknownQuantity| error.to_string())
 }
 
-/// A number of threads.
+/// Reads a number of threads.
 pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     let (first, last) = (THREADS.start(), THREADS.end());
     (text.trim().parse().ok().and_then(threads::checked))
-        .ok_or_else(|| format!("`{text}` is not a number of threads: a whole number from {first} to {last}"))
+        .ok_or_else(|| format!("`{text}` is not a number of threads: give a whole number from {first} to {last}"))
 }
 
 #[cfg(test)]

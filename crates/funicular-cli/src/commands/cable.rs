@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant};
-use funicular_study::analyses::cable::{CableResult, Curve, Local};
+use funicular_study::analyses::cable::{CableResult, ComplexValues, Local};
 
 fn line(label: &str, text: &str) -> String {
     format!("  {label:<24} {text}\n")
@@ -45,7 +45,7 @@ impl Printed for CableResult {
         let mut places: Vec<usize> = (0..=ROWS).map(|row| row * last / ROWS).collect();
         places.dedup();
         for i in places {
-            let size = |curve: &Curve| significant(curve.real[i].hypot(curve.imag[i]), 5);
+            let size = |curve: &ComplexValues| significant(curve.real[i].hypot(curve.imag[i]), 5);
             table.row(vec![significant(self.frequency_hz[i], 5), size(k_a), size(k_b), size(k_c), size(k_o)]);
         }
         format!(

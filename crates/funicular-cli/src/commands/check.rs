@@ -57,7 +57,7 @@ impl Printed for Checked {
             say(format!("  wind        {}", wind.text()));
         }
         if let Some(area) = platform.drag_area_m2 {
-            say(format!("  drag area   {} m² (drag coefficient times area), in the centre of mass", short(area, 4)));
+            say(format!("  drag area   {} m² (drag coefficient times area), at the centre of mass", short(area, 4)));
         }
         let state = match &self.pose {
             Some(pose) => format!(
@@ -108,8 +108,8 @@ fn rope_table(found: &Checked) -> String {
         "mass [kg/m]",
         "damping ratio",
         "viscous damping [N s/m²]",
-        "least T [N]",
-        "greatest T [N]",
+        "min T [N]",
+        "max T [N]",
         "breaks at [N]",
         "drag width [m]",
     ];
@@ -139,7 +139,7 @@ fn rope_table(found: &Checked) -> String {
 
 fn cable_table(found: &Checked) -> String {
     let limited = found.cables.iter().any(|cable| limit_cells(&cable.limits).iter().any(|cell| cell != table::NONE));
-    let header = ["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]", "least T [N]", "greatest T [N]"];
+    let header = ["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]", "min T [N]", "max T [N]"];
     let loaded = found.cables.iter().any(|cable| cable.load_n_per_m.is_some());
     let mut columns = header[..if limited { 7 } else { 5 }].to_vec();
     columns.extend(loaded.then_some("load [N/m]"));

@@ -67,7 +67,7 @@ impl Printed for Compared {
             "correlation",
         ])?;
         for model in &self.models {
-            // Matches are in the order of the modes; a mode of a platform at rest has none.
+            // Matches are in the order of the modes. A mode with the platform at rest has no match.
             let mut matches = model.matches.iter().peekable();
             for mode in &model.modes {
                 let found = matches.next_if(|m| m.frequency_hz.to_bits() == mode.frequency_hz.to_bits());

@@ -24,7 +24,9 @@ impl Printed for Modes {
         let pair = match &self.participation {
             None => String::new(),
             Some(Participation { input, output, .. }) => {
-                format!("peak: what each mode alone adds to the response of {output} to {input} at its frequency\n")
+                format!(
+                    "peak: contribution of each mode alone to the response of {output} to {input} at its frequency\n"
+                )
             }
         };
         format!(
@@ -90,7 +92,7 @@ fn certificate(found: &Modes) -> String {
     }
 }
 
-/// The cables that move most, with their shares of the energy.
+/// Cables with the most energy, with their fractions of it.
 fn strongest_cables(found: &Modes, mode: &ModeRow) -> String {
     let names = found.cable_names.iter().map(String::as_str);
     let shown: Vec<String> = strongest(names, &mode.cable_energy_fractions)

@@ -1,4 +1,4 @@
-//! Pages: `report`, `paper`, `plot`.
+//! HTML pages: `report`, `paper`, `plot`.
 
 use crate::args::PlotArgs;
 use crate::errors;
@@ -12,9 +12,9 @@ use funicular_study::pages;
 use funicular_study::wording::{Words, worded};
 use std::path::Path;
 
-/// The page of one robot.
+/// Writes the page of one robot.
 pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path) -> Result<()> {
-    let Request::Report(of) = request else { bail!("this is no request of `report`") };
+    let Request::Report(of) = request else { bail!("this is not a request of `report`") };
     let file = of.robot.read()?;
     let target = Target::open(Some(output), Content::PAGE, &mut robot_file::guard(robot_path))?;
     let waiting = Waiting::for_("the robot's figures and tables");
@@ -25,7 +25,7 @@ pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path
     Ok(())
 }
 
-/// The page of the starting paper.
+/// Writes the page about Yuan et al. 2014.
 pub(crate) fn paper(output: &Path) -> Result<()> {
     let target = Target::open(Some(output), Content::PAGE, &mut Guard::default())?;
     let waiting = Waiting::for_("the paper's figures and tables");
@@ -34,14 +34,14 @@ pub(crate) fn paper(output: &Path) -> Result<()> {
     write(&target, output, &page)
 }
 
-/// The page of a map or sweep.
+/// Writes the page of a map or sweep.
 pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     let file = SweepFile::open(&args.file)?;
     let to = args.output_file.clone().unwrap_or_else(|| args.file.with_extension("html"));
     let mut guard = Guard::default();
     guard.reads("the rows in", &args.file);
     let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
-    let waiting = Waiting::for_("the pictures");
+    let waiting = Waiting::for_("the figures");
     let page = pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut Shown::default())?;
     drop(waiting);
     write(&target, &to, &page.html)?;
@@ -49,7 +49,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     Ok(())
 }
 
-/// Writes a page and says so, where it is a file.
+/// Writes a page, and a note if it is a file.
 fn write(target: &Target, path: &Path, page: &str) -> Result<()> {
     let page = worded(page, Words::Program);
     target.write(page.as_bytes())?;

@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant};
-use funicular_study::analyses::pose_error::{Difference, PoseErrors, ThresholdRow};
+use funicular_study::analyses::pose_error::{PoseDifferenceRow, PoseErrors, ThresholdRow};
 
 impl Printed for PoseErrors {
     fn text(&self) -> String {
@@ -38,7 +38,7 @@ impl Printed for PoseErrors {
         for point in &self.points {
             let pairs = [point.spring_from_ideal, point.catenary_from_ideal, point.spring_from_catenary];
             let cells = pairs.map(|pair| {
-                let part = |of: fn(&Difference) -> f64| pair.as_ref().map(of);
+                let part = |of: fn(&PoseDifferenceRow) -> f64| pair.as_ref().map(of);
                 [
                     part(|d| d.translation_m[0]),
                     part(|d| d.translation_m[1]),
@@ -55,9 +55,10 @@ impl Printed for PoseErrors {
 
 fn threshold_line(found: &PoseErrors) -> String {
     match &found.threshold {
-        None => "The mass from which on springs are good enough: --tolerance-mm.".to_owned(),
+        None => "Give --tolerance-mm for the minimum mass at which springs are good enough.".to_owned(),
         Some(ThresholdRow { tolerance_mm, from_mass_kg: Some(mass), .. }) => format!(
-            "From {} kg on the spring pose is within {tolerance_mm} mm of the catenary pose; below it, sag matters.",
+            "From {} kg on, the spring pose is within {tolerance_mm} mm of the catenary pose; below this mass, sag \
+             matters.",
             significant(*mass, 5)
         ),
         Some(ThresholdRow { tolerance_mm, within: "everywhere", .. }) => {

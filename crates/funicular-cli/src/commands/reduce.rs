@@ -16,13 +16,13 @@ use zip::write::SimpleFileOptions;
 
 impl Printed for Reduced {
     fn text(&self) -> String {
-        let mut errors = Table::new(&["", "largest relative error"]);
+        let mut errors = Table::new(&["", "max relative error"]);
         let mut row = |what: &str, error: Option<f64>| {
             errors.row(vec![what.to_owned(), error.map_or("no response: undamped".to_owned(), |e| format!("{e:.1e}"))]);
         };
         row("natural frequencies", Some(self.frequency_error));
-        row("responses, by modes left out", self.truncation_error);
-        row("responses, by viscous damping", self.damping_error);
+        row("responses, due to omitted modes", self.truncation_error);
+        row("responses, due to viscous damping", self.damping_error);
         let names = |channels: &[ChannelRow]| {
             channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
         };
@@ -32,11 +32,12 @@ impl Printed for Reduced {
             0 => String::new(),
             n => format!(" and {} of cables up to {} Hz", counted(n, "clamped mode"), decimals(highest, 2)),
         };
-        let written = match &self.model_file {
-            None => "Nothing is written: give --model model.npz, or --model FOLDER for CSV files.".to_owned(),
+        let written = match &self.matrices_file {
+            None => "The matrices are not written: give --matrices model.npz, or --matrices FOLDER for CSV files."
+                .to_owned(),
             Some(path) => format!(
-                "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state space; \
-                 description.json"
+                "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state \
+                 space; description.json"
             ),
         };
         format!(
@@ -62,9 +63,9 @@ impl Printed for Reduced {
     }
 }
 
-/// The matrices in one file.
+/// Matrices in one file.
 const MATRICES: Content =
-    Content { name: "the matrices", option: "--model", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
+    Content { name: "the matrices", option: "--matrices", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
 
 /// Destination of the matrices.
 pub(crate) enum ModelFile {
@@ -75,7 +76,7 @@ pub(crate) enum ModelFile {
 }
 
 impl ModelFile {
-    /// Checks before the work that it can be written.
+    /// Checks before the work that the destination can be written.
     pub(crate) fn open(path: &Path, guard: &mut Guard) -> Result<Self> {
         if Kind::of(path) == Some(Kind::Npz) {
             return Ok(Self::Npz(Target::open(Some(path), MATRICES, guard)?));
@@ -84,11 +85,12 @@ impl ModelFile {
         guard.writes_folder(MATRICES.name, MATRICES.option, path)?;
         if path.extension().is_some() && !path.is_dir() {
             bail!(
-                "--model {shown} is neither an .npz file nor a folder: write model.npz, or a folder without an ending"
+                "--matrices {shown} is neither an .npz file nor a folder: write model.npz, or a folder without an \
+                 ending"
             );
         }
         match path.read_dir().map(|mut entries| entries.next().is_some()) {
-            Ok(true) => bail!("the folder {shown} is not empty: choose another for --model, or empty it"),
+            Ok(true) => bail!("the folder {shown} is not empty: choose another one for --matrices, or empty it"),
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
                 Err(error).with_context(|| format!("cannot write to {shown}"))
             }
@@ -117,7 +119,7 @@ impl ModelFile {
     }
 }
 
-/// The matrices by name: those of the second-order model, then those of the state space.
+/// Matrices by name: first those of the second-order model, then those of the state space.
 fn matrices<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str, &'a DMat); 9] {
     [
         ("M", &model.mass),
@@ -132,10 +134,10 @@ fn matrices<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str
     ]
 }
 
-/// A NumPy archive, with the description as text beside the arrays.
+/// Writes a NumPy archive, with the description as text beside the arrays.
 fn npz(matrices: &[(&str, &DMat)], description: &[u8]) -> Result<Vec<u8>> {
     let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
-    // A fixed time stamp (the earliest of the format), so that equal models give equal files.
+    // The time stamp is fixed to the earliest one of the format, so that equal models give equal files.
     let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
     for (name, matrix) in matrices {
         archive.start_file(format!("{name}.npy"), options)?;
@@ -146,9 +148,9 @@ fn npz(matrices: &[(&str, &DMat)], description: &[u8]) -> Result<Vec<u8>> {
     Ok(archive.finish()?.into_inner())
 }
 
-/// A matrix as NumPy keeps it: format 1.0, little-endian numbers, column by column (numpy.lib.format).
+/// Matrix in NumPy's file format 1.0: little-endian numbers, column by column (numpy.lib.format).
 fn npy(matrix: &DMat) -> Vec<u8> {
-    // The array begins at a multiple of this many bytes; the header ends with a new line before it.
+    // The array begins at a multiple of this number of bytes. The header ends with a new line before it.
     const ALIGNMENT: usize = 64;
     const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 
@@ -160,12 +162,12 @@ fn npy(matrix: &DMat) -> Vec<u8> {
 
     let length = u16::try_from(header.len()).expect("two numbers are far shorter than 64 KiB");
     let mut bytes = [MAGIC, &length.to_le_bytes(), header.as_bytes()].concat();
-    // nalgebra keeps its matrices column by column, too.
+    // nalgebra also stores its matrices column by column.
     bytes.extend(matrix.iter().flat_map(|value| value.to_le_bytes()));
     bytes
 }
 
-/// A folder that takes its name when it is complete.
+/// Writes a folder that gets its name when it is complete.
 fn folder(path: &Path, matrices: &[(&str, &DMat)], description: &[u8]) -> Result<()> {
     let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let made = tempfile::Builder::new().prefix(".funicular-").tempdir_in(parent)?;

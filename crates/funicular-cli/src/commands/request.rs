@@ -1,4 +1,4 @@
-//! `request`: runs a request that is written as JSON; and prints the request of any command.
+//! `request`: runs a request in JSON. Also prints the request of any command.
 
 use super::{analyse, page, write_export, write_import};
 use crate::args::{OutputArgs, RequestArgs};
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
             write_export(of, robot, &mut guard, &place())
         }
         Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
-            bail!("`funicular {}` writes files of its own: give its options", request.command())
+            bail!("`funicular {}` writes files: use the command with its options", request.command())
         }
         _ => analyse(&request, &output(), guard),
     }

@@ -36,16 +36,16 @@ impl Printed for Statics {
             cables.row(row);
         }
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
-            (Some(true), Some(least)) => format!("Stable, least stiffness {} N/m", significant(least, 4)),
+            (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
             (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
-            (Some(false), Some(least)) => format!("NOT STABLE, least stiffness {} N/m", significant(least, 4)),
+            (Some(false), Some(min)) => format!("NOT STABLE, min stiffness {} N/m", significant(min, 4)),
             _ => "Rigid cables: no stiffness".to_owned(),
         };
         let rule = self.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
         let load = self.load.as_ref().map_or_else(String::new, |load| format!(", {}", load.text()));
         let wind = self.wind.as_ref().map_or_else(String::new, |wind| format!(", wind {}", wind.text()));
         let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
-            format!("  nearest pose that the cables can hold, {} m from the one asked\n", short(distance, 4))
+            format!("  nearest pose that the cables can hold, {} m from the requested pose\n", short(distance, 4))
         });
         let others = match (&self.another_stable_equilibrium, equilibria_table(self)) {
             (_, Some(table)) => format!("\n{table}"),
@@ -53,7 +53,7 @@ impl Printed for Statics {
             (None, None) => String::new(),
         };
         let balance = if self.carries_nothing {
-            "No load and no tension: nothing to balance,".to_owned()
+            "No load and no tension: no residual,".to_owned()
         } else {
             format!("Residual {:.1e}", self.residual)
         };
@@ -156,7 +156,7 @@ fn equilibria_table(found: &Statics) -> Option<String> {
     let stable = equilibria.iter().filter(|row| row.stable).count();
     let sum = match search.expected_index_sum {
         Some(expected) if expected == search.index_sum => {
-            "; as many with an even as with an odd number of falling directions, as it must be"
+            "; equilibria with an even and with an odd number of falling directions are equally many, as they must be"
         }
         _ => "",
     };
@@ -183,7 +183,7 @@ fn other_text(other: &OtherStable) -> String {
         format!(", {} J {}", short(energy.abs(), 4), if energy < 0.0 { "lower" } else { "higher" })
     });
     format!(
-        "These lengths have another stable equilibrium, {} m away{energy} (--all lists what there is).\n",
+        "These lengths have another stable equilibrium, {} m away{energy} (--all lists all equilibria).\n",
         short(other.distance_m, 4)
     )
 }

@@ -6,7 +6,7 @@ use crate::output::Printed;
 use crate::table::{Table, counted, short, significant};
 use anyhow::Result;
 use funicular_study::analyses::Found;
-use funicular_study::sweep::{CODES, Chunk, Column, Kind, Values};
+use funicular_study::sweep::{CODES, Chunk, Column, ColumnKind, Values};
 use serde::Serialize;
 
 /// Counts and ranges of the rows seen so far.
@@ -18,7 +18,7 @@ pub(crate) struct Summary {
     command: &'static str,
     pub(crate) rows: usize,
     feasible: usize,
-    /// Names of what `min_at` and `max_at` give.
+    /// Names of the coordinates in `min_at` and `max_at`.
     coordinates: Vec<String>,
     /// Number of rows of each status that occurs, in the order of the codes.
     status: Vec<StatusCount>,
@@ -43,7 +43,7 @@ struct StatusCount {
     first_reason: String,
 }
 
-/// Least and greatest value of a column, and where they are.
+/// Minimum and maximum of a column, and their coordinates.
 #[derive(Serialize)]
 struct Range {
     column: String,
@@ -55,7 +55,7 @@ struct Range {
 
 impl Summary {
     pub(super) fn new(job: &Job, columns: &[Column]) -> Self {
-        let in_front = columns.iter().take_while(|column| column.kind == Kind::Real);
+        let in_front = columns.iter().take_while(|column| column.kind == ColumnKind::Real);
         let coordinates: Vec<String> = in_front.map(|column| column.name.clone()).collect();
         Self {
             robot: job.sweep.robot().name.clone(),
@@ -72,7 +72,7 @@ impl Summary {
         }
     }
 
-    /// Counts the rows of a chunk in.
+    /// Adds the rows of a chunk to the summary.
     pub(super) fn add(&mut self, chunk: &Chunk) {
         self.rows += chunk.rows();
         let head = self.coordinates.len();

@@ -148,7 +148,7 @@ const WRITERS: [&str; 18] = [
     "pose-error ROBOT --mass-kg 10:20:2 -o OUT",
     "cable ROBOT --name 1 --from-hz 1 --to-hz 2 --points 2 -o OUT",
     "reduce ROBOT --below-hz 1 -o OUT",
-    "reduce ROBOT --below-hz 1 --model OUT",
+    "reduce ROBOT --below-hz 1 --matrices OUT",
     "map ROBOT --grid x=0 --grid y=0 --grid z=0.5 -o OUT",
     "map ROBOT --grid x=0 --grid y=0 --grid z=0.5 --discard -o OUT",
     "map ROBOT --poses POSES -o OUT",
@@ -171,7 +171,7 @@ fn no_file_that_is_read_is_written_over_by_any_command() {
         let endings: &[&str] = if is_rows { &["", ".partial", ".writing"] } else { &[""] };
         let name = if is_rows {
             "out.parquet"
-        } else if writer.contains("--model") {
+        } else if writer.contains("--matrices") {
             "out.npz"
         } else {
             "out"
@@ -235,7 +235,7 @@ fn two_results_do_not_share_a_file_and_sources_and_parts_stay() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(says), "{arguments:?}: {}", stderr(&output));
     };
-    let reduce = ["reduce", "ROBOT", "--below-hz", "1", "--model"];
+    let reduce = ["reduce", "ROBOT", "--below-hz", "1", "--matrices"];
     let dotted = at("./m");
     refused(&[&reduce[..], &[&at("m.npz"), "-o", &at("m.npz")]].concat(), "means arrays of NumPy");
     refused(
@@ -248,7 +248,7 @@ fn two_results_do_not_share_a_file_and_sources_and_parts_stay() {
 
     // The extension of a robot file is free.
     fs::write(at("m.npz"), yuan()).unwrap();
-    refused(&["reduce", &at("m.npz"), "--below-hz", "1", "--model", &at("m.npz")], "over the robot file");
+    refused(&["reduce", &at("m.npz"), "--below-hz", "1", "--matrices", &at("m.npz")], "over the robot file");
     assert_eq!(fs::read_to_string(at("m.npz")).unwrap(), yuan());
 
     let source = fs::read_to_string(project("docs/import/tripod.txt")).unwrap();

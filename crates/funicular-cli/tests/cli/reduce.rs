@@ -9,7 +9,7 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     let arguments =
         ["reduce", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "az", "--output", "cable:3@0.5:z"];
     fn with<'a>(arguments: &[&'a str], model: &'a str) -> Vec<&'a str> {
-        [arguments, &["--model", model]].concat()
+        [arguments, &["--matrices", model]].concat()
     }
     let (npz, csv) = (place("my model.npz"), place("a folder"));
     let found = json(&with(&arguments, &npz));

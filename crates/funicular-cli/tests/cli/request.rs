@@ -67,7 +67,7 @@ fn the_request_of_a_command_gives_its_result() {
 fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
     let text = serde_json::to_string(&super::yuan()).unwrap();
     for (request, says) in [
-        (String::new(), "the request is no JSON"),
+        (String::new(), "the request is not valid JSON"),
         ("[]".to_owned(), "a request is a JSON object"),
         (r#"{"robot": {"text": ""}}"#.to_owned(), "it has no `command`"),
         (r#"{"command": "static"}"#.to_owned(), "expected one of `check`, `parameters`, `statics`"),

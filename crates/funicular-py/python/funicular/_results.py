@@ -256,7 +256,7 @@ class ReducedModel(_Columns):
         return control.StateSpace(*self.state_space(), inputs=list(self.inputs), outputs=list(self.outputs))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the matrices to a NumPy archive (.npz) with the names of the program's `--model`."""
+        """Writes the matrices to a NumPy archive (.npz) with the names of the program's `--matrices`."""
         from funicular._errors import InputError
 
         if Path(path).suffix.lower() != ".npz":

@@ -1,4 +1,4 @@
-//! `cable`: the dynamic stiffness of one cable's platform end, anchor held.
+//! `cable`: dynamic stiffness of the platform end of one cable, with the anchor fixed.
 
 use super::found;
 use super::shared::SagNumbers;
@@ -15,10 +15,10 @@ use funicular::statics::CableState;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Most clamped frequencies of one list.
+/// Maximum number of clamped frequencies in one list.
 const MAX_CLAMPED: usize = 10_000;
 
-/// Results of `cable`: the stiffness of one cable's platform end over frequency.
+/// Results of `cable`: stiffness of the platform end of one cable over frequency.
 #[derive(Serialize)]
 pub struct CableResult {
     #[serde(skip)]
@@ -31,9 +31,9 @@ pub struct CableResult {
     pub parallel_tension_n: f64,
     #[serde(flatten)]
     pub sag: SagNumbers,
-    /// Unit vectors along the chord, in plane and out of plane, world axes.
+    /// Axes of the cable.
     pub axes: Axes,
-    /// Undamped, both ends held; absent for the models without them.
+    /// Undamped natural frequencies with both ends fixed; absent for cable models without them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamped_frequencies_hz: Option<Vec<f64>>,
     pub frequency_hz: Vec<f64>,
@@ -57,60 +57,60 @@ impl Axes {
     }
 }
 
-/// Along the chord, coupling, normal in plane, out of plane [N/m].
+/// Stiffness along the chord, coupling, normal in plane and out of plane [N/m].
 #[derive(Serialize)]
 pub struct Local {
-    pub k_a: Curve,
-    pub k_b: Curve,
-    pub k_c: Curve,
-    pub k_o: Curve,
+    pub k_a: ComplexValues,
+    pub k_b: ComplexValues,
+    pub k_c: ComplexValues,
+    pub k_o: ComplexValues,
 }
 
-/// One complex number over frequency.
+/// Complex numbers over frequency.
 #[derive(Serialize)]
-pub struct Curve {
+pub struct ComplexValues {
     pub real: Vec<f64>,
     pub imag: Vec<f64>,
 }
 
-/// 3×3 in world axes at each frequency [N/m].
+/// 3×3 stiffness in world axes at each frequency [N/m].
 #[derive(Serialize)]
 pub struct World {
     pub real: Vec<[[f64; 3]; 3]>,
     pub imag: Vec<[[f64; 3]; 3]>,
 }
 
-/// The stiffness of one cable's platform end over frequency, anchor held.
+/// Computes the stiffness of the platform end of one cable over frequency, with the anchor fixed.
 ///
 /// # Errors
-/// A name that no cable has, a robot without that equilibrium, or an undamped resonance at one of the frequencies.
+/// A name that no cable has, a robot without such an equilibrium, or an undamped resonance at one of the frequencies.
 pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
     let frequency_hz = request.range.frequencies()?;
     place(&robot, &request.name)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
-    let wanted = Wanted {
+    let requested = RequestedCable {
         name: &request.name,
         frequency_hz,
         cable_model: request.cable_model,
         in_plane_only: request.in_plane_only,
     };
-    about(&at_rest, wanted)
+    about(&at_rest, requested)
 }
 
-/// One cable of a robot that is at rest already.
+/// Requested cable of a robot at equilibrium.
 #[derive(Debug)]
-pub struct Wanted<'a> {
+pub struct RequestedCable<'a> {
     /// Name of the cable.
     pub name: &'a str,
     /// Frequencies [Hz], none negative, at least one.
     pub frequency_hz: Vec<f64>,
-    /// Cable model; the default depends on the static model.
+    /// Cable model. The default depends on the static model.
     pub cable_model: Option<CableModel>,
-    /// Leave out the stiffness out of the cable's plane.
+    /// Leave out the out-of-plane stiffness of the cable.
     pub in_plane_only: bool,
 }
 
-/// Place of a cable in the robot.
+/// Index of a cable in the robot.
 fn place(robot: &Robot, name: &str) -> Result<usize> {
     let Some(i) = robot.cables.iter().position(|cable| cable.name == name) else {
         let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
@@ -119,12 +119,12 @@ fn place(robot: &Robot, name: &str) -> Result<usize> {
     Ok(i)
 }
 
-/// The stiffness of one cable of a robot that is at rest already.
+/// Computes the stiffness of one cable of a robot at equilibrium.
 ///
 /// # Errors
-/// As of [`run`].
-pub fn about(at_rest: &AtRest, wanted: Wanted<'_>) -> Result<CableResult> {
-    let Wanted { name, frequency_hz, cable_model, in_plane_only } = wanted;
+/// The errors of [`run`].
+pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableResult> {
+    let RequestedCable { name, frequency_hz, cable_model, in_plane_only } = requested;
     let i = place(&at_rest.robot, name)?;
     let (from_hz, to_hz) =
         frequency_hz.iter().fold((f64::INFINITY, 0.0_f64), |(from, to), hz| (from.min(*hz), to.max(*hz)));
@@ -135,7 +135,7 @@ pub fn about(at_rest: &AtRest, wanted: Wanted<'_>) -> Result<CableResult> {
     let sag = Sag::of(robot, i, state);
     let axes = LocalAxes::of_cable(robot, i, state);
     let values = curve(&stiffness, &axes, &frequency_hz)?;
-    let part = |of: fn(&LocalStiffness<Complex>) -> Complex| Curve {
+    let part = |of: fn(&LocalStiffness<Complex>) -> Complex| ComplexValues {
         real: values.iter().map(|k| of(k).re + 0.0).collect(),
         imag: values.iter().map(|k| of(k).im + 0.0).collect(),
     };
@@ -165,7 +165,7 @@ pub fn about(at_rest: &AtRest, wanted: Wanted<'_>) -> Result<CableResult> {
     })
 }
 
-/// The four numbers at each frequency [Hz].
+/// Stiffness in the axes of the chord at each frequency [Hz].
 fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Result<Vec<LocalStiffness<Complex>>> {
     frequency_hz
         .iter()
@@ -187,7 +187,7 @@ fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Re
         .collect()
 }
 
-/// A stiffness in the axes of its model, in the axes of the chord.
+/// Transforms a stiffness from the axes of its model to the axes of the chord.
 fn turned(k: &LocalStiffness<Complex>, from: &LocalAxes, to: &LocalAxes) -> LocalStiffness<Complex> {
     if from == to {
         return *k;
@@ -203,7 +203,7 @@ fn turned(k: &LocalStiffness<Complex>, from: &LocalAxes, to: &LocalAxes) -> Loca
     }
 }
 
-/// A symmetric stiffness in world axes, in the axes of the cable.
+/// Transforms a symmetric stiffness from world axes to the axes of the cable.
 fn in_axes(world: &Mat3, axes: &LocalAxes) -> LocalStiffness<Complex> {
     let LocalAxes { e, n, b } = axes;
     let between = |u: &funicular::math::Vec3, v: &funicular::math::Vec3| Complex::new(u.dot(&(world * v)), 0.0);
@@ -223,21 +223,22 @@ fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)] + 0.0))
 }
 
-/// Frequencies of the cable with both ends held in the range [Hz].
+/// Natural frequencies of the cable with both ends fixed, within the range [Hz].
 fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<Vec<f64>>> {
     let EndStiffness::Dynamic(form) = stiffness else { return Ok(None) };
     let limit = to_hz * TAU;
     let count = form.clamped_modes_below(limit);
     if count > MAX_CLAMPED {
         bail!(
-            "the cable has {count} clamped frequencies below {to_hz} Hz, at most {MAX_CLAMPED} are listed: lower ⟪to_hz⟫"
+            "the cable has {count} clamped frequencies below {to_hz} Hz; at most {MAX_CLAMPED} are listed: lower \
+             ⟪to_hz⟫"
         );
     }
     let all = form.clamped_frequencies_below(limit).into_iter().map(|omega| omega / TAU);
     Ok(Some(all.filter(|f| *f >= from_hz).collect()))
 }
 
-/// What the core warns of, for this cable alone.
+/// Warnings of the core for this cable alone.
 fn warnings(robot: &Robot, i: usize, state: &CableState, sag: &Sag, model: CableModel, below_hz: f64) -> Vec<String> {
     use funicular::warnings::{AXIAL_PART, DeepSag, Warning};
     let cable = robot.cables[i].name.clone();

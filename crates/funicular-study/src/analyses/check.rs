@@ -1,4 +1,4 @@
-//! `check`: what the robot file says.
+//! `check`: description of the robot in the robot file.
 
 use super::found;
 use crate::text::{short, vector};
@@ -6,7 +6,7 @@ use funicular::math::rotation;
 use funicular::robot::{Cable, Damping, Load, PlatformMotion, Robot, State, TensionLimits, Wind};
 use serde::Serialize;
 
-/// The robot as it was read.
+/// Results of `check`: the robot as it was read.
 #[derive(Serialize)]
 pub struct Checked {
     #[serde(skip)]
@@ -15,7 +15,7 @@ pub struct Checked {
     pub gravity_m_s2: [f64; 3],
     pub degrees_of_freedom: usize,
     pub platform: CheckedPlatform,
-    /// Absent where there is none.
+    /// Load on the platform; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<LoadRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -30,11 +30,11 @@ pub struct Checked {
     pub warnings: Vec<String>,
 }
 
-/// The platform of a robot file.
+/// Platform of a robot file.
 #[derive(Serialize)]
 pub struct CheckedPlatform {
     pub motion: &'static str,
-    /// Only of a planar platform.
+    /// Plane of a planar platform; absent for other platforms.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plane_normal: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,7 +46,7 @@ pub struct CheckedPlatform {
     pub drag_area_m2: Option<f64>,
 }
 
-/// A load on the platform.
+/// Load on the platform.
 #[derive(Serialize)]
 pub struct LoadRow {
     pub force_n: [f64; 3],
@@ -55,7 +55,7 @@ pub struct LoadRow {
 }
 
 impl LoadRow {
-    /// `None` where there is none.
+    /// Row for a load; `None` if there is no load.
     pub fn of(load: &Load) -> Option<Self> {
         (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
             force_n: load.force_w.into(),
@@ -64,14 +64,14 @@ impl LoadRow {
         })
     }
 
-    /// One phrase for people.
+    /// Description in one phrase.
     pub fn text(&self) -> String {
         let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
         format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
     }
 }
 
-/// The wind.
+/// Wind.
 #[derive(Serialize)]
 pub struct WindRow {
     pub velocity_m_s: [f64; 3],
@@ -79,19 +79,19 @@ pub struct WindRow {
 }
 
 impl WindRow {
-    /// `None` in still air.
+    /// Row for a wind; `None` in still air.
     pub fn of(wind: &Wind) -> Option<Self> {
         (wind.velocity_w.norm() > 0.0)
             .then(|| Self { velocity_m_s: wind.velocity_w.into(), air_density_kg_m3: wind.air_density })
     }
 
-    /// One phrase for people.
+    /// Description in one phrase.
     pub fn text(&self) -> String {
-        format!("({}) m/s, air of {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
+        format!("({}) m/s, air density {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
     }
 }
 
-/// One rope of a robot file.
+/// Rope of a robot file.
 #[derive(Serialize, PartialEq)]
 pub struct CheckedRope {
     pub name: String,
@@ -105,12 +105,12 @@ pub struct CheckedRope {
     pub limits: CheckedLimits,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub breaking_load_n: Option<f64>,
-    /// Drag coefficient times diameter.
+    /// Drag coefficient times diameter [m].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag_width_m: Option<f64>,
 }
 
-/// Limits of tension, as far as there are any.
+/// Tension limits; a limit that is not given is absent.
 #[derive(Serialize, PartialEq)]
 pub struct CheckedLimits {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -125,7 +125,7 @@ impl CheckedLimits {
     }
 }
 
-/// One cable of a robot file.
+/// Cable of a robot file.
 #[derive(Serialize)]
 pub struct CheckedCable {
     pub name: String,
@@ -134,22 +134,22 @@ pub struct CheckedCable {
     pub attachment_m: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
-    /// Its own or those of its rope.
+    /// Tension limits of the cable, or else of its rope.
     #[serde(flatten)]
     pub limits: CheckedLimits,
-    /// Besides weight and wind; absent where there is none.
+    /// Load per length besides weight and wind; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_n_per_m: Option<[f64; 3]>,
 }
 
-/// The pose of a robot file.
+/// Pose of a robot file.
 #[derive(Serialize)]
 pub struct CheckedPose {
     pub position_m: [f64; 3],
     pub roll_pitch_yaw_deg: [f64; 3],
 }
 
-/// The robot as it was read, with warnings of what is unusual.
+/// Describes the robot as it was read, with warnings about unusual values.
 pub fn run(robot: Robot) -> Checked {
     let mut materials: Vec<CheckedRope> = Vec::new();
     for cable in &robot.cables {
@@ -236,8 +236,8 @@ fn warnings(robot: &Robot) -> Vec<String> {
     let mut warnings = Vec::new();
     if cables < dof {
         warnings.push(format!(
-            "{cables} cables for {dof} degrees of freedom: from lengths the platform hangs where its energy is least; of a pose \
-             that they cannot hold, statics gives the nearest that they can"
+            "{cables} cables for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \
+             energy; if the cables cannot hold a given pose, statics finds the nearest pose that they can hold"
         ));
     }
     if let PlatformMotion::Planar(plane) = robot.platform.motion {
@@ -251,15 +251,16 @@ fn warnings(robot: &Robot) -> Vec<String> {
             .collect();
         if !beside.is_empty() {
             warnings.push(format!(
-                "cables leave the plane of the platform: {}; what they pull across it is carried by the guide, which has no \
-                 friction and does not yield here",
+                "cables leave the plane of the platform: {}; the guide carries their out-of-plane forces and is \
+                 assumed to be rigid and without friction",
                 beside.join(", ")
             ));
         }
         let across = plane.normal_w().dot(&robot.gravity_w);
         if across.abs() > 1e-9 * robot.gravity_w.norm() {
             warnings.push(format!(
-                "gravity has {} m/s² across the plane of the platform: the guide carries it, and cables sag out of the plane",
+                "gravity has {} m/s² out of the plane of the platform: the guide carries it, and cables sag out of the \
+                 plane",
                 short(across, 4)
             ));
         }

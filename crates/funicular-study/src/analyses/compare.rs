@@ -1,4 +1,4 @@
-//! `compare`: every cable model side by side.
+//! `compare`: all cable models side by side.
 
 use super::found;
 use super::modes::ModeRow;
@@ -12,7 +12,7 @@ use funicular::modes;
 use funicular::robot::Robot;
 use serde::Serialize;
 
-/// Results of `compare`: every cable model against the reference.
+/// Results of `compare`: every cable model compared with the reference.
 #[derive(Serialize)]
 pub struct Compared {
     #[serde(skip)]
@@ -29,11 +29,11 @@ pub struct Compared {
     pub warnings: Vec<String>,
 }
 
-/// One cable model: its modes, and how they match the reference.
+/// Modes of one cable model, and their matches in the reference.
 #[derive(Serialize)]
 pub struct ModelRow {
     pub cable_model: &'static str,
-    /// Why the model has no modes here.
+    /// Reason why the model has no modes here.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
     pub modes: Vec<ModeRow>,
@@ -45,7 +45,7 @@ pub struct ModelRow {
     pub first_wrong_hz: Option<f64>,
 }
 
-/// One mode beside the mode of the reference that it matches.
+/// Mode and the mode of the reference that it matches.
 #[derive(Serialize)]
 pub struct MatchRow {
     pub frequency_hz: f64,
@@ -55,30 +55,30 @@ pub struct MatchRow {
     pub correlation: f64,
 }
 
-/// The simplest model that is good enough.
+/// Recommendation: the simplest model that is good enough.
 #[derive(Serialize)]
 pub struct AdviceRow {
     pub cable_model: &'static str,
     pub text: String,
 }
 
-/// Every cable model, each against the reference.
+/// Computes the modes with every cable model and compares them with the reference.
 ///
 /// # Errors
-/// A robot without that equilibrium, or too many modes.
+/// A robot without such an equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
     about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
 }
 
-/// Cable models of a robot that is at rest already, whatever the state of the request.
+/// Compares the cable models for a robot at equilibrium. The state of the request is not used.
 ///
 /// # Errors
-/// As of [`run`].
+/// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
     let linearisation = Linearisation {
-        // For the number of modes, before any work; the models follow.
+        // The number of modes is checked before any work. Warnings of the models follow.
         cable_model: CableModel::ShallowDynamic,
         assembly: request.terms.assembly,
         in_plane_only: request.terms.in_plane_only,

@@ -1,4 +1,4 @@
-//! `frf`: one frequency response and its peaks.
+//! `frf`: frequency response and its peaks.
 
 use super::found;
 use super::shared::Models;
@@ -15,11 +15,11 @@ use funicular::robot::Robot;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// Frequencies between two looks at the clock: some 10 ms. A multiple of every number of lanes, so that the numbers do
-/// not depend on it.
+/// Number of frequencies between two progress reports: some 10 ms of work. It is a multiple of every number of SIMD
+/// lanes, so that the results do not depend on it.
 const CHUNK: usize = 16_384;
 
-/// Results of `frf`: one frequency response and its peaks.
+/// Results of `frf`: a frequency response and its peaks.
 #[derive(Serialize)]
 pub struct Frf {
     #[serde(skip)]
@@ -42,7 +42,7 @@ pub struct Frf {
     pub warnings: Vec<String>,
 }
 
-/// One peak of a response.
+/// Peak of a response.
 #[derive(Serialize)]
 pub struct PeakRow {
     pub frequency_hz: f64,
@@ -57,15 +57,15 @@ impl From<Peak> for PeakRow {
     }
 }
 
-/// One frequency response, and its peaks.
+/// Computes a frequency response and its peaks.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, a robot without that equilibrium, an undamped resonance at one of the
-/// frequencies, or work that was stopped.
+/// A request that contradicts itself or the robot, a robot without such an equilibrium, an undamped resonance at one of
+/// the frequencies, or work that was stopped.
 pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Frf> {
     let frequencies = request.range.frequencies()?;
     request::check_not_negative("prominence_db", request.prominence_db)?;
-    // Signals that mean nothing are refused before the work.
+    // Signals that the robot does not have are refused before the work.
     at_rest::signals(
         &robot,
         &request::input(&request.input)?,
@@ -95,7 +95,7 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
     })
 }
 
-/// Signals of a response and how the robot is linearised for it.
+/// Signals of a response and the linearisation of the robot.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair<'a> {
     /// Name of the input signal.
@@ -103,22 +103,22 @@ pub struct Pair<'a> {
     /// Name of the output signal.
     pub output: &'a str,
     /// Points of the platform.
-    pub points: request::Points,
+    pub points: request::ResponsePoints,
     /// Linearisation.
     pub model: request::Model,
 }
 
-/// A response at frequencies, with what it is a response of.
+/// Response at frequencies, with its signals.
 pub struct Response {
     /// Input signal.
     pub from: Input,
     /// Output signal.
     pub to: Output,
-    /// Where the input acts.
+    /// Place of the input.
     pub input_place: PlaceRow,
-    /// Where the output is measured.
+    /// Place of the output.
     pub output_place: PlaceRow,
-    /// How the robot was linearised.
+    /// Models of the linearised robot.
     pub linearisation: Linearisation,
     /// One value per frequency.
     pub values: Vec<Complex>,
@@ -126,10 +126,10 @@ pub struct Response {
     pub warnings: Vec<String>,
 }
 
-/// The response of a robot that is at rest already at frequencies [Hz], of which none is negative.
+/// Computes the response of a robot at equilibrium at frequencies [Hz], none of them negative.
 ///
 /// # Errors
-/// Signals that mean nothing on the robot, an undamped resonance at one of the frequencies, or work that was stopped.
+/// Signals that the robot does not have, an undamped resonance at one of the frequencies, or work that was stopped.
 pub fn response(at_rest: &AtRest, pair: &Pair<'_>, frequencies: &[f64], watch: &mut dyn Watch) -> Result<Response> {
     let (from, to) = (request::input(pair.input)?, request::output(pair.output)?);
     let signals = at_rest::signals(&at_rest.robot, &from, &to, &pair.points)?;
@@ -151,9 +151,9 @@ pub fn response(at_rest: &AtRest, pair: &Pair<'_>, frequencies: &[f64], watch: &
     Ok(Response { from, to, input_place, output_place, linearisation, values, warnings })
 }
 
-/// Where one end of a response is.
+/// Place of the input or output of a response.
 pub struct PlaceRow {
-    /// The point is one of the world, at rest, and not of the platform frame.
+    /// True if the point is on a cable. It is then in world axes, at equilibrium, and not in the platform frame.
     pub on_cable: bool,
     pub point_m: [f64; 3],
 }
@@ -181,7 +181,7 @@ fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Erro
     place.serialize(["output_point_m", "output_point_w_m"], to)
 }
 
-/// Unit of motion over excitation.
+/// Unit of a response: motion divided by force or moment.
 pub fn unit(input: &Input, output: &Output) -> String {
     let motion = if output.is_rotation { "rad" } else { "m" };
     let by_time = match output.quantity {

@@ -26,7 +26,7 @@ pub struct Modes {
     pub count_below: usize,
     pub certified: bool,
     pub unstable_directions: usize,
-    /// Whether every mode has its damped partner, counted; absent where damping ratios are of first order.
+    /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damped_certified: Option<bool>,
     pub cable_names: Vec<String>,
@@ -39,16 +39,16 @@ pub struct Modes {
     pub warnings: Vec<String>,
 }
 
-/// The pair whose response the modes take part in.
+/// Input and output of the response to which the modes contribute.
 #[derive(Serialize)]
 pub struct Participation {
     pub input: String,
     pub output: String,
-    /// Of `peak`.
+    /// Unit of `peak`.
     pub peak_unit: String,
 }
 
-/// Where the displacements of `cable_shapes` are.
+/// Stations of a cable, where the displacements of `cable_shapes` are given.
 #[derive(Serialize)]
 pub struct StationsRow {
     pub cable: String,
@@ -57,13 +57,13 @@ pub struct StationsRow {
     pub axes: Axes,
 }
 
-/// One mode.
+/// Mode of vibration.
 #[derive(Serialize)]
 pub struct ModeRow {
     pub frequency_hz: f64,
     pub multiplicity: usize,
     pub damping_ratio: f64,
-    /// λ = −ζω + iω√(1 − ζ²), real and imaginary part.
+    /// Eigenvalue λ = −ζω + iω√(1 − ζ²): real and imaginary part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eigenvalue_per_s: Option<[f64; 2]>,
     pub kind: &'static str,
@@ -74,10 +74,10 @@ pub struct ModeRow {
     pub residual: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residue_per_kg: Option<f64>,
-    /// Height of the mode's own peak.
+    /// Height of the peak of this mode alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<f64>,
-    /// For each cable, displacement (e, n, b) of each station, in the scale of `shape`.
+    /// Displacements (e, n, b) of the stations of every cable, in the scale of `shape`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cable_shapes: Vec<Vec<[f64; 3]>>,
 }
@@ -103,21 +103,21 @@ impl From<modes::Mode> for ModeRow {
     }
 }
 
-/// Every natural frequency below a limit.
+/// Computes every natural frequency below a limit.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, a robot without that equilibrium, or too many modes.
+/// A request that contradicts itself or the robot, a robot without such an equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
-    // Signals that mean nothing are refused before the work.
+    // Signals that the robot does not have are refused before the work.
     signals(&robot, pair(request)?.as_ref(), request)?;
     about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
 }
 
-/// Natural frequencies of a robot that is at rest already, whatever the state of the request.
+/// Computes the natural frequencies of a robot at equilibrium. The state of the request is not used.
 ///
 /// # Errors
-/// As of [`run`].
+/// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     let pair = pair(request)?;
@@ -177,17 +177,17 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
     })
 }
 
-/// Input and output of the response that the modes take part in.
+/// Input and output of the response to which the modes contribute.
 fn pair(request: &request::ModesRequest) -> Result<Option<(Input, Output)>> {
     match (&request.input, &request.output) {
         (Some(input), Some(output)) => Ok(Some((request::input(input)?, request::output(output)?))),
         (None, None) => Ok(None),
-        (Some(_), None) => bail!("⟪input⟫ is one end of a response: give ⟪output⟫, too"),
-        (None, Some(_)) => bail!("⟪output⟫ is one end of a response: give ⟪input⟫, too"),
+        (Some(_), None) => bail!("⟪input⟫ is given without ⟪output⟫: a response needs both"),
+        (None, Some(_)) => bail!("⟪output⟫ is given without ⟪input⟫: a response needs both"),
     }
 }
 
-/// Where the response begins and ends on the platform.
+/// Points of the response on the platform.
 fn signals(
     robot: &Robot,
     pair: Option<&(Input, Output)>,
@@ -196,7 +196,7 @@ fn signals(
     pair.map(|(input, output)| at_rest::signals(robot, input, output, &request.points)).transpose()
 }
 
-/// Equal steps along every cable.
+/// Stations at equal steps along every cable.
 fn stations(at_rest: &AtRest, dynamics: &Dynamics, count: usize) -> Result<Vec<CableStations>> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     request::check_stations(count)?;
@@ -216,10 +216,10 @@ impl StationsRow {
     }
 }
 
-/// The first few cables that matter in a mode, by name, with their shares of its energy.
+/// Names of the few cables with the most energy in a mode, with their fractions of the energy.
 pub fn strongest<'a>(names: impl Iterator<Item = &'a str>, shares: &[f64]) -> Vec<(&'a str, f64)> {
     const SHOWN: usize = 3;
-    // A share that rounds to less than this tells nothing.
+    // A smaller fraction is rounded to zero in the table.
     const MIN_SHARE: f64 = 0.05;
     let mut all: Vec<(&str, f64)> = names.zip(shares.iter().copied()).collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -1,4 +1,4 @@
-//! `parameters`: every number of a robot file.
+//! `parameters`: all numbers of a robot file.
 
 use super::found;
 use crate::request::RobotText;
@@ -6,33 +6,33 @@ use anyhow::{Result, anyhow};
 use funicular::robot::parameters::{Parameter, Parameters};
 use serde::Serialize;
 
-/// The numbers of a robot.
+/// Results of `parameters`: the numbers of a robot.
 #[derive(Serialize)]
 pub struct ParameterList {
     #[serde(skip)]
     pub robot: String,
-    /// In the order of the file's description: robot, platform, ropes, cables, load, wind, pose.
+    /// Numbers in the order of the file's documentation: robot, platform, ropes, cables, load, wind, pose.
     pub parameters: Vec<ParameterRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
-/// One number of a robot.
+/// Number of a robot.
 #[derive(Serialize)]
 pub struct ParameterRow {
-    /// Path, as `set` and `vary` take it.
+    /// Path for `set` and `vary`.
     pub path: String,
     pub value: f64,
-    /// Unit, `1` for a ratio.
+    /// Unit; `1` for a ratio.
     pub unit: &'static str,
-    /// Numbers that it may be, in words.
+    /// Permitted range in words.
     pub range: String,
-    /// The smallest of them.
+    /// Minimum of the range.
     pub minimum: f64,
-    /// The largest of them, or the limit below which they are.
+    /// Maximum of the range, or the limit below which values are permitted.
     pub maximum: f64,
     pub meaning: &'static str,
-    /// The file gives it; else the value is the default.
+    /// True if the file gives the number; otherwise the value is the default.
     pub given: bool,
 }
 
@@ -47,7 +47,7 @@ impl ParameterRow {
 
 found!(ParameterList, "parameters");
 
-/// The numbers of a robot file, with its changes.
+/// Lists the numbers of a robot file after its changes.
 ///
 /// # Errors
 /// A change of a value that the file does not have, or a file that the reader refuses.

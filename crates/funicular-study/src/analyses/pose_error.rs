@@ -1,4 +1,4 @@
-//! `pose-error`: how far simpler static models are off, over platform mass.
+//! `pose-error`: pose errors of simpler static models over platform mass.
 
 use super::found;
 use crate::Watch;
@@ -16,34 +16,34 @@ use serde::Serialize;
 pub struct PoseErrors {
     #[serde(skip)]
     pub robot: String,
-    pub points: Vec<PointRow>,
+    pub points: Vec<PoseErrorRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<ThresholdRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
-/// Differences are absent where one of the two models has no equilibrium.
+/// Pose differences at one mass. A difference is absent if one of the two models has no equilibrium.
 #[derive(Serialize)]
-pub struct PointRow {
+pub struct PoseErrorRow {
     pub mass_kg: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spring_from_ideal: Option<Difference>,
+    pub spring_from_ideal: Option<PoseDifferenceRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub catenary_from_ideal: Option<Difference>,
+    pub catenary_from_ideal: Option<PoseDifferenceRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spring_from_catenary: Option<Difference>,
+    pub spring_from_catenary: Option<PoseDifferenceRow>,
 }
 
-/// Difference of two poses.
+/// PoseDifferenceRow of two poses.
 #[derive(Serialize, Clone, Copy)]
-pub struct Difference {
+pub struct PoseDifferenceRow {
     pub translation_m: [f64; 3],
     pub distance_m: f64,
     pub angle_deg: f64,
 }
 
-impl From<PoseDifference> for Difference {
+impl From<PoseDifference> for PoseDifferenceRow {
     fn from(difference: PoseDifference) -> Self {
         Self {
             translation_m: difference.translation,
@@ -53,7 +53,7 @@ impl From<PoseDifference> for Difference {
     }
 }
 
-/// Mass from which on springs are good enough.
+/// Minimum mass at which springs are good enough.
 #[derive(Serialize)]
 pub struct ThresholdRow {
     pub tolerance_mm: f64,
@@ -63,22 +63,22 @@ pub struct ThresholdRow {
     pub from_mass_kg: Option<f64>,
 }
 
-/// Poses of spring and catenary cables against ideal ones over platform mass.
+/// Computes the distances between the poses of ideal, spring and catenary cables over platform mass.
 ///
 /// # Errors
-/// A range that does not ascend, a robot without lengths, no mass at which two models have an equilibrium, or work that was
-/// stopped.
+/// A range that does not ascend, a robot without lengths, no mass at which two models have an equilibrium, or work that
+/// was stopped.
 pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn Watch) -> Result<PoseErrors> {
     let lengths = match (&request.lengths_m, &robot.state) {
         (Some(lengths), _) | (None, State::Lengths(lengths)) => lengths,
         (None, State::Pose(_) | State::Unknown) => bail!(
-            "the robot file gives no unstrained lengths, which fix the comparison: give ⟪lengths_m⟫ (`funicular statics` \
-             prints the lengths of a pose)"
+            "the robot file has no unstrained lengths, which the comparison needs: give ⟪lengths_m⟫ (`funicular \
+             statics` prints the lengths of a pose)"
         ),
     };
     let masses = masses(request)?;
 
-    // Lengths that do not fit the robot are wrong at every mass: said once, as bad input.
+    // Lengths that do not fit the robot are wrong at every mass. They are reported once, as bad input.
     let first = PoseErrorPoint::at_mass(robot, lengths, masses[0]);
     if let Err(
         error @ (funicular::statics::StaticsError::LengthCount { .. }
@@ -115,11 +115,11 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
         warnings: warnings(&points),
         points: points
             .iter()
-            .map(|point| PointRow {
+            .map(|point| PoseErrorRow {
                 mass_kg: point.mass,
-                spring_from_ideal: point.spring_from_ideal().map(Difference::from),
-                catenary_from_ideal: point.catenary_from_ideal().map(Difference::from),
-                spring_from_catenary: point.spring_from_catenary().map(Difference::from),
+                spring_from_ideal: point.spring_from_ideal().map(PoseDifferenceRow::from),
+                catenary_from_ideal: point.catenary_from_ideal().map(PoseDifferenceRow::from),
+                spring_from_catenary: point.spring_from_catenary().map(PoseDifferenceRow::from),
             })
             .collect(),
         threshold,
@@ -129,7 +129,7 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
 /// Maximum number of masses of a range.
 pub const MAX_MASSES: usize = 100_000;
 
-/// The masses of the request [kg], ascending; the first and the last are exact.
+/// Masses of the request [kg], ascending. The first and the last are exact.
 fn masses(request: &request::PoseErrorRequest) -> Result<Vec<f64>> {
     let (from, to, count) = request.mass_kg;
     for mass in [from, to] {
@@ -139,19 +139,19 @@ fn masses(request: &request::PoseErrorRequest) -> Result<Vec<f64>> {
         bail!("⟪mass_kg⟫: the range ends at {to}, it must end above its start {from}");
     }
     if !(2..=MAX_MASSES).contains(&count) {
-        bail!("⟪mass_kg⟫: `{count}` is not a count of masses: a whole number from 2 to {MAX_MASSES}");
+        bail!("⟪mass_kg⟫: {count} masses are not possible: give a whole number from 2 to {MAX_MASSES}");
     }
     let at = |i: usize| if i + 1 == count { to } else { from + (to - from) * i as f64 / (count - 1) as f64 };
     let masses: Vec<f64> = (0..count).map(at).collect();
     if masses.windows(2).any(|pair| pair[1] <= pair[0]) {
         bail!(
-            "⟪mass_kg⟫: {count} masses are more than the numbers between {from} and {to} can tell apart; ask for fewer"
+            "⟪mass_kg⟫: between {from} and {to} there are fewer than {count} different numbers: request fewer masses"
         );
     }
     Ok(masses)
 }
 
-/// Each model that has no equilibrium somewhere, with the first reason.
+/// Warnings about models without an equilibrium at some masses, with the first reason.
 fn warnings(points: &[PoseErrorPoint]) -> Vec<String> {
     let mut warnings = Vec::new();
     for (name, of) in [

@@ -1,4 +1,4 @@
-//! `reduce`: a small second-order model of the robot for control design.
+//! `reduce`: small second-order model of the robot for control design.
 
 use super::found;
 use super::shared::Models;
@@ -14,7 +14,7 @@ use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
 
-/// Most natural frequencies that one model is to have: it has about twice as many coordinates.
+/// Maximum number of natural frequencies of one model. It has about twice as many coordinates.
 const MAX_MODES: usize = 400;
 
 /// Results of `reduce`: a second-order model and its errors.
@@ -35,24 +35,24 @@ pub struct Reduced {
     pub inputs: Vec<ChannelRow>,
     pub outputs: Vec<ChannelRow>,
     pub coordinates: Vec<CoordinateRow>,
-    /// Where a front end has written the matrices.
+    /// File or folder to which a front end has written the matrices.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub model_file: Option<String>,
-    /// The matrices.
+    pub matrices_file: Option<String>,
+    /// Model with its matrices.
     #[serde(skip)]
     pub model: SecondOrder,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
-/// One input or output of the model.
+/// Input or output of the model.
 #[derive(Serialize)]
 pub struct ChannelRow {
     pub name: String,
     pub unit: &'static str,
 }
 
-/// One coordinate of the model.
+/// Coordinate of the model.
 #[derive(Serialize)]
 pub struct CoordinateRow {
     pub name: String,
@@ -61,10 +61,10 @@ pub struct CoordinateRow {
     pub clamped_frequency_hz: Option<f64>,
 }
 
-/// A second-order model of the robot for control design.
+/// Makes a second-order model of the robot for control design.
 ///
 /// # Errors
-/// A signal that means nothing on the robot, a robot without that equilibrium, or too many modes.
+/// A signal that the robot does not have, a robot without such an equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
     check(&robot, request)?;
     about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
@@ -73,7 +73,7 @@ pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
 /// Inputs and outputs of a model.
 type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
 
-/// Refuses numbers out of range and signals that mean nothing on the robot.
+/// Refuses numbers out of range and signals that the robot does not have.
 fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     request::check_positive("below_hz", request.below_hz)?;
     request::check_not_negative("tolerance", request.tolerance)?;
@@ -84,10 +84,10 @@ fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     Ok((inputs(robot, request)?, outputs(robot, request)?))
 }
 
-/// A model of a robot that is at rest already, whatever the state of the request.
+/// Makes the model for a robot at equilibrium. The state of the request is not used.
 ///
 /// # Errors
-/// As of [`run`].
+/// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduced> {
     let (inputs, outputs) = check(&at_rest.robot, request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
@@ -107,11 +107,11 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
         truncation_error: model.truncation_error,
         damping_error: model.damping_error,
         damping: match (model.damping_error, damping_at) {
-            (Some(0.0), _) => "viscous, exactly".to_owned(),
+            (Some(0.0), _) => "viscous, without approximation".to_owned(),
             (_, DampingAt::NaturalFrequencies) => {
-                "constant ratios made viscous, right at every natural frequency".to_owned()
+                "constant ratios approximated by viscous damping, correct at every natural frequency".to_owned()
             }
-            (_, DampingAt::Hz(hz)) => format!("constant ratios made viscous, right at {hz} Hz"),
+            (_, DampingAt::Hz(hz)) => format!("constant ratios approximated by viscous damping, correct at {hz} Hz"),
         },
         inputs: inputs
             .iter()
@@ -122,14 +122,14 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
             .map(|(output, _)| ChannelRow { name: output.name.clone(), unit: unit(output) })
             .collect(),
         coordinates: model.coordinates.iter().map(|of| CoordinateRow::of(&at_rest.robot, of)).collect(),
-        model_file: None,
+        matrices_file: None,
         model,
         warnings,
     };
     if reduced.truncation_error.is_some_and(|error| error > request.tolerance) {
         reduced.warnings.push(format!(
-            "with all modes of the cables the error is {}, more than the {} asked: a force on a cable and the motion \
-             beside it have a kink that modes do not have",
+            "with all modes of the cables the error is {}, above the requested {}: the motion beside a force on a \
+             cable has a kink, which modes do not have",
             significant(reduced.truncation_error.unwrap_or_default(), 2),
             request.tolerance
         ));
@@ -137,30 +137,30 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
     Ok(reduced)
 }
 
-/// The inputs asked, or every force and moment on the platform.
+/// Requested inputs, or else every force and moment on the platform.
 fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Signal)>> {
     let all = ["fx", "fy", "fz", "mx", "my", "mz"];
-    let asked = if request.input.is_empty() {
+    let requested = if request.input.is_empty() {
         let possible = robot.platform.motion.components();
         possible.iter().map(|&i| request::input(all[i])).collect::<Result<Vec<_>>>()?
     } else {
         request.input.iter().map(|name| request::input(name)).collect::<Result<Vec<_>>>()?
     };
     let point_p = request.points.input_point_m.map(Vec3::from);
-    asked.into_iter().map(|input| Ok(input.signal(robot, point_p).map(|signal| (input, signal))?)).collect()
+    requested.into_iter().map(|input| Ok(input.signal(robot, point_p).map(|signal| (input, signal))?)).collect()
 }
 
-/// The outputs asked, or every displacement and rotation of the platform.
+/// Requested outputs, or else every displacement and rotation of the platform.
 fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Signal)>> {
     let all = ["x", "y", "z", "rx", "ry", "rz"];
-    let asked = if request.output.is_empty() {
+    let requested = if request.output.is_empty() {
         let possible = robot.platform.motion.components();
         possible.iter().map(|&i| request::output(all[i])).collect::<Result<Vec<_>>>()?
     } else {
         request.output.iter().map(|name| request::output(name)).collect::<Result<Vec<_>>>()?
     };
     let point_p = request.points.output_point_m.map(Vec3::from);
-    asked.into_iter().map(|output| Ok(output.signal(robot, point_p).map(|signal| (output, signal))?)).collect()
+    requested.into_iter().map(|output| Ok(output.signal(robot, point_p).map(|signal| (output, signal))?)).collect()
 }
 
 fn unit(output: &Output) -> &'static str {

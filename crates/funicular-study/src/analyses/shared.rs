@@ -5,7 +5,7 @@ use funicular::dynamics::Linearisation;
 use funicular::statics::Equilibrium;
 use serde::Serialize;
 
-/// The models behind a result, as JSON has them.
+/// Models used for a result, by the names that JSON has.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Models {
     pub static_model: &'static str,
@@ -24,15 +24,15 @@ impl Models {
         }
     }
 
-    /// One line for people.
+    /// Description in one line.
     pub fn line(&self) -> String {
         let plane = if self.in_plane_only { ", in plane only" } else { "" };
         format!("{} statics, {} cables, {} assembly{plane}", self.static_model, self.cable_model, self.assembly)
     }
 }
 
-/// Numbers of a cable's sag, as JSON has them. They are absent for a cable without tension, the string frequency for one
-/// without mass, too.
+/// Numbers of a cable's sag for JSON. They are absent for a cable without tension. The string frequency is also absent
+/// for a cable without mass.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct SagNumbers {
     #[serde(skip_serializing_if = "Option::is_none")]

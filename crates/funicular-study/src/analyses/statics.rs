@@ -1,4 +1,4 @@
-//! `statics`: the equilibrium.
+//! `statics`: equilibrium of the robot.
 
 use super::check::{LoadRow, WindRow};
 use super::found;
@@ -12,40 +12,40 @@ use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
 use serde::Serialize;
 
-/// Results of `statics`: the equilibrium.
+/// Results of `statics`: an equilibrium.
 #[derive(Serialize)]
 pub struct Statics {
     #[serde(skip)]
     pub robot: String,
     pub static_model: &'static str,
     pub mass_kg: f64,
-    /// On the platform; absent where there is none.
+    /// Load on the platform; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<LoadRow>,
-    /// Absent in still air.
+    /// Wind; absent in still air.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<WindRow>,
     pub pose: PoseRow,
-    /// Distance from the pose asked; absent where the cables are as many as the degrees of freedom, or lengths were given.
+    /// Distance from the requested pose; present only with fewer cables than degrees of freedom and a requested pose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest_pose_distance_m: Option<f64>,
-    /// Absent where the tensions were no choice.
+    /// Tension rule; absent if there was no choice of tensions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tension_rule: Option<&'static str>,
     pub cables: Vec<CableRow>,
     pub residual: f64,
-    /// Neither loads nor tensions: the residual says nothing.
+    /// True if there are neither loads nor tensions; the residual then has no meaning.
     #[serde(skip)]
     pub carries_nothing: bool,
     pub iterations: usize,
-    /// Absent for ideal cables, which are rigid.
+    /// True for a stable equilibrium; absent for ideal cables, which are rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stable: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_min_n_per_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub another_stable_equilibrium: Option<OtherStable>,
-    /// All that a search found, the lowest first; with --all.
+    /// All equilibria that the search of `all` found, with the lowest energy first.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibria: Option<Vec<EquilibriumRow>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,14 +58,14 @@ pub struct Statics {
 #[derive(Serialize)]
 pub struct EquilibriumRow {
     pub stable: bool,
-    /// Directions in which the energy falls.
+    /// Number of directions in which the energy falls.
     pub falling_directions: usize,
-    /// Directions in which it does not change.
+    /// Number of directions in which the energy does not change.
     pub indifferent_directions: usize,
-    /// Above that of the lowest; absent where the loads have no potential.
+    /// Energy above the lowest equilibrium; absent if the loads have no potential.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_j: Option<f64>,
-    /// From the first equilibrium.
+    /// Distance from the first equilibrium.
     pub distance_m: f64,
     pub pose: PoseRow,
     pub tensions_platform_n: Vec<f64>,
@@ -85,20 +85,20 @@ impl EquilibriumRow {
     }
 }
 
-/// What a search for all equilibria found.
+/// Statistics of a search for all equilibria.
 #[derive(Serialize)]
 pub struct Search {
     pub starts: usize,
-    /// Sum of (−1)^falling_directions, and what it is of a list that lacks none.
+    /// Sum of (−1)^falling_directions over the equilibria that were found.
     pub index_sum: i64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected_index_sum: Option<i64>,
 }
 
-/// Another stable equilibrium, where a short search met one.
+/// Another stable equilibrium, if a short search found one.
 #[derive(Serialize)]
 pub struct OtherStable {
-    /// Above that of this equilibrium; absent where the loads have no potential.
+    /// Energy above this equilibrium; absent if the loads have no potential.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_above_j: Option<f64>,
     pub distance_m: f64,
@@ -130,7 +130,7 @@ impl PoseRow {
     }
 }
 
-/// One cable at the equilibrium.
+/// Cable at the equilibrium.
 #[derive(Serialize)]
 pub struct CableRow {
     pub name: String,
@@ -141,20 +141,20 @@ pub struct CableRow {
     #[serde(flatten)]
     pub sag: SagNumbers,
     pub force_on_platform_n: [f64; 3],
-    /// Absent where neither the file nor a rule has limits.
+    /// Tension limits; absent if neither the file nor a rule has limits.
     #[serde(flatten)]
     pub limits: Option<LimitNumbers>,
 }
 
-/// The limits of a cable's tension, and how far it is from them.
+/// Tension limits of a cable, and the distance of its tension from them.
 #[derive(Serialize)]
 pub struct LimitNumbers {
     pub minimum_tension_n: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub maximum_tension_n: Option<f64>,
-    /// Distance from the nearer limit; absent without any.
+    /// Distance from the nearer limit.
     pub tension_margin_n: f64,
-    /// The same over the distance between the limits.
+    /// Distance from the nearer limit, divided by the distance between the limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tension_margin: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -177,15 +177,15 @@ impl LimitNumbers {
     }
 }
 
-/// The equilibrium.
+/// Finds the equilibrium.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, or a robot without that equilibrium.
+/// A request that contradicts itself or the robot, or a robot without such an equilibrium.
 pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
     about(&at_rest::equilibrium(robot, &request.state, &request.tensions)?, request.all)
 }
 
-/// The cables of a robot at rest, one row each.
+/// Rows of the cables of a robot at equilibrium, one per cable.
 pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
     let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let limited = rule.is_some() || robot.cables.iter().any(|cable| cable.limits() != TensionLimits::default());
@@ -206,10 +206,10 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
         .collect()
 }
 
-/// Results for a robot at rest; `all` searches for all equilibria of its lengths.
+/// Results for a robot at equilibrium; `all` searches for all equilibria of its lengths.
 ///
 /// # Errors
-/// A search that the robot has not, such as one of ideal cables.
+/// A search that is not possible for the robot, for example with ideal cables.
 pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let cables = cable_rows(at_rest);
@@ -225,8 +225,8 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         let found = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
         if let (true, Some(expected)) = (found.lacks_some(), found.expected_index_sum) {
             warnings.push(format!(
-                "the list of equilibria is not whole: the sum of (−1)^(falling directions) is {}, of all it is {expected} \
-                 (after {} starts)",
+                "the list of equilibria is not complete: the sum of (−1)^(falling directions) is {}, for all \
+                 equilibria it is {expected} (after {} starts)",
                 found.index_sum, found.starts
             ));
         }

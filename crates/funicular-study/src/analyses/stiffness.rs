@@ -1,4 +1,4 @@
-//! `stiffness`: the 6×6 at one frequency.
+//! `stiffness`: 6×6 stiffness at one frequency.
 
 use super::found;
 use super::shared::Models;
@@ -13,7 +13,7 @@ use funicular::statics::{self, StaticModel};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Results of `stiffness`: the 6×6 matrix about the platform origin, world axes.
+/// Results of `stiffness`: 6×6 matrix about the platform origin, world axes.
 #[derive(Serialize)]
 pub struct Stiffness {
     #[serde(skip)]
@@ -23,29 +23,29 @@ pub struct Stiffness {
     pub models: Models,
     pub real: [[f64; 6]; 6],
     pub imag: [[f64; 6]; 6],
-    /// Size of the antisymmetric part over that of the whole; absent where the matrix is symmetric by its theory.
+    /// Norm of the antisymmetric part divided by the norm of the matrix; absent if the matrix is symmetric by theory.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antisymmetric_fraction: Option<f64>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
-/// The 6×6 stiffness about the platform origin, world axes, at one frequency.
+/// Computes the 6×6 stiffness about the platform origin, world axes, at one frequency.
 ///
 /// # Errors
-/// A robot without that equilibrium, or a model that has no stiffness there.
+/// A robot without such an equilibrium, or a cable model that has no stiffness there.
 pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffness> {
     crate::request::check_not_negative("at_hz", request.at_hz)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
     let linearisation = linearisation_at(&at_rest, request.model, request.at_hz);
     let matrix = matrices(&at_rest, request.model, &[request.at_hz])?[0];
 
-    // The drag that turns with the cables makes the matrix unsymmetric; the models of vibration are not asked then.
+    // Drag that turns with the cables makes the matrix unsymmetric. The cable models of vibration are not used then.
     let turns = drag_turns(&at_rest, request.model, request.at_hz);
     let antisymmetric_fraction = turns.then(|| statics::antisymmetric_fraction(&at_rest.robot, &matrix.map(|k| k.re)));
     let warnings = at_rest.warnings((!turns).then_some((linearisation.cable_model, request.at_hz)));
 
-    // `+ 0.0` makes a negative zero positive: the sign would mean nothing.
+    // `+ 0.0` makes a negative zero positive, because its sign has no meaning.
     let rows =
         |part: fn(&Complex) -> f64| std::array::from_fn(|i| std::array::from_fn(|j| part(&matrix[(i, j)]) + 0.0));
     Ok(Stiffness {
@@ -59,8 +59,8 @@ pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffnes
     })
 }
 
-/// The linearisation at a frequency: at 0 Hz, unless a cable model is named, the tangent of the static model, which the exact
-/// cable model has at rest.
+/// Linearisation at a frequency. At 0 Hz without a named cable model it is the tangent of the static model, which is
+/// also the limit of the cable model `catenary-dynamic` at 0 Hz.
 fn linearisation_at(at_rest: &AtRest, model: Model, hz: f64) -> Linearisation {
     let linearisation = at_rest::linearisation(&model, at_rest.equilibrium.model);
     if model.cable_model.is_none() && hz == 0.0 {
@@ -69,18 +69,18 @@ fn linearisation_at(at_rest: &AtRest, model: Model, hz: f64) -> Linearisation {
     linearisation
 }
 
-/// Whether the stiffness at a frequency has a drag of the wind that turns with the cables: at 0 Hz without a named cable
-/// model, which is that of vibration, with held drag.
+/// True if the stiffness at a frequency contains wind drag that turns with the cables: at 0 Hz without a named cable
+/// model. A named cable model is a model of vibration, with constant drag.
 fn drag_turns(at_rest: &AtRest, model: Model, hz: f64) -> bool {
     model.cable_model.is_none()
-        && linearisation_at(at_rest, model, hz) == WHOLE_TANGENT
+        && linearisation_at(at_rest, model, hz) == FULL_TANGENT
         && statics::drag_stiffness(&at_rest.robot, &at_rest.equilibrium).is_some()
 }
 
-/// The stiffness of a robot at rest at every frequency [Hz]; none may be negative.
+/// Computes the stiffness of a robot at equilibrium at every frequency [Hz], none of them negative.
 ///
 /// # Errors
-/// [`DynamicsError`]: a model that has no stiffness there.
+/// [`DynamicsError`]: a cable model that has no stiffness there.
 pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<Vec<CMat6>, DynamicsError> {
     let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
     let still = if frequencies.contains(&0.0) { Some(Form::at(at_rest, model, 0.0)?) } else { None };
@@ -92,19 +92,19 @@ pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<V
     Ok(frequencies.iter().map(at).collect())
 }
 
-/// All terms of the static tangent.
-const WHOLE_TANGENT: Linearisation =
+/// Linearisation with all terms of the static tangent.
+const FULL_TANGENT: Linearisation =
     Linearisation { cable_model: CableModel::CatenaryStatic, assembly: Assembly::Consistent, in_plane_only: false };
 
-/// A stiffness over frequency.
+/// Stiffness over frequency.
 enum Form {
-    /// The tangent of the statics, the same at every frequency.
+    /// Static tangent, the same at every frequency.
     Constant(Box<CMat6>),
     Dynamic(Box<Dynamics>),
 }
 
 impl Form {
-    /// The stiffness up to a frequency [Hz].
+    /// Stiffness for frequencies up to a limit [Hz].
     fn at(at_rest: &AtRest, model: Model, up_to_hz: f64) -> Result<Self, DynamicsError> {
         let AtRest { robot, equilibrium, .. } = at_rest;
         let linearisation = linearisation_at(at_rest, model, up_to_hz);
@@ -117,7 +117,7 @@ impl Form {
         }
         let dynamics = Dynamics::about(robot, equilibrium, linearisation, up_to_hz)?;
         Ok(match statics::tangent_stiffness(robot, equilibrium) {
-            Some(tangent) if linearisation == WHOLE_TANGENT => constant(tangent),
+            Some(tangent) if linearisation == FULL_TANGENT => constant(tangent),
             _ => Self::Dynamic(Box::new(dynamics)),
         })
     }

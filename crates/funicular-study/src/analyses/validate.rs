@@ -1,4 +1,4 @@
-//! `validate`: every comparison of docs/validation.md, made now.
+//! `validate`: all comparisons of docs/validation.md.
 
 use super::Found;
 use crate::error::NoSolution;
@@ -7,7 +7,7 @@ use crate::validation::{self, Section};
 use anyhow::Result;
 use serde::Serialize;
 
-/// Every comparison with numbers that others published or computed.
+/// Results of `validate`: comparisons with numbers that others published or computed.
 #[derive(Serialize)]
 pub struct Validated {
     pub comparisons: usize,
@@ -15,7 +15,7 @@ pub struct Validated {
     pub sections: Vec<Section>,
 }
 
-/// Makes every comparison.
+/// Makes all comparisons.
 ///
 /// # Errors
 /// Reference data that cannot be read.
@@ -26,7 +26,7 @@ pub fn run() -> Result<Validated> {
 }
 
 impl Validated {
-    /// Whether every comparison passes.
+    /// Checks that every comparison passes.
     ///
     /// # Errors
     /// [`NoSolution`] that names the first comparison that does not pass.
@@ -45,7 +45,7 @@ impl Validated {
 impl Found for Validated {
     const COMMAND: &'static str = "validate";
 
-    /// The comparisons belong to many robots.
+    /// Empty: the comparisons belong to many robots.
     fn robot(&self) -> &'static str {
         ""
     }

@@ -10,41 +10,41 @@ use funicular::math::{Quaternion, Rotation, rotation};
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
 
-/// The text of a robot file with its changes.
+/// Text of a robot file with its changes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotText {
-    /// Where the text is from, for messages and pages.
+    /// Origin of the text, for messages and pages.
     #[serde(default)]
     pub name: String,
-    /// The robot file (TOML).
+    /// Text of the robot file (TOML).
     pub text: String,
-    /// Changes of the text, in order.
+    /// Changes of the text, made in this order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set: Vec<Change>,
 }
 
-/// One value of the robot file, set to another.
+/// Change of one value of the robot file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
     /// Keys from the root of the file, as in `platform.mass_kg` or `cables.3.anchor_m`.
     pub path: String,
-    /// The value: a number, a text, a truth value, or a list of these.
+    /// New value: a number, a text, a truth value, or a list of these.
     pub value: serde_json::Value,
 }
 
-/// A pose of the platform.
+/// Pose of the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "PoseForm", into = "PoseForm")]
 pub enum Pose {
     /// Position x, y, z [m] and roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
     Angles([f64; 6]),
-    /// Position [m] and unit quaternion w, x, y, z from platform to world axes, every digit kept.
+    /// Position [m] and unit quaternion w, x, y, z from platform to world axes, with every digit.
     Quaternion([f64; 3], [f64; 4]),
 }
 
-/// Ways to write a pose.
+/// Forms of a pose in JSON.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "a pose is [x, y, z], [x, y, z, roll, pitch, yaw] or {position_m, quaternion_wxyz}")]
 enum PoseForm {
@@ -73,10 +73,10 @@ impl From<Pose> for PoseForm {
 }
 
 impl Pose {
-    /// The pose for the analyses.
+    /// Converts the pose for the analyses.
     ///
     /// # Errors
-    /// A number that is not finite, or a matrix that is no rotation.
+    /// A number that is not finite, or a quaternion that is not of unit length.
     pub fn to_robot(self) -> Result<funicular::robot::Pose> {
         let checked = |values: &[f64]| values.iter().try_for_each(|value| check("pose", Some(*value), finite));
         match self {
@@ -86,7 +86,7 @@ impl Pose {
                 Ok(funicular::robot::Pose::new([x, y, z], [roll, pitch, yaw]))
             }
             Self::Quaternion(position_m, wxyz) => {
-                // Seven printed digits of a unit quaternion are within this.
+                // A unit quaternion printed with seven digits stays below this error.
                 const MAX_NORM_ERROR: f64 = 1e-6;
 
                 checked(&position_m)?;
@@ -95,9 +95,10 @@ impl Pose {
                 let quaternion = Quaternion::new(w, x, y, z);
                 let norm = quaternion.norm();
                 if (norm - 1.0).abs() > MAX_NORM_ERROR {
-                    bail!("⟪pose⟫: `quaternion_wxyz` has the norm {norm}: a rotation is a unit quaternion");
+                    bail!("⟪pose⟫: `quaternion_wxyz` has the norm {norm}; give a unit quaternion, with norm 1");
                 }
-                // Unit to rounding is taken as it is, so that a pose written and read is the same pose.
+                // A quaternion of unit length to rounding is not normalised, so that a pose stays bit for bit the same
+                // if it is written and read again.
                 let is_unit = (norm - 1.0).abs() <= 4.0 * f64::EPSILON;
                 let rot_wp =
                     if is_unit { Rotation::new_unchecked(quaternion) } else { Rotation::from_quaternion(quaternion) };
@@ -113,7 +114,7 @@ impl From<&funicular::robot::Pose> for Pose {
     }
 }
 
-/// The state and the loads of the robot: what is not given is as the robot file says.
+/// State and loads of the robot. A value that is not given comes from the robot file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Unstrained lengths [m], one per cable.
@@ -125,7 +126,7 @@ pub struct State {
     /// Mass of the platform [kg].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// How cables carry their static load.
+    /// Static model of the cables.
     #[serde(default, with = "crate::names")]
     pub static_model: StaticModel,
     /// Loads besides weight.
@@ -133,7 +134,7 @@ pub struct State {
     pub load: Load,
 }
 
-/// Forces on platform and cables besides their weight, fixed in the world.
+/// Loads on platform and cables besides their weight, fixed in world axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Force on the platform [N].
@@ -145,10 +146,10 @@ pub struct Load {
     /// Point where the force acts, platform frame [m].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_point_m: Option<[f64; 3]>,
-    /// Velocity of the wind [m/s].
+    /// Velocity of the steady wind [m/s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind_m_s: Option<[f64; 3]>,
-    /// Load per metre of every cable [N/m].
+    /// Load per metre of every cable besides its weight [N/m].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cable_load_n_per_m: Option<[f64; 3]>,
 }
@@ -159,7 +160,7 @@ pub struct Tensions {
     /// Rule.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "optional")]
     pub tension_rule: Option<TensionRuleName>,
-    /// Tensions to come close to [N], one for all or one per cable.
+    /// Target tensions [N], one for all cables or one per cable in the order of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target_tension_n: Option<Vec<f64>>,
     /// Minimum tension anywhere in a cable [N].
@@ -170,10 +171,10 @@ pub struct Tensions {
     pub max_tension_n: Option<f64>,
 }
 
-/// How the robot is linearised.
+/// Linearisation of the robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
-    /// Cable model; the default depends on the static model.
+    /// Cable model. The default depends on the static model.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "optional")]
     pub cable_model: Option<CableModel>,
     /// Terms of the stiffness.
@@ -184,17 +185,17 @@ pub struct Model {
 /// Terms of the stiffness.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Terms {
-    /// All terms, or the cables' end stiffness only.
+    /// Terms to take: all, or only the end stiffness of the cables.
     #[serde(default, with = "crate::names")]
     pub assembly: Assembly,
-    /// Leave out the stiffness of cables out of their planes.
+    /// Leave out the out-of-plane stiffness of the cables.
     #[serde(default)]
     pub in_plane_only: bool,
 }
 
-/// Points of the platform where a response begins and ends, platform frame [m].
+/// Points of the platform for the input and the output of a response, platform frame [m].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Points {
+pub struct ResponsePoints {
     /// Point where the force acts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input_point_m: Option<[f64; 3]>,
@@ -203,7 +204,7 @@ pub struct Points {
     pub output_point_m: Option<[f64; 3]>,
 }
 
-/// A range of frequencies, ends included.
+/// Range of frequencies, ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FrequencyRange {
     /// First frequency [Hz].
@@ -217,7 +218,7 @@ pub struct FrequencyRange {
     pub log: bool,
 }
 
-/// One axis of a grid: equal steps, or values.
+/// Axis of a grid: equal steps, or listed values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Axis {
@@ -232,7 +233,7 @@ pub enum Axis {
         /// Number of values.
         count: usize,
     },
-    /// Values.
+    /// Listed values.
     List {
         /// Name of the axis, or path into the robot file.
         axis: String,
@@ -242,7 +243,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// An axis from its name and its values.
+    /// Axis with a name and values.
     pub fn new(axis: String, steps: &Steps) -> Self {
         match steps {
             Steps::Range { from, to, count } => Self::Range { axis, from: *from, to: *to, count: *count },
@@ -257,10 +258,10 @@ impl Axis {
         }
     }
 
-    /// The values along the axis.
+    /// Values along the axis.
     ///
     /// # Errors
-    /// A range that does not ascend, values that are not finite, or none.
+    /// A range that does not ascend, values that are not finite, or no values.
     pub fn steps(&self) -> Result<Steps, String> {
         match self {
             Self::Range { from, to, count, .. } => Steps::range(finite(*from)?, finite(*to)?, *count),
@@ -278,7 +279,7 @@ pub struct EachPoint {
     /// Names of the quantities.
     #[serde(default = "EachPoint::default_quantities")]
     pub quantities: Vec<String>,
-    /// Where the search for natural frequencies ends [Hz].
+    /// Upper limit of the search for natural frequencies [Hz].
     #[serde(default = "default_up_to_hz")]
     pub up_to_hz: f64,
     /// State and loads.
@@ -293,7 +294,7 @@ pub struct EachPoint {
 }
 
 impl EachPoint {
-    /// Quantities where none are named.
+    /// Quantities of a request that names none.
     pub fn default_quantities() -> Vec<String> {
         vec!["tension-min".to_owned(), "tension-max".to_owned()]
     }
@@ -303,7 +304,7 @@ fn default_up_to_hz() -> f64 {
     crate::sweep::MAX_HZ
 }
 
-/// Numbers of ropes that files of other programs may lack; given, they win over the files.
+/// Rope values that files of other programs may lack. A value given here takes precedence over the files.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ImportRopes {
     /// Mass per unstrained length [kg/m].
@@ -320,7 +321,7 @@ pub struct ImportRopes {
     pub diameter_m: Option<f64>,
 }
 
-/// Numbers of the platform that files of other programs may lack; given, they win over the files.
+/// Platform values that files of other programs may lack. A value given here takes precedence over the files.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ImportPlatform {
     /// Mass [kg].
@@ -337,12 +338,12 @@ pub struct ImportPlatform {
     pub pose: Option<Pose>,
 }
 
-/// Checks a number that is given, in the name of its key.
+/// Checks a number if it is given; the message names its key.
 pub(crate) fn check(key: &str, value: Option<f64>, rule: fn(f64) -> Result<f64, String>) -> Result<()> {
     value.map_or(Ok(()), |value| rule(value).map(drop).map_err(|reason| anyhow!("⟪{key}⟫: {reason}")))
 }
 
-/// Checks three numbers that are given, in the name of their key.
+/// Checks a vector if it is given; the message names its key.
 pub(crate) fn check_vector(key: &str, vector: Option<[f64; 3]>) -> Result<()> {
     vector.iter().flatten().try_for_each(|value| check(key, Some(*value), finite))
 }
@@ -363,7 +364,7 @@ impl State {
     }
 }
 
-impl Points {
+impl ResponsePoints {
     /// Checks the numbers.
     pub(crate) fn check(&self) -> Result<()> {
         check_vector("input_point_m", self.input_point_m)?;
@@ -390,7 +391,9 @@ impl ImportRopes {
         check("youngs_modulus_pa", self.youngs_modulus_pa, positive)?;
         check("diameter_m", self.diameter_m, positive)?;
         if self.axial_stiffness_n.is_some() && (self.youngs_modulus_pa.is_some() || self.diameter_m.is_some()) {
-            bail!("⟪axial_stiffness_n⟫ is EA: leave out ⟪youngs_modulus_pa⟫ and ⟪diameter_m⟫, which give it, too");
+            bail!(
+                "⟪axial_stiffness_n⟫ is EA, which ⟪youngs_modulus_pa⟫ and ⟪diameter_m⟫ also determine: leave them out"
+            );
         }
         Ok(())
     }

@@ -1,23 +1,23 @@
-//! Results as columns.
+//! Rows of results, stored as columns.
 
 use std::borrow::Cow;
 
-/// What a column is.
+/// Description of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Name, the unit included: `first_frequency_hz`.
+    /// Name with its unit: `first_frequency_hz`.
     pub name: String,
     /// Unit: `Hz`, `m`, `N/m`, `deg`, `1`; empty for text and flags.
     pub unit: Cow<'static, str>,
-    /// What it says, in a line.
+    /// Meaning in one line.
     pub about: String,
     /// Kind of its values.
-    pub kind: Kind,
+    pub kind: ColumnKind,
 }
 
 /// Kind of a column's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// Numbers.
     Real,
     /// Yes or no.
@@ -26,7 +26,7 @@ pub enum Kind {
     Text,
 }
 
-/// Values of one column of some rows. What does not exist is `None`, never NaN.
+/// Values of one column for some rows. A value that does not exist is `None`, never NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
     /// Numbers.
@@ -38,16 +38,16 @@ pub enum Values {
 }
 
 impl Values {
-    /// None yet, of a kind.
-    pub fn new(kind: Kind, capacity: usize) -> Self {
+    /// Empty column of a kind, with room for `capacity` values.
+    pub fn new(kind: ColumnKind, capacity: usize) -> Self {
         match kind {
-            Kind::Real => Self::Real(Vec::with_capacity(capacity)),
-            Kind::Flag => Self::Flag(Vec::with_capacity(capacity)),
-            Kind::Text => Self::Text(Vec::with_capacity(capacity)),
+            ColumnKind::Real => Self::Real(Vec::with_capacity(capacity)),
+            ColumnKind::Flag => Self::Flag(Vec::with_capacity(capacity)),
+            ColumnKind::Text => Self::Text(Vec::with_capacity(capacity)),
         }
     }
 
-    /// How many.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Real(values) => values.len(),
@@ -56,7 +56,7 @@ impl Values {
         }
     }
 
-    /// There are none.
+    /// True if there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -64,7 +64,7 @@ impl Values {
     /// Adds one value.
     ///
     /// # Panics
-    /// For a value of another kind.
+    /// If the value has another kind than the column.
     pub(super) fn push(&mut self, value: Value) {
         match (self, value) {
             (Self::Real(values), Value::Real(value)) => values.push(Some(value)),
@@ -77,7 +77,7 @@ impl Values {
     }
 }
 
-/// One value on its way into a column.
+/// Single value of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Real(f64),
@@ -87,7 +87,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// A number; nothing if it is none.
+    /// Number; nothing if it is absent or not finite.
     pub(super) fn real(value: Option<f64>) -> Self {
         match value {
             // `+ 0.0` makes a negative zero positive.
@@ -97,12 +97,12 @@ impl Value {
     }
 }
 
-/// Rows of a plan that are computed in one go.
+/// Rows of a plan that are computed together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chunk {
-    /// Its place in the plan, from 0.
+    /// Index of the chunk in the plan, from 0.
     pub index: usize,
-    /// Its columns, in the order of [`Plan::columns`](super::Plan::columns); all of one length.
+    /// Columns in the order of [`Plan::columns`](super::Plan::columns), all of the same length.
     pub columns: Vec<Values>,
 }
 

@@ -1,4 +1,4 @@
-//! Lists of poses told apart.
+//! Digest that identifies a list of poses.
 
 use sha2::{Digest, Sha256};
 

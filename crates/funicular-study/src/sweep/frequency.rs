@@ -1,4 +1,4 @@
-//! The lowest natural frequencies of a robot at rest, as many as are requested.
+//! Lowest natural frequencies of a robot at equilibrium.
 
 use super::plan::Options;
 use super::points::Point;
@@ -10,20 +10,20 @@ use funicular::modes::{self, Kind, LowestError, Mode};
 use funicular::robot::Robot;
 use funicular::statics::{self, Equilibrium, Stability};
 
-/// The lowest modes of a point, ascending, and each as tracking takes it.
+/// Lowest modes of a point, ascending, with their motions for mode tracking.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointModes {
-    /// The modes.
+    /// Modes.
     pub modes: Vec<Mode>,
-    /// Their motions, in the same order.
+    /// Motions of the modes, in the same order.
     pub tracked: Vec<Tracked>,
 }
 
-/// The lowest `count` modes of a point: those whose frequencies the quantity `frequencies:N` gives, with their
-/// motions, to be [tracked](modes::tracking::track) from point to point.
+/// Lowest `count` modes of a point, with the frequencies of the quantity `frequencies:N` and with the motions that are
+/// [tracked](modes::tracking::track) from point to point.
 ///
 /// # Errors
-/// The reason why there are none, as a row has it.
+/// The reason why there are no modes, as in the row of a sweep.
 pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<PointModes, String> {
     let (robot, state) = point.robot.as_ref().map_err(Clone::clone)?;
     let found = statics::solve_at(robot, state, options.static_model, &options.tension_rule);
@@ -38,13 +38,14 @@ pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<Po
     Ok(PointModes { modes, tracked })
 }
 
-/// The lowest modes: frequency [Hz] and kind, ascending.
+/// Lowest modes: frequency [Hz] and kind, ascending.
 pub(super) struct Lowest {
     pub(super) modes: Vec<(f64, Kind)>,
     pub(super) certified: bool,
 }
 
-/// The lowest `count` natural frequencies that are not above `highest_hz`. The first alone of catenary-dynamic cables has its own way, [`modes::first`].
+/// Lowest `count` natural frequencies that are not above `highest_hz`. A single frequency with the cable model
+/// `catenary-dynamic` has its own faster method, [`modes::first`].
 pub(super) fn lowest(
     robot: &Robot,
     rest: &Equilibrium,
@@ -65,7 +66,7 @@ pub(super) fn lowest(
     Ok(Lowest { modes: modes.iter().map(|mode| (mode.frequency_hz, mode.kind)).collect(), certified })
 }
 
-/// The lowest `count` modes, their robot, and whether they are certified.
+/// Lowest `count` modes, the linearised robot, and true if the modes are certified.
 fn search(
     robot: &Robot,
     rest: &Equilibrium,
@@ -111,10 +112,10 @@ mod tests {
             };
             track(&(0..count).map(step).collect::<Vec<_>>())
         };
-        // A robot without symmetry: its curves come near each other and never meet, however many there are.
+        // The curves of a robot without symmetry come near each other and never meet.
         let fine = followed(800);
         assert!(fine.iter().all(|of| of.iter().copied().eq(0..MODES)), "{:?}", fine.last());
-        // The motions cross what the frequencies only come near to.
+        // The motions cross where the frequencies only come near each other.
         let coarse = followed(8);
         let crossed = coarse.iter().filter(|of| of.windows(2).any(|pair| pair[0] > pair[1])).count();
         assert!(crossed >= 3, "{coarse:?}");

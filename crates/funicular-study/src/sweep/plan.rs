@@ -1,11 +1,12 @@
-//! Many points of a robot's workspace, or of its parameters, one row each.
+//! Plan of many points in a robot's workspace or of its parameters, with one row per point.
 //!
-//! A [`Plan`] is what is asked: points in a fixed order, quantities, options. Its rows come in chunks of a size that
-//! the plan alone determines, and every row is computed from its own point alone, so that a row is the same bit for bit
-//! whatever the number of threads, however the chunks are shared between machines, and wherever a run was interrupted.
-//! A point without an equilibrium is a row, with a [code](super::CODES) and a reason; what does not exist is `None`, never NaN.
+//! A [`Plan`] is a set of points in a fixed order with quantities and options. Its rows come in chunks. The plan alone
+//! determines the size of the chunks, and every row is computed from its own point alone. A row is therefore the same
+//! bit for bit for any number of threads, for any distribution of the chunks over machines, and after any interruption.
+//! A point without an equilibrium has a row too, with a [code](super::CODES) and a reason. A value that does not exist
+//! is `None`, never NaN.
 
-use super::columns::{Chunk, Column, Kind, Value, Values};
+use super::columns::{Chunk, Column, ColumnKind, Value, Values};
 use super::points::Points;
 use super::quantity::Quantity;
 use super::row;
@@ -15,16 +16,16 @@ use funicular::robot::Robot;
 use funicular::statics::{self, StaticModel, StaticsError, TensionRule};
 use thiserror::Error;
 
-/// How every point is computed.
+/// Options of the evaluation of every point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// How cables carry their static load.
+    /// Static model of the cables.
     pub static_model: StaticModel,
-    /// Which tensions a pose has, for robots with more cables than degrees of freedom.
+    /// Rule for the tensions at a pose, for robots with more cables than degrees of freedom.
     pub tension_rule: TensionRule,
-    /// How cables answer motion, for natural frequencies.
+    /// Linearisation for natural frequencies.
     pub linearisation: Linearisation,
-    /// Where the search for natural frequencies ends [Hz].
+    /// Upper limit of the search for natural frequencies [Hz].
     pub highest_hz: f64,
 }
 
@@ -39,34 +40,35 @@ impl Default for Options {
     }
 }
 
-/// Default of [`Options::highest_hz`]: far above the first frequency of any cable robot, low enough to end.
+/// Default of [`Options::highest_hz`]: far above the first frequency of any cable robot, and low enough that a search
+/// ends.
 pub const MAX_HZ: f64 = 1000.0;
 
-/// Most points of a plan.
+/// Maximum number of points of a plan.
 pub const MAX_POINTS: usize = 100_000_000;
 
-/// Most rows of a chunk: some milliseconds of work where only statics is asked, some seconds with natural frequencies.
+/// Maximum number of rows per chunk: some milliseconds of work for statics, some seconds with natural frequencies.
 const MAX_ROWS: usize = 256;
 
-/// Chunks that a small plan is cut into at least, so that all cores have work to the end.
+/// Minimum number of chunks of a small plan, so that all cores have work until the end.
 const MIN_CHUNKS: usize = 64;
 
-/// Why a sweep cannot be.
+/// Error of a plan that cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SweepError {
-    /// No such axis.
+    /// Unknown axis.
     #[error("there is no axis `{axis}`: x, y, z are positions [m], roll, pitch, yaw angles [degrees]")]
     UnknownAxis {
-        /// As given.
+        /// Name as given.
         axis: String,
     },
-    /// An axis twice.
-    #[error("the axis `{axis}` is given twice: one grid has it once")]
+    /// Axis that is given twice.
+    #[error("the axis `{axis}` is given twice: give it once")]
     RepeatedAxis {
-        /// Its name.
+        /// Name of the column.
         axis: String,
     },
-    /// A value twice on an axis.
+    /// Value that is given twice on an axis.
     #[error("the axis `{axis}` has the value {value} twice: leave one out")]
     RepeatedValue {
         /// Name of the axis.
@@ -74,58 +76,57 @@ pub enum SweepError {
         /// The value [m, degrees].
         value: f64,
     },
-    /// An axis along which the platform cannot move.
-    #[error("the platform cannot move along the axis `{axis}`: its degrees of freedom are {dof}, which has {has}")]
+    /// Axis along which the platform cannot move.
+    #[error("the platform cannot move along the axis `{axis}`: its motion is {dof}, with the axes {has}")]
     NoSuchMotion {
-        /// The axis.
+        /// Name of the axis.
         axis: &'static str,
-        /// Name of the degrees of freedom.
+        /// Name of the platform's motion.
         dof: &'static str,
-        /// Axes that it has.
+        /// Axes along which it moves.
         has: String,
     },
-    /// A position without a value.
+    /// Axis of the position without a value.
     #[error(
-        "the grid has no `{axis}`, and neither the robot nor an option gives a pose to take it from: add the axis, or a pose"
+        "the grid has no axis `{axis}`, and neither the robot nor an option gives a pose to take it from: add the axis \
+         or a pose"
     )]
     NoPosition {
-        /// The axis.
+        /// Name of the axis.
         axis: &'static str,
     },
-    /// Nothing to compute.
+    /// No points.
     #[error("there are no points to compute: give at least one")]
     NoPoints,
-    /// Too much to compute.
-    #[error(
-        "{count} points are more than the {MAX_POINTS} that one sweep may have: take larger steps, or several sweeps"
-    )]
+    /// Too many points.
+    #[error("{count} points are more than the maximum of {MAX_POINTS}: use larger steps or several sweeps")]
     TooMany {
-        /// How many.
+        /// Number of points.
         count: String,
     },
-    /// Nothing asked.
-    #[error("no quantity is asked for: name one, as tension-max")]
+    /// No quantities.
+    #[error("no quantity is requested: give at least one, for example tension-max")]
     NoQuantity,
-    /// A column twice.
-    #[error("the column `{column}` would be there twice: ask for each quantity once")]
+    /// Quantity that is requested twice.
+    #[error("the column `{column}` would appear twice: request each quantity once")]
     RepeatedColumn {
-        /// Its name.
+        /// Name of the column.
         column: String,
     },
-    /// A quantity that the static model does not have.
-    #[error("`{quantity}` does not exist with the static model `{}`: use the default, catenary", .model.name())]
+    /// Quantity that does not exist for the static model.
+    #[error("`{quantity}` does not exist for the static model `{}`: use the default, catenary", .model.name())]
     NotWithModel {
         /// Name of the quantity.
         quantity: String,
-        /// The model.
+        /// Static model.
         model: StaticModel,
     },
-    /// Options that fit no point.
+    /// Options that are wrong for every point.
     #[error(transparent)]
     Statics(#[from] StaticsError),
 }
 
-/// What is asked of which points.
+/// Points with the quantities to compute and the options.
 pub struct Plan<'a> {
     points: &'a dyn Points,
     quantities: &'a [Quantity],
@@ -133,18 +134,19 @@ pub struct Plan<'a> {
     /// Number of points.
     rows: usize,
     columns: Vec<Column>,
-    /// Columns behind the coordinates.
+    /// Number of columns that follow the coordinates.
     width: usize,
-    /// Fewer cables than degrees of freedom: poses asked are not the poses found.
+    /// True with fewer cables than degrees of freedom: the pose of the equilibrium then differs from the requested
+    /// pose.
     with_distance: bool,
 }
 
 impl<'a> Plan<'a> {
-    /// Of points, quantities and options. `robot` is one that the points have: the number and the names of its cables, and
-    /// its degrees of freedom, are those of every point.
+    /// Makes a plan of points, quantities and options. `robot` is the robot of any of the points: all of them have the
+    /// same number and names of cables and the same degrees of freedom.
     ///
     /// # Errors
-    /// [`SweepError`] if there is nothing to compute, too much, or something that no point can have.
+    /// [`SweepError`] if there are no points, too many points, or a quantity or option that no point can have.
     ///
     /// # Example
     /// ```
@@ -199,7 +201,7 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// What is wrong at the first point and would be at every other.
+    /// Checks the first point for errors that every other point would have too.
     fn check_first(&self) -> Result<(), SweepError> {
         let first = self.points.point(0);
         let Ok((robot, state)) = &first.robot else { return Ok(()) };
@@ -210,7 +212,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The columns of the rows: coordinates, `feasible`, `status`, `reason`, then the quantities.
+    /// Columns of the rows: coordinates, `feasible`, `status`, `reason`, then the quantities.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -220,7 +222,7 @@ impl<'a> Plan<'a> {
         self.rows
     }
 
-    /// Rows of every chunk but the last, which may have fewer.
+    /// Number of rows per chunk. The last chunk may have fewer.
     pub fn chunk_rows(&self) -> usize {
         (self.rows / MIN_CHUNKS).clamp(1, MAX_ROWS)
     }
@@ -230,7 +232,7 @@ impl<'a> Plan<'a> {
         self.rows.div_ceil(self.chunk_rows())
     }
 
-    /// Chunk `index`; `None` if it was given up, which is asked between two rows.
+    /// Computes chunk `index`; `None` if `given_up`, which is called between two rows, returned true.
     pub fn evaluate(&self, index: usize, given_up: impl Fn() -> bool) -> Option<Chunk> {
         let begin = index * self.chunk_rows();
         let end = (begin + self.chunk_rows()).min(self.rows);
@@ -253,7 +255,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Columns behind the coordinates.
+/// Columns that follow the coordinates.
 fn row_columns(robot: &Robot, quantities: &[Quantity], with_distance: bool) -> Vec<Column> {
     let own = |name: &str, about: &str, kind| Column {
         name: name.to_owned(),
@@ -262,16 +264,16 @@ fn row_columns(robot: &Robot, quantities: &[Quantity], with_distance: bool) -> V
         kind,
     };
     let mut columns = vec![
-        own("feasible", "there is an equilibrium with tensions within the limits", Kind::Flag),
-        own("status", "ok, or a short code of what is missing and why", Kind::Text),
-        own("reason", "the same with its numbers", Kind::Text),
+        own("feasible", "there is an equilibrium with tensions within the limits", ColumnKind::Flag),
+        own("status", "ok, or a short code of the value that is missing and why", ColumnKind::Text),
+        own("reason", "reason of the status, with numbers", ColumnKind::Text),
     ];
     if with_distance {
         columns.push(Column {
             name: "nearest_pose_distance_m".to_owned(),
             unit: "m".into(),
-            about: "distance of the pose found from the one asked, which so few cables do not hold".to_owned(),
-            kind: Kind::Real,
+            about: "distance between the pose of the equilibrium and the requested pose".to_owned(),
+            kind: ColumnKind::Real,
         });
     }
     columns.extend(quantities.iter().flat_map(|quantity| quantity.columns(robot)));

@@ -1,30 +1,30 @@
-//! Where a sweep looks: grids and lists of poses, or robots that the caller supplies.
+//! Points of a sweep: grids and lists of poses, or robots that the caller supplies.
 
-use super::columns::{Column, Kind};
+use super::columns::{Column, ColumnKind};
 use super::plan::SweepError;
 use super::steps::{Steps, digits};
 use funicular::math::rotation;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use std::borrow::Cow;
 
-/// The points of a sweep, in a fixed order.
+/// Points of a sweep, in a fixed order.
 pub trait Points: Sync {
-    /// How many.
+    /// Number of points.
     fn count(&self) -> usize;
 
-    /// Columns of their coordinates, all [`Kind::Real`].
+    /// Columns of the coordinates, all [`ColumnKind::Real`].
     fn columns(&self) -> Vec<Column>;
 
-    /// Point `i`. The same `i` gives the same point, whichever thread asks.
+    /// Point `i`. Equal `i` give equal points on all threads.
     fn point(&self, i: usize) -> Point<'_>;
 }
 
-/// One point.
+/// Point of a sweep.
 #[derive(Debug, Clone)]
 pub struct Point<'a> {
-    /// Values of the columns.
+    /// Coordinates, in the order of the columns.
     pub coordinates: Vec<f64>,
-    /// The robot and its state, or why there is none.
+    /// Robot and its state, or the reason why there is no robot.
     pub robot: Result<(Cow<'a, Robot>, Cow<'a, State>), String>,
 }
 
@@ -40,18 +40,19 @@ pub struct Poses {
 
 #[derive(Debug, Clone)]
 enum Which {
-    /// All combinations of values along axes.
+    /// Grid of all combinations of values along axes.
     Grid { axes: Box<[Steps; 6]>, turns: bool, base: Pose },
-    /// Position [m] and roll, pitch, yaw [degrees].
+    /// List of poses: position [m] and roll, pitch, yaw [degrees].
     List(Vec<[f64; 6]>),
 }
 
 impl Poses {
-    /// All combinations of values [m, degrees] along axes (named as in [`AXES`]); x runs fastest, then y and so on. Axes
-    /// that are not given stay at `base`; without it angles are zero.
+    /// Grid of all combinations of values [m, degrees] along axes (named as in [`AXES`]). x runs fastest, then y and so
+    /// on. Axes that are not given keep the value of `base`. Without `base` angles are zero.
     ///
     /// # Errors
-    /// [`SweepError`]: an axis or a value twice, an axis that the platform does not have, or neither values nor base for a position.
+    /// [`SweepError`]: an axis or a value that is given twice, an axis along which the platform cannot move, or a
+    /// position axis without values and without `base`.
     ///
     /// # Example
     /// ```
@@ -96,12 +97,12 @@ impl Poses {
         Ok(Self { robot, which: Which::Grid { axes, turns, base } })
     }
 
-    /// Poses in the order given: position [m] and roll, pitch, yaw [degrees] each.
+    /// List of poses in the given order: position [m] and roll, pitch, yaw [degrees].
     pub fn list(robot: Robot, poses: Vec<[f64; 6]>) -> Self {
         Self { robot, which: Which::List(poses) }
     }
 
-    /// Values along the six axes of a grid, those of one value included; none for a list.
+    /// Values along the six axes of a grid, including axes with one value; `None` for a list.
     pub fn axes(&self) -> Option<&[Steps; 6]> {
         match &self.which {
             Which::Grid { axes, .. } => Some(axes),
@@ -109,25 +110,25 @@ impl Poses {
         }
     }
 
-    /// The robot.
+    /// Robot.
     pub fn robot(&self) -> &Robot {
         &self.robot
     }
 
-    /// Angles are columns: the platform can turn.
+    /// True if angles are columns, because the platform can rotate.
     fn width(&self) -> usize {
         if self.robot.platform.motion.can_turn() { 6 } else { 3 }
     }
 }
 
-/// Position [m] and roll, pitch, yaw [degrees] of a pose; no negative zeros.
+/// Position [m] and roll, pitch, yaw [degrees] of a pose, without negative zeros.
 fn numbers(pose: &Pose) -> [f64; 6] {
     let p = pose.position_w;
     let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&pose.rot_wp);
     [p.x, p.y, p.z, roll, pitch, yaw].map(|value| value + 0.0)
 }
 
-/// A platform that cannot move along an axis has no grid along it.
+/// Refuses an axis along which the platform cannot move.
 fn refuse_missing_freedom(motion: &PlatformMotion, axis: usize) -> Result<(), SweepError> {
     if motion.components().contains(&axis) {
         return Ok(());
@@ -150,12 +151,12 @@ impl Points for Poses {
             .enumerate()
             .map(|(i, axis)| {
                 let (unit, suffix) = if i < 3 { ("m", "m") } else { ("deg", "deg") };
-                let about = if i < 3 { "position asked, world axes" } else { "angle asked, R = Rz Ry Rx" };
+                let about = if i < 3 { "requested position, world axes" } else { "requested angle, R = Rz Ry Rx" };
                 Column {
                     name: format!("{axis}_{suffix}"),
                     unit: unit.into(),
                     about: about.to_owned(),
-                    kind: Kind::Real,
+                    kind: ColumnKind::Real,
                 }
             })
             .collect()
@@ -176,7 +177,7 @@ impl Points for Poses {
                 }
                 let mut pose = Pose::new([at[0], at[1], at[2]], [at[3], at[4], at[5]]);
                 if !turns {
-                    // Without the rounding of its angles.
+                    // The quaternion is used directly, without the rounding of angles.
                     pose.rot_wp = base.rot_wp;
                 }
                 (at, pose)

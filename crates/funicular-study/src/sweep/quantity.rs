@@ -1,11 +1,12 @@
-//! Quantities of a map or sweep: one row of [`TABLE`] each.
+//! Quantities of a map or sweep: one row of [`TABLE`] per quantity.
 //!
-//! A row holds everything about its quantity: name, description, the text of docs/sweeps.md, what it needs, its columns and
-//! its value. Names, help texts, documentation and the evaluation of points read the table; nothing else knows a quantity.
+//! A row holds everything about its quantity: name, description, text of docs/sweeps.md, requirements, columns and
+//! values. Names, help texts, documentation and the evaluation of points read this table. No other code knows a
+//! quantity.
 
-use super::columns::{Column, Kind, Value};
+use super::columns::{Column, ColumnKind, Value};
 use super::points::AXES;
-use super::row::Row;
+use super::row::PointEvaluation;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
 use funicular::robot::Robot;
@@ -14,36 +15,36 @@ use funicular::suggest::nearest;
 use std::fmt;
 use thiserror::Error;
 
-/// Everything about one quantity.
+/// Definition of one quantity.
 struct Definition {
-    /// Its name, with the form of its parameter.
+    /// Name, with the form of its parameter.
     name: &'static str,
-    /// Description in a line.
+    /// Description in one line.
     about: &'static str,
-    /// Columns and their meaning, as docs/sweeps.md has them.
+    /// Columns and their meaning, in the words of docs/sweeps.md.
     documentation: &'static str,
     takes: Takes,
     needs: Needs,
-    /// How many of the lowest natural frequencies it shows, in the cable model of the options.
+    /// Number of the lowest natural frequencies that it shows, with the cable model of the options.
     frequencies: fn(Parameter) -> usize,
     columns: fn(&Robot, Parameter) -> Vec<Column>,
-    /// Adds the values of a point, as many as there are columns.
-    values: fn(&mut Row<'_>, Parameter, &mut Vec<Value>),
+    /// Function that adds the values of a point, one per column.
+    values: fn(&mut PointEvaluation<'_>, Parameter, &mut Vec<Value>),
 }
 
-/// Parameter that a name has after its colon.
+/// Kind of parameter after the colon of a name.
 enum Takes {
     Nothing,
-    /// A number from 1 to [`MAX_FREQUENCIES`].
+    /// Number from 1 to [`MAX_FREQUENCIES`].
     Count,
-    /// A cable model simpler than the exact one; that of the name without a colon.
+    /// Cable model other than `catenary-dynamic`, with the default for a name without a colon.
     Model(CableModel),
 }
 
-/// Static models that a quantity exists with.
+/// Static models for which a quantity exists.
 enum Needs {
     Anything,
-    /// Cables that stretch.
+    /// Models whose cables stretch.
     Elastic,
     Catenary,
 }
@@ -56,7 +57,7 @@ enum Parameter {
     Model(CableModel),
 }
 
-/// Most natural frequencies of a point.
+/// Maximum number of natural frequencies per point.
 pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
@@ -64,7 +65,7 @@ static TABLE: [Definition; 17] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
-        documentation: "`first_frequency_hz`: the lowest natural frequency, undamped, with the cable model asked (exact)",
+        documentation: "`first_frequency_hz`: lowest natural frequency, undamped, with the requested cable model",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 1,
@@ -73,14 +74,14 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "first-kind",
-        about: "whose vibration that is: platform, cable or mixed",
-        documentation: "`first_kind`: whose vibration that is, by kinetic energy: platform, cable or mixed",
+        about: "kind of the first mode: platform, cable or mixed",
+        documentation: "`first_kind`: kind of the first mode by kinetic energy: platform, cable or mixed",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 1,
         columns: |_, _| {
-            let about = "whose vibration the first mode is: platform, cable or mixed";
-            vec![Column { kind: Kind::Text, ..column("first_kind".to_owned(), "", about) }]
+            let about = "kind of the first mode by kinetic energy: platform, cable or mixed";
+            vec![Column { kind: ColumnKind::Text, ..column("first_kind".to_owned(), "", about) }]
         },
         values: |row, _, out| {
             let kind = row.modes().and_then(|modes| modes.first().map(|mode| mode.1));
@@ -89,8 +90,8 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "frequencies:N",
-        about: "the lowest N natural frequencies",
-        documentation: "`frequency_1_hz` …: the lowest N",
+        about: "lowest N natural frequencies",
+        documentation: "`frequency_1_hz` …: lowest N natural frequencies, ascending, undamped",
         takes: Takes::Count,
         needs: Needs::Anything,
         frequencies: Parameter::count,
@@ -102,38 +103,38 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "tension-max",
-        about: "greatest tension anywhere in a cable",
-        documentation: "`tension_max_n`: greatest tension anywhere in any cable",
+        about: "maximum tension anywhere in a cable",
+        documentation: "`tension_max_n`: maximum tension anywhere in any cable",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
-        columns: |_, _| one("tension_max_n", "N", "greatest tension anywhere in a cable"),
-        values: |row, _, out| out.push(Value::real(row.tensions().map(|(_, most)| most).reduce(f64::max))),
+        columns: |_, _| one("tension_max_n", "N", "maximum tension anywhere in a cable"),
+        values: |row, _, out| out.push(Value::real(row.tensions().map(|(_, max)| max).reduce(f64::max))),
     },
     Definition {
         name: "tension-min",
-        about: "least tension anywhere in a cable",
-        documentation: "`tension_min_n`: least tension anywhere in any cable",
+        about: "minimum tension anywhere in a cable",
+        documentation: "`tension_min_n`: minimum tension anywhere in any cable",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
-        columns: |_, _| one("tension_min_n", "N", "least tension anywhere in a cable"),
-        values: |row, _, out| out.push(Value::real(row.tensions().map(|(least, _)| least).reduce(f64::min))),
+        columns: |_, _| one("tension_min_n", "N", "minimum tension anywhere in a cable"),
+        values: |row, _, out| out.push(Value::real(row.tensions().map(|(min, _)| min).reduce(f64::min))),
     },
     Definition {
         name: "tensions",
-        about: "tension of every cable at the platform",
-        documentation: "`tension_platform_NAME_n`: of every cable, at the platform",
+        about: "tension of every cable at its platform end",
+        documentation: "`tension_platform_NAME_n`: tension of every cable at its platform end",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
-        columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at the platform"),
+        columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at its platform end"),
         values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_platform)))),
     },
     Definition {
         name: "lengths",
         about: "unstrained length of every cable",
-        documentation: "`unstrained_length_NAME_m`",
+        documentation: "`unstrained_length_NAME_m`: unstrained length of every cable",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
@@ -144,13 +145,13 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "tension-margin",
-        about: "least distance of a tension from its limits, negative beyond them",
-        documentation: "`tension_margin_n`: least distance of a tension from its limits (as of `--tension-rule`), negative \
-                        beyond them",
+        about: "minimum distance of a tension from its limits, negative beyond them",
+        documentation: "`tension_margin_n`: minimum distance of a tension from its limits (the limits that \
+                        `--tension-rule` uses), negative beyond them",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
-        columns: |_, _| one("tension_margin_n", "N", "least distance of a tension from its limits"),
+        columns: |_, _| one("tension_margin_n", "N", "minimum distance of a tension from its limits"),
         values: |row, _, out| {
             let cables = row.rest.cables.iter().enumerate();
             let margins =
@@ -160,13 +161,13 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "stiffness-min",
-        about: "least eigenvalue of the static stiffness, rotations scaled by the platform's size",
-        documentation: "`stiffness_min_n_per_m`: least eigenvalue of the static stiffness, rotations scaled by the \
-                        platform's size; in wind of its symmetric part",
+        about: "minimum eigenvalue of the static stiffness, rotations scaled by the platform's size",
+        documentation: "`stiffness_min_n_per_m`: minimum eigenvalue of the static stiffness, rotations scaled by the \
+                        platform's size; in wind, of the symmetric part of the stiffness",
         takes: Takes::Nothing,
         needs: Needs::Elastic,
         frequencies: |_| 0,
-        columns: |_, _| one("stiffness_min_n_per_m", "N/m", "least eigenvalue of the scaled static stiffness"),
+        columns: |_, _| one("stiffness_min_n_per_m", "N/m", "minimum eigenvalue of the scaled static stiffness"),
         values: |row, _, out| {
             out.push(Value::real(match row.rest.stability {
                 Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(min_stiffness),
@@ -176,9 +177,9 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "stiffness",
-        about: "static stiffness along every coordinate, the others free",
-        documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: load along a coordinate over the motion along \
-                        it, all others free; in wind the drag turns with the cables",
+        about: "static stiffness along every coordinate, with the other coordinates free",
+        documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: load along a coordinate divided by the \
+                        motion along it, with all other coordinates free; in wind the drag turns with the cables",
         takes: Takes::Nothing,
         needs: Needs::Elastic,
         frequencies: |_| 0,
@@ -191,11 +192,12 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "pose-error",
-        about: "distances between the poses of ideal, spring and catenary cables of the same lengths",
-        documentation: "`spring_from_ideal_distance_m`, `catenary_from_ideal_distance_m`, `spring_from_catenary_distance_m`: \
-                        how far the platform rests from where the other model says, at the unstrained lengths of the \
-                        catenaries; the first two where there are as many cables as degrees of freedom; nothing where the other \
-                        model holds the platform nowhere near, as springs that are all slack",
+        about: "distances between the poses of ideal, spring and catenary cables with the same lengths",
+        documentation: "`spring_from_ideal_distance_m`, `catenary_from_ideal_distance_m`, \
+                        `spring_from_catenary_distance_m`: distances between the equilibrium positions of two static \
+                        models, at the unstrained lengths of the catenaries; the first two only if there are as many \
+                        cables as degrees of freedom; empty if the other model does not hold the platform nearby, for \
+                        example if all springs are slack",
         takes: Takes::Nothing,
         needs: Needs::Catenary,
         frequencies: |_| 0,
@@ -204,12 +206,12 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "sag-max",
-        about: "largest sag over chord",
-        documentation: "`sag_ratio_max`: largest sag over chord",
+        about: "maximum ratio of sag to chord",
+        documentation: "`sag_ratio_max`: maximum ratio of sag to chord",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
-        columns: |_, _| one("sag_ratio_max", "1", "largest sag over chord"),
+        columns: |_, _| one("sag_ratio_max", "1", "maximum ratio of sag to chord"),
         values: |row, _, out| {
             let sags = row.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(row.robot, i, cable));
             let ratios = sags.map(|sag| if sag.tension > 0.0 { sag.ratio() } else { f64::INFINITY });
@@ -218,14 +220,14 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "model-error:MODEL",
-        about: "first frequency with a simpler cable model, relative to the exact one",
-        documentation: "`model_error_MODEL`: first frequency with a simpler cable model over the exact one, less one; \
-                        without MODEL `shallow-dynamic`",
+        about: "relative error of the first frequency with a simpler cable model",
+        documentation: "`model_error_MODEL`: first frequency with a simpler cable model divided by the one with \
+                        `catenary-dynamic`, minus one; without MODEL `shallow-dynamic`",
         takes: Takes::Model(CableModel::ShallowDynamic),
         needs: Needs::Catenary,
         frequencies: |_| 0,
         columns: |_, parameter| {
-            let about = "first frequency with this cable model over the exact one, less one";
+            let about = "first frequency with this cable model divided by the one with catenary-dynamic, minus one";
             vec![column(format!("model_error_{}", parameter.underscored()), "1", about)]
         },
         values: |row, parameter, out| {
@@ -235,14 +237,15 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "stiffness-error:MODEL",
-        about: "least stiffness with a simpler cable model, relative to the exact one",
-        documentation: "`stiffness_error_MODEL`: least static stiffness with a simpler cable model over that of the \
-                        catenaries, less one; without MODEL `spring`",
+        about: "relative error of the minimum stiffness with a simpler cable model",
+        documentation: "`stiffness_error_MODEL`: minimum static stiffness with a simpler cable model divided by the \
+                        one with `catenary-static`, minus one; without MODEL `spring`",
         takes: Takes::Model(CableModel::Spring),
         needs: Needs::Catenary,
         frequencies: |_| 0,
         columns: |_, parameter| {
-            let about = "least static stiffness with this cable model over the exact one, less one";
+            let about =
+                "minimum static stiffness with this cable model divided by the one with catenary-static, minus one";
             vec![column(format!("stiffness_error_{}", parameter.underscored()), "1", about)]
         },
         values: |row, parameter, out| {
@@ -252,21 +255,22 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "condition",
-        about: "inverse condition of the cables' directions: 0 at a singular pose, 1 at best",
-        documentation: "`inverse_condition`: least over largest singular value of the cables' directions (moments over the \
-                        platform's size); 0 at a singular pose",
+        about: "inverse condition number of the cables' directions: 0 at a singular pose, at most 1",
+        documentation: "`inverse_condition`: minimum divided by maximum singular value of the cables' directions \
+                        (moments divided by the platform's size); 0 at a singular pose",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
-            one("inverse_condition", "1", "least over largest singular value of the cables' scaled directions")
+            one("inverse_condition", "1", "minimum divided by maximum singular value of the cables' scaled directions")
         },
         values: |row, _, out| out.push(Value::real(Some(statics::inverse_condition(row.robot, row.rest)))),
     },
     Definition {
         name: "energy",
         about: "potential energy of platform, load and cables",
-        documentation: "`potential_energy_j`: of platform, load and cables, heights from the world's origin",
+        documentation: "`potential_energy_j`: potential energy of platform, load and cables, heights from the world's \
+                        origin",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
@@ -275,14 +279,14 @@ static TABLE: [Definition; 17] = [
     },
     Definition {
         name: "pose",
-        about: "the pose that is found",
-        documentation: "`pose_x_m` … `pose_yaw_deg`: the pose that is found, which a `sweep` from lengths asks for",
+        about: "pose of the equilibrium",
+        documentation: "`pose_x_m` … `pose_yaw_deg`: pose of the equilibrium, which a `sweep` from lengths computes",
         takes: Takes::Nothing,
         needs: Needs::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
             let axes = AXES.iter().enumerate().map(|(i, axis)| (axis, if i < 3 { "m" } else { "deg" }));
-            let about = "of the pose found, world axes, R = Rz Ry Rx";
+            let about = "coordinate of the equilibrium pose, world axes, R = Rz Ry Rx";
             axes.map(|(axis, unit)| column(format!("pose_{axis}_{unit}"), unit, about)).collect()
         },
         values: |row, _, out| {
@@ -293,7 +297,7 @@ static TABLE: [Definition; 17] = [
     },
 ];
 
-/// One thing to know about every point, by its name; `frequencies:3` and `model-error:spring` have a parameter.
+/// Quantity to compute at every point, given by its name; `frequencies:3` and `model-error:spring` have a parameter.
 ///
 /// # Example
 /// ```
@@ -311,13 +315,13 @@ pub struct Quantity {
     parameter: Parameter,
 }
 
-/// A name that is no quantity.
+/// Error of a name that is not a quantity.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("there is no quantity `{name}`{hint}")]
 pub struct UnknownQuantity {
-    /// As given.
+    /// Name as given.
     pub name: String,
-    /// The nearest one or all of them.
+    /// End of the message: the nearest name, or all names.
     pub hint: String,
 }
 
@@ -332,7 +336,7 @@ impl Quantity {
         TABLE.iter().map(|of| format!("| `{}` | {} |\n", of.name, of.documentation)).collect()
     }
 
-    /// Its name, the parameter written out.
+    /// Name with its parameter, also if the parameter is the default.
     pub fn name(&self) -> String {
         let head = self.definition.head();
         match self.parameter {
@@ -342,12 +346,12 @@ impl Quantity {
         }
     }
 
-    /// Its description, in a line.
+    /// Description in one line.
     pub fn about(&self) -> &'static str {
         self.definition.about
     }
 
-    /// How many values of a kind it has, if its name says so: 3 of `frequencies:3`.
+    /// Number of values, if the name contains it: 3 for `frequencies:3`.
     pub fn count(&self) -> Option<usize> {
         match self.parameter {
             Parameter::Count(count) => Some(count),
@@ -355,17 +359,17 @@ impl Quantity {
         }
     }
 
-    /// Its columns for a robot.
+    /// Columns of the quantity for a robot.
     pub fn columns(&self, robot: &Robot) -> Vec<Column> {
         (self.definition.columns)(robot, self.parameter)
     }
 
-    /// Number of the lowest natural frequencies that it shows, in the cable model of the options.
+    /// Number of the lowest natural frequencies that it shows, with the cable model of the options.
     pub(super) fn frequencies(&self) -> usize {
         (self.definition.frequencies)(self.parameter)
     }
 
-    /// Whether it does not exist with a static model.
+    /// True if it does not exist for a static model.
     pub(super) fn excludes(&self, model: StaticModel) -> bool {
         match self.definition.needs {
             Needs::Anything => false,
@@ -374,8 +378,8 @@ impl Quantity {
         }
     }
 
-    /// Adds its values at a point.
-    pub(super) fn values(&self, row: &mut Row<'_>, out: &mut Vec<Value>) {
+    /// Adds the values of the quantity at a point.
+    pub(super) fn values(&self, row: &mut PointEvaluation<'_>, out: &mut Vec<Value>) {
         (self.definition.values)(row, self.parameter, out);
     }
 }
@@ -393,12 +397,12 @@ impl fmt::Debug for Quantity {
 }
 
 impl Definition {
-    /// The name without its parameter.
+    /// Name without its parameter.
     fn head(&self) -> &'static str {
         self.name.split(':').next().unwrap_or(self.name)
     }
 
-    /// The parameter that a name has after its colon; `None` if it is none of this quantity.
+    /// Parameter after the colon of a name; `None` if this quantity has no such parameter.
     fn parameter(&self, text: Option<&str>) -> Option<Parameter> {
         match (&self.takes, text) {
             (Takes::Nothing, None) => Some(Parameter::None),
@@ -428,13 +432,13 @@ impl Parameter {
         }
     }
 
-    /// The name of the model as a part of a column's.
+    /// Name of the model in the form that is used in names of columns.
     fn underscored(self) -> String {
         self.model().map_or_else(String::new, |model| model.name().replace('-', "_"))
     }
 }
 
-/// Cable models that are compared with the exact one.
+/// Cable models that are compared with `catenary-dynamic`.
 fn simpler_models() -> impl Iterator<Item = CableModel> {
     CableModel::ALL.into_iter().filter(|model| *model != CableModel::CatenaryDynamic)
 }
@@ -460,10 +464,14 @@ fn hint(text: &str) -> String {
     let head = text.split(':').next().unwrap_or(text);
     match TABLE.iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
         Some(Takes::Count) => {
-            return format!(": how many is a whole number from 1 to {MAX_FREQUENCIES}, as in {head}:3");
+            return format!(": give a whole number from 1 to {MAX_FREQUENCIES} after the colon, as in {head}:3");
         }
         Some(Takes::Model(_)) if text.contains(':') => {
             let models: Vec<&str> = simpler_models().map(CableModel::name).collect();
+            let parameter = text.split_once(':').map_or("", |(_, parameter)| parameter);
+            if let Some(near) = nearest(parameter, models.iter().copied()) {
+                return format!("; did you mean `{head}:{near}`?");
+            }
             return format!(": the model after the colon is one of {}", models.join(", "));
         }
         _ => {}
@@ -475,24 +483,24 @@ fn hint(text: &str) -> String {
     }
 }
 
-/// A column of numbers.
+/// Column of numbers.
 fn column(name: String, unit: &'static str, about: &str) -> Column {
-    Column { name, unit: unit.into(), about: about.to_owned(), kind: Kind::Real }
+    Column { name, unit: unit.into(), about: about.to_owned(), kind: ColumnKind::Real }
 }
 
-/// One column of numbers.
+/// Single column of numbers.
 fn one(name: &str, unit: &'static str, about: &str) -> Vec<Column> {
     vec![column(name.to_owned(), unit, about)]
 }
 
-/// A column of numbers per cable.
+/// Columns of numbers, one per cable.
 fn each_cable(robot: &Robot, prefix: &str, suffix: &str, unit: &'static str, about: &str) -> Vec<Column> {
     robot.cables.iter().map(|cable| column(format!("{prefix}_{}_{suffix}", cable.name), unit, about)).collect()
 }
 
 fn stiffness_columns(robot: &Robot) -> Vec<Column> {
     let motion = &robot.platform.motion;
-    let about = "load along this coordinate over the motion along it, all others free";
+    let about = "load along this coordinate divided by the motion along it, with all other coordinates free";
     let names = motion.coordinate_names().iter().enumerate();
     names
         .map(|(k, name)| {
@@ -502,7 +510,7 @@ fn stiffness_columns(robot: &Robot) -> Vec<Column> {
         .collect()
 }
 
-/// Rigid cables of given lengths close only where there are as many as degrees of freedom.
+/// True if rigid cables of given lengths have a pose: only with as many cables as degrees of freedom.
 pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
     robot.cables.len() == robot.platform.motion.count()
 }
@@ -513,7 +521,7 @@ fn pose_error_columns(robot: &Robot) -> Vec<Column> {
     } else {
         &["spring_from_catenary"]
     };
-    let about = "distance of the platform origin between two static models at the same lengths";
+    let about = "distance between the platform origins of two static models at the same lengths";
     pairs.iter().map(|pair| column(format!("{pair}_distance_m"), "m", about)).collect()
 }
 
@@ -545,7 +553,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_quantity_is_told_with_what_there_is() {
+    fn an_unknown_quantity_is_answered_with_the_known_ones() {
         for (name, says) in [
             ("first-freq", "did you mean `first-frequency`"),
             ("frequencies:0", "from 1 to 100"),

@@ -1,42 +1,42 @@
-//! What a file says of itself: robot, plan, columns. Two results belong together if these are the same.
+//! Description of a file of rows: robot, plan, columns. Files belong to the same sweep if their descriptions are equal.
 
-use crate::sweep::{Chunk, Column, Kind, Values};
+use crate::sweep::{Chunk, Column, ColumnKind, Values};
 use serde_json::{Map, Value, json};
 use std::fmt;
 use std::io;
 use std::ops::Range;
 
-/// Version of the files; a change of their meaning is another.
+/// Version of the files. It changes if the meaning of the files changes.
 pub const SCHEMA: &str = "funicular-sweep/1";
 
-/// What a sweep is, in full: the same record means the same rows, bit for bit.
+/// Complete description of a sweep: equal records mean equal rows, bit for bit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     /// Text of the robot file, with its changes.
     pub robot_file: String,
     /// Points, quantities and options, as JSON.
     pub plan: Map<String, Value>,
-    /// The columns of the rows.
+    /// Columns of the rows.
     pub columns: Vec<Column>,
     /// Number of rows, of all parts.
     pub rows: usize,
-    /// Rows of a chunk.
+    /// Number of rows per chunk.
     pub chunk_rows: usize,
-    /// Which part the file is to hold.
+    /// Part of the sweep that the file holds; `None` for the complete sweep.
     pub part: Option<Part>,
 }
 
-/// One of several parts of a sweep.
+/// Part `k/n` of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// Which, from one.
+    /// Number of the part, from 1.
     pub number: usize,
-    /// Of how many.
+    /// Number of all parts.
     pub of: usize,
 }
 
 impl Part {
-    /// Its chunks, of all. Parts differ by one chunk at most.
+    /// Chunks of the part, out of all `chunks`. The sizes of parts differ by at most one chunk.
     pub fn range(&self, chunks: usize) -> Range<usize> {
         let at = |k: usize| (chunks as u128 * k as u128 / self.of as u128) as usize;
         at(self.number - 1)..at(self.number)
@@ -53,31 +53,32 @@ impl std::str::FromStr for Part {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const MOST: usize = 100_000;
-        let form = || format!("`{text}` is no part: write k/n, as in 3/8, k from 1 to n, n up to {MOST}");
+        const MAX_PARTS: usize = 100_000;
+        let form =
+            || format!("`{text}` is not a part: write k/n, as in 3/8, with k from 1 to n and n up to {MAX_PARTS}");
         let (number, of) = text.split_once('/').ok_or_else(form)?;
         let (number, of): (usize, usize) =
             (number.trim().parse().map_err(|_| form())?, of.trim().parse().map_err(|_| form())?);
-        if (1..=of).contains(&number) && of <= MOST { Ok(Self { number, of }) } else { Err(form()) }
+        if (1..=of).contains(&number) && of <= MAX_PARTS { Ok(Self { number, of }) } else { Err(form()) }
     }
 }
 
-/// In what two records differ.
+/// First difference between two records.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Difference {
+pub struct RecordDifference {
     what: String,
     theirs: String,
     ours: String,
 }
 
-impl Difference {
-    /// Of two values, if they differ.
+impl RecordDifference {
+    /// Difference of two values; `None` if they are equal.
     pub fn of_values(what: &str, theirs: &Value, ours: &Value) -> Option<Self> {
         (theirs != ours).then(|| Self { what: what.to_owned(), theirs: shown(theirs), ours: shown(ours) })
     }
 }
 
-impl fmt::Display for Difference {
+impl fmt::Display for RecordDifference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { what, theirs, ours } = self;
         write!(f, "its {what}: {theirs}, here: {ours}")
@@ -85,12 +86,12 @@ impl fmt::Display for Difference {
 }
 
 impl Record {
-    /// Number of chunks, of all parts.
+    /// Number of chunks of all parts.
     pub fn chunks(&self) -> usize {
         self.rows.div_ceil(self.chunk_rows)
     }
 
-    /// The chunks that the file is to hold.
+    /// Chunks that the file holds.
     pub fn range(&self) -> Range<usize> {
         self.part.map_or(0..self.chunks(), |part| part.range(self.chunks()))
     }
@@ -100,7 +101,7 @@ impl Record {
         (chunks.end * self.chunk_rows).min(self.rows).saturating_sub(chunks.start * self.chunk_rows)
     }
 
-    /// All but the robot file, as JSON.
+    /// Record without the robot file, as JSON.
     pub fn to_json(&self) -> Value {
         let columns: Vec<Value> = self
             .columns
@@ -119,28 +120,32 @@ impl Record {
         })
     }
 
-    /// Whether the columns of a chunk are those of the plan: other programs may have rewritten its file.
+    /// Checks that the columns of a chunk are the columns of the plan: another program may have rewritten the file.
     ///
     /// # Errors
-    /// What is to be said of the file.
+    /// A message about the file.
     pub fn check(&self, chunk: &Chunk) -> io::Result<()> {
         let kinds = chunk.columns.iter().map(|values| match values {
-            Values::Real(_) => Kind::Real,
-            Values::Flag(_) => Kind::Flag,
-            Values::Text(_) => Kind::Text,
+            Values::Real(_) => ColumnKind::Real,
+            Values::Flag(_) => ColumnKind::Flag,
+            Values::Text(_) => ColumnKind::Text,
         });
         if kinds.eq(self.columns.iter().map(|column| column.kind)) {
             return Ok(());
         }
-        Err(io::Error::new(io::ErrorKind::InvalidData, "its columns are not those of its plan"))
+        Err(io::Error::new(io::ErrorKind::InvalidData, "its columns differ from the columns of its plan"))
     }
 
-    /// In what another record, as its file has it, differs from this; parts are not compared.
-    pub fn difference(&self, json: &Value, robot_file: &str) -> Option<Difference> {
+    /// First difference between the record in a file and this record. Parts are not compared.
+    pub fn difference(&self, json: &Value, robot_file: &str) -> Option<RecordDifference> {
         let ours = self.to_json();
         for key in ["schema", "program"] {
             if ours[key] != json[key] {
-                return Some(Difference { what: key.to_owned(), theirs: shown(&json[key]), ours: shown(&ours[key]) });
+                return Some(RecordDifference {
+                    what: key.to_owned(),
+                    theirs: shown(&json[key]),
+                    ours: shown(&ours[key]),
+                });
             }
         }
         if robot_file != self.robot_file {
@@ -153,28 +158,28 @@ impl Record {
     }
 }
 
-/// Name of a kind of column in the files.
-pub fn kind_name(kind: Kind) -> &'static str {
+/// Name of a column kind in the files.
+pub fn kind_name(kind: ColumnKind) -> &'static str {
     match kind {
-        Kind::Real => "real",
-        Kind::Flag => "flag",
-        Kind::Text => "text",
+        ColumnKind::Real => "real",
+        ColumnKind::Flag => "flag",
+        ColumnKind::Text => "text",
     }
 }
 
-/// A value on one line, not too long.
+/// Value on one line, shortened if it is long.
 fn shown(value: &Value) -> String {
-    const MOST: usize = 60;
+    const MAX_CHARS: usize = 60;
     let text = match value {
         Value::Null => return "missing".to_owned(),
         Value::String(text) => format!("\"{text}\""),
         other => other.to_string(),
     };
-    if text.chars().count() <= MOST { text } else { text.chars().take(MOST - 1).collect::<String>() + "…" }
+    if text.chars().count() <= MAX_CHARS { text } else { text.chars().take(MAX_CHARS - 1).collect::<String>() + "…" }
 }
 
-/// The first place where two values differ.
-fn deep_difference(what: &str, theirs: &Value, ours: &Value) -> Option<Difference> {
+/// First place where two values differ.
+fn deep_difference(what: &str, theirs: &Value, ours: &Value) -> Option<RecordDifference> {
     if theirs == ours {
         return None;
     }
@@ -191,11 +196,11 @@ fn deep_difference(what: &str, theirs: &Value, ours: &Value) -> Option<Differenc
         let mut items = a.iter().zip(b).enumerate();
         return items.find_map(|(i, (a, b))| deep_difference(&format!("{what}, item {}", i + 1), a, b));
     }
-    Some(Difference { what: what.to_owned(), theirs: shown(theirs), ours: shown(ours) })
+    Some(RecordDifference { what: what.to_owned(), theirs: shown(theirs), ours: shown(ours) })
 }
 
-/// The first line in which two robot files differ.
-fn line_difference(theirs: &str, ours: &str) -> Difference {
+/// First line in which two robot files differ.
+fn line_difference(theirs: &str, ours: &str) -> RecordDifference {
     let (mut a, mut b) = (theirs.lines(), ours.lines());
     let mut number = 0;
     loop {
@@ -203,7 +208,11 @@ fn line_difference(theirs: &str, ours: &str) -> Difference {
         let (left, right) = (a.next(), b.next());
         if left != right || left.is_none() {
             let line = |line: Option<&str>| line.map_or("missing".to_owned(), |line| format!("`{}`", line.trim()));
-            return Difference { what: format!("robot file, line {number}"), theirs: line(left), ours: line(right) };
+            return RecordDifference {
+                what: format!("robot file, line {number}"),
+                theirs: line(left),
+                ours: line(right),
+            };
         }
     }
 }

@@ -1,25 +1,25 @@
-//! Robots that differ in values of their file, as points of a sweep.
+//! Points of a sweep over values of the robot file.
 
 use crate::set_values::{self, Assignment};
-use crate::sweep::{Column, Kind, Point, Points, Steps, digits};
+use crate::sweep::{Column, ColumnKind, Point, Points, Steps, digits};
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
 use std::borrow::Cow;
 
-/// One value of the robot file that varies.
+/// Value of the robot file that varies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ValueAxis {
     /// Path of the value in the robot file.
     pub path: set_values::Path,
-    /// The values.
+    /// Values along the axis.
     pub steps: Steps,
 }
 
 impl ValueAxis {
-    /// An axis from the text of its path and its values.
+    /// Axis from the text of its path and its values.
     ///
     /// # Errors
-    /// A text that is no path.
+    /// A text that is not a path.
     pub fn new(path: &str, steps: Steps) -> Result<Self, String> {
         Ok(Self { path: set_values::path(path)?, steps })
     }
@@ -28,25 +28,25 @@ impl ValueAxis {
 /// Name of the option in messages.
 const OPTION: &str = "⟪vary⟫";
 
-/// Changes of a robot that was read: the state and the loads of a request.
+/// Changes of a robot after reading: the state and the loads of a request.
 type Adjust = Box<dyn Fn(Robot) -> Result<Robot, String> + Send + Sync>;
 
-/// All combinations of values of a robot file; the first varies fastest.
+/// All combinations of values of a robot file. The first value varies fastest.
 pub struct RobotValues {
     text: String,
     axes: Vec<ValueAxis>,
-    /// The file with the values of the first point, and the place of each axis among its numbers. `None` where an axis is
-    /// no number there; then every robot is read from a text of its own.
+    /// Numbers of the file with the values of the first point, and the index of each axis among them. `None` if an axis
+    /// is not a number of the file; every robot is then read from its own text.
     numbers: Option<(Parameters, Vec<usize>)>,
     adjust: Adjust,
 }
 
 impl RobotValues {
-    /// Takes the text of a robot file, values that vary in it, and changes of every robot after it was read.
+    /// Makes the points from the text of a robot file, the values that vary, and changes of every robot after reading.
     ///
     /// # Errors
-    /// A text for the user: a value that varies twice, an end of one of the variations alone that makes no robot, or a
-    /// value that changes nothing, since what is done to every robot sets it, too.
+    /// A message for the user: a value that varies twice, an end of one variation that alone makes no valid robot, or a
+    /// value that changes nothing because another option sets it for every robot.
     pub fn new(text: String, axes: Vec<ValueAxis>, adjust: Adjust) -> Result<Self, String> {
         for (i, axis) in axes.iter().enumerate() {
             if axes[..i].iter().any(|other| other.path.is_same(&axis.path)) {
@@ -72,8 +72,8 @@ impl RobotValues {
             }
             if values_differ && !robots_differ {
                 return Err(format!(
-                    "{OPTION} {} changes nothing: no part of the robot uses this value, or another option sets it; leave one of \
-                     them out",
+                    "{OPTION} {} changes nothing: no part of the robot uses this value, or another option sets it; \
+                     leave out one of them",
                     axis.path.text
                 ));
             }
@@ -82,7 +82,7 @@ impl RobotValues {
         Ok(variations)
     }
 
-    /// The numbers that vary, in a text that has all of them: the one of the first point.
+    /// Numbers that vary, found in the text of the first point, which contains all of them.
     fn find_numbers(&self) -> Option<(Parameters, Vec<usize>)> {
         let text = set_values::apply(&self.text, &self.assignments(&self.values(0))).ok()?;
         let parameters = Parameters::from_toml(&text).ok()?;
@@ -90,21 +90,21 @@ impl RobotValues {
         Some((parameters, places))
     }
 
-    /// The values that vary.
+    /// Values that vary.
     pub fn axes(&self) -> &[ValueAxis] {
         &self.axes
     }
 
-    /// The robot of the first point.
+    /// Robot of the first point.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A message that says what is wrong with it.
     pub fn first(&self) -> Result<Robot, String> {
         self.robot_at(&self.values(0))
     }
 
-    /// The robot with these values, one per axis. By numbers where that succeeds; a robot that cannot be is read from its
-    /// text, whose error names line and column.
+    /// Robot with these values, one per axis. The numbers are replaced directly if that succeeds. An invalid robot is
+    /// read from its text, so that the error names line and column.
     fn robot_at(&self, values: &[f64]) -> Result<Robot, String> {
         if let Some((parameters, places)) = &self.numbers {
             let changes: Vec<(usize, f64)> = places.iter().copied().zip(values.iter().copied()).collect();
@@ -115,7 +115,7 @@ impl RobotValues {
         self.robot(&self.assignments(values))
     }
 
-    /// The robot of a text with these values.
+    /// Robot read from the text with these values.
     fn robot(&self, assignments: &[Assignment]) -> Result<Robot, String> {
         let text = set_values::apply(&self.text, assignments).map_err(|error| error.to_string())?;
         let robot = Robot::from_toml(&text).map_err(|error| {
@@ -127,7 +127,7 @@ impl RobotValues {
         (self.adjust)(robot)
     }
 
-    /// The values of a point, one per axis.
+    /// Values of a point, one per axis.
     fn values(&self, i: usize) -> Vec<f64> {
         let digits = digits(i, self.axes.iter().map(|axis| axis.steps.count()));
         digits.zip(&self.axes).map(|(digit, axis)| axis.steps.at(digit)).collect()
@@ -150,7 +150,7 @@ impl Points for RobotValues {
                 name: axis.path.text.clone(),
                 unit: unit(axis.path.key()).into(),
                 about: "value of the robot file".to_owned(),
-                kind: Kind::Real,
+                kind: ColumnKind::Real,
             })
             .collect()
     }
@@ -165,7 +165,7 @@ impl Points for RobotValues {
     }
 }
 
-/// The unit that ends the name of a key; the longest that fits.
+/// Unit at the end of a key's name; the longest that fits.
 fn unit(key: &str) -> &'static str {
     const UNITS: [(&str, &str); 16] = [
         ("_n_per_m", "N/m"),
@@ -214,8 +214,8 @@ mod tests {
     }
 
     /// Every number of every robot of the library, one after the other and in pairs, with values inside and outside its
-    /// range: the robot with the number in its place is the one that is read from the text with the number in it, bit for
-    /// bit, and both ways refuse the same robots with the same words.
+    /// range: the robot with the number in its place is the one that is read from the text with the number in it, bit
+    /// for bit, and both ways refuse the same robots with the same words.
     #[test]
     fn numbers_in_place_and_numbers_in_the_text_make_the_same_robots() {
         let (mut equal, mut refused) = (0, 0);

@@ -1,4 +1,4 @@
-//! One point: its equilibrium, and what is requested of it.
+//! Evaluation of one point: its equilibrium and the requested quantities.
 
 use super::columns::Value;
 use super::frequency::{self, Lowest};
@@ -14,22 +14,23 @@ use funicular::robot::Robot;
 use funicular::statics::{self, Equilibrium, Solution, Stability, StaticModel};
 use std::cell::OnceCell;
 
-/// A robot at rest at a point, and what several quantities share.
-pub(super) struct Row<'a> {
+/// Robot at the equilibrium of a point, with results that several quantities share.
+pub(super) struct PointEvaluation<'a> {
     pub(super) robot: &'a Robot,
     pub(super) rest: &'a Equilibrium,
     options: &'a Options,
-    /// Lowest frequencies in the cable model of the options, as many as are needed at most.
+    /// Lowest frequencies with the cable model of the options, as many as the quantities need.
     lowest: OnceCell<Result<Lowest, Status>>,
-    most: usize,
-    /// The first with catenary-dynamic cables, for comparisons.
+    /// Number of frequencies in `lowest`.
+    frequency_count: usize,
+    /// First frequency with the cable model `catenary-dynamic`, for comparisons.
     exact: OnceCell<Result<Lowest, Status>>,
-    /// The first reason why something requested is missing.
+    /// First reason why a requested value is missing.
     missing: Option<Status>,
 }
 
-/// Adds the cells of a point behind its coordinates: feasible, status, reason, distance from the requested pose if that is
-/// a column, then the quantities; `width` of them.
+/// Adds the `width` cells of a point that follow its coordinates: feasible, status, reason, distance from the requested
+/// pose if there is such a column, then the quantities.
 pub(super) fn cells(
     point: &Point,
     quantities: &[Quantity],
@@ -45,7 +46,7 @@ pub(super) fn cells(
             out.resize(begin + width, Value::Nothing);
         }
         Ok((robot, Solution { equilibrium, requested_pose, .. })) => {
-            // The quantities come first: they know what is missing, which the status says.
+            // The quantities are evaluated first, because the status depends on values that are missing.
             let (values, missing) = quantity_values(robot, &equilibrium, quantities, options);
             head(true, missing, out);
             if with_distance {
@@ -56,7 +57,7 @@ pub(super) fn cells(
     }
 }
 
-/// The robot of a point and its equilibrium, or why it has none within the limits.
+/// Robot of a point and its equilibrium, or the reason why no equilibrium within the limits exists.
 fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solution), Status> {
     let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("invalid-robot", reason))?;
     let rest = statics::solve_at(robot, state, options.static_model, &options.tension_rule)
@@ -67,17 +68,17 @@ fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solut
     }
 }
 
-/// Values of all quantities, and the first reason why one is missing.
+/// Values of all quantities, and the first reason why a value is missing.
 fn quantity_values(
     robot: &Robot,
     rest: &Equilibrium,
     quantities: &[Quantity],
     options: &Options,
 ) -> (Vec<Value>, Option<Status>) {
-    let most = quantities.iter().map(Quantity::frequencies).max().unwrap_or(0);
+    let frequency_count = quantities.iter().map(Quantity::frequencies).max().unwrap_or(0);
     let missing = Status::note_for(robot, rest);
     let (lowest, exact) = (OnceCell::new(), OnceCell::new());
-    let mut row = Row { robot, rest, options, lowest, most, exact, missing };
+    let mut row = PointEvaluation { robot, rest, options, lowest, frequency_count, exact, missing };
     let mut values = Vec::new();
     for quantity in quantities {
         quantity.values(&mut row, &mut values);
@@ -90,8 +91,8 @@ fn head(feasible: bool, status: Option<Status>, out: &mut Vec<Value>) {
     out.extend([Value::Flag(feasible), Value::Text(code), reason.map_or(Value::Nothing, Value::Text)]);
 }
 
-impl Row<'_> {
-    /// A value, or nothing with the reason in the row's status unless there is one already.
+impl PointEvaluation<'_> {
+    /// Adds a value. If there is only a reason, adds nothing and keeps the reason, unless the row has one already.
     pub(super) fn push(&mut self, value: Option<Result<f64, Status>>, out: &mut Vec<Value>) {
         match value {
             None => out.push(Value::Nothing),
@@ -103,7 +104,7 @@ impl Row<'_> {
         }
     }
 
-    /// Least and greatest tension anywhere in each cable.
+    /// Minimum and maximum tension anywhere in each cable.
     pub(super) fn tensions(&self) -> impl Iterator<Item = (f64, f64)> {
         self.rest.cables.iter().map(|cable| match &cable.hanging {
             Some(hanging) => (hanging.catenary.min_tension(), hanging.catenary.max_tension()),
@@ -111,10 +112,16 @@ impl Row<'_> {
         })
     }
 
-    /// The lowest modes in the cable model asked for.
+    /// Lowest modes with the requested cable model.
     pub(super) fn modes(&mut self) -> Option<&[(f64, Kind)]> {
         let found = self.lowest.get_or_init(|| {
-            frequency::lowest(self.robot, self.rest, self.options.linearisation, self.most, self.options.highest_hz)
+            frequency::lowest(
+                self.robot,
+                self.rest,
+                self.options.linearisation,
+                self.frequency_count,
+                self.options.highest_hz,
+            )
         });
         match found {
             Ok(lowest) => {
@@ -138,8 +145,8 @@ impl Row<'_> {
         out.resize(end, Value::Nothing);
     }
 
-    /// Poses of springs and of rigid cables of the same unstrained lengths, each against the others. An equilibrium that
-    /// does not hold the platform, as one of springs that are all slack, is no pose to compare with.
+    /// Distances between the poses of catenary, spring and rigid cables with the same unstrained lengths. An
+    /// equilibrium that does not hold the platform, for example with slack springs only, is not compared.
     pub(super) fn pose_error(&mut self, out: &mut Vec<Value>) {
         let lengths: Vec<f64> = self.rest.cables.iter().map(|cable| cable.unstrained_length).collect();
         let with = |model: StaticModel| {
@@ -169,13 +176,13 @@ impl Row<'_> {
         self.push(Some(of_spring), out);
     }
 
-    /// First frequency with another cable model over the exact one, less one.
+    /// First frequency with another cable model divided by the one with `catenary-dynamic`, minus one.
     pub(super) fn model_error(&mut self, model: CableModel) -> Result<f64, Status> {
         let Options { linearisation, highest_hz, .. } = *self.options;
         let (robot, rest) = (self.robot, self.rest);
         let first = |cable_model| {
-            let asked = Linearisation { cable_model, ..linearisation };
-            frequency::lowest(robot, rest, asked, 1, highest_hz)
+            let requested = Linearisation { cable_model, ..linearisation };
+            frequency::lowest(robot, rest, requested, 1, highest_hz)
         };
         let mut certified = true;
         let mut of = |found: &Result<Lowest, Status>| match found {
@@ -185,10 +192,10 @@ impl Row<'_> {
             }
             Err(status) => Err(status.clone()),
         };
-        let exact = if linearisation.cable_model == CableModel::CatenaryDynamic && self.most > 0 {
-            of(self
-                .lowest
-                .get_or_init(|| frequency::lowest(self.robot, self.rest, linearisation, self.most, highest_hz)))?
+        let exact = if linearisation.cable_model == CableModel::CatenaryDynamic && self.frequency_count > 0 {
+            of(self.lowest.get_or_init(|| {
+                frequency::lowest(self.robot, self.rest, linearisation, self.frequency_count, highest_hz)
+            }))?
         } else {
             of(self.exact.get_or_init(|| first(CableModel::CatenaryDynamic)))?
         };
@@ -199,25 +206,26 @@ impl Row<'_> {
         Ok(simpler / exact - 1.0)
     }
 
-    /// Least eigenvalue of the scaled static stiffness with another cable model over that of the catenary, less one.
+    /// Minimum eigenvalue of the scaled static stiffness with another cable model divided by the one with
+    /// `catenary-static`, minus one.
     pub(super) fn stiffness_error(&self, model: CableModel) -> Result<f64, Status> {
-        let least = |cable_model| {
-            let asked = Linearisation { cable_model, ..self.options.linearisation };
-            let dynamics = Dynamics::about(self.robot, self.rest, asked, 0.0)
+        let min_stiffness = |cable_model| {
+            let requested = Linearisation { cable_model, ..self.options.linearisation };
+            let dynamics = Dynamics::about(self.robot, self.rest, requested, 0.0)
                 .map_err(|error| Status::new("no-comparison", &error))?;
             Ok::<f64, Status>(dynamics.least_static_stiffness())
         };
-        let exact = least(CableModel::CatenaryStatic)?;
+        let exact = min_stiffness(CableModel::CatenaryStatic)?;
         if exact <= 0.0 {
             return Err(Status::new(
                 "unstable",
-                "the least stiffness is not positive: nothing can be compared with it",
+                "the minimum stiffness is not positive: no model can be compared with it",
             ));
         }
-        Ok(least(model)? / exact - 1.0)
+        Ok(min_stiffness(model)? / exact - 1.0)
     }
 }
 
 fn not_certified() -> Status {
-    Status::new("not-certified", "the count does not confirm the lowest natural frequencies")
+    Status::new("not-certified", "the mode count does not confirm the lowest natural frequencies")
 }

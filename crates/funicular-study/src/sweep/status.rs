@@ -1,37 +1,40 @@
-//! Why a row has no numbers, or not all: a short code that stays, and a text.
+//! Status of a row: a fixed short code and a text that say why numbers are missing.
 
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticsError};
 use funicular::warnings::{self, Warning};
 use std::borrow::Cow;
 
-/// What there is to say of a row.
+/// Status of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Status {
     pub(super) code: &'static str,
     pub(super) reason: String,
 }
 
-/// Every code that a row can have, with what it means.
+/// Every code that a row can have, with its meaning.
 pub const CODES: [(&str, &str); 15] = [
-    ("ok", "everything asked is there"),
-    ("out-of-plane", "infeasible: a pose that a planar platform cannot have"),
+    ("ok", "all requested quantities are there"),
+    ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends"),
-    ("singular", "infeasible: the cables' directions are dependent"),
+    ("singular", "infeasible: the cables' directions are linearly dependent"),
     (
         "negative-tension",
-        "infeasible: a straight cable would have to push, and no sagging ones that hold the pose were found",
+        "infeasible: a straight cable would have to push, and no sagging cables that hold the pose were found",
     ),
-    ("tension-limits", "infeasible: no tensions within the limits, or beyond what a rope bears"),
-    ("not-found", "infeasible: no tensions within the limits found, and no proof that there are none"),
-    ("not-converged", "infeasible: no equilibrium found"),
-    ("invalid-robot", "infeasible: the values of this row make no robot"),
+    (
+        "tension-limits",
+        "infeasible: no tensions are within the limits, or a tension is beyond a limit or breaking load",
+    ),
+    ("not-found", "infeasible: no tensions within the limits were found, without a proof that there are none"),
+    ("not-converged", "infeasible: no equilibrium was found"),
+    ("invalid-robot", "infeasible: the values of this row do not make a valid robot"),
     ("invalid-state", "infeasible: the state does not fit the robot"),
-    ("unstable", "an equilibrium that the platform leaves by itself"),
+    ("unstable", "the equilibrium is unstable: the platform leaves it by itself"),
     ("slack", "a cable carries no force"),
-    ("no-frequency", "no natural frequency to give: the model does not exist here, or none is below the limit"),
+    ("no-frequency", "there is no natural frequency: the model does not exist here, or none is below the limit"),
     ("not-certified", "the frequencies are not certified"),
-    ("no-comparison", "another model that was asked for has no answer here"),
+    ("no-comparison", "another model that was requested has no result here"),
 ];
 
 impl Status {
@@ -50,7 +53,7 @@ impl Status {
         Self::new(code, error)
     }
 
-    /// What makes an equilibrium infeasible: limits of tension that the robot has.
+    /// Status of an infeasible equilibrium: a tension is beyond a limit of the robot.
     pub(super) fn refusing(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         warnings::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
             Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("tension-limits", warning)),
@@ -58,7 +61,7 @@ impl Status {
         })
     }
 
-    /// What to mind of a feasible one.
+    /// Status of a feasible equilibrium with a caveat: unstable, or with a slack cable.
     pub(super) fn note_for(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let unstable = matches!(equilibrium.stability, Stability::Unstable { .. });
         if !unstable && !equilibrium.cables.iter().any(funicular::statics::CableState::is_slack) {
@@ -71,7 +74,7 @@ impl Status {
         })
     }
 
-    /// Code and text as values.
+    /// Code and text of a status.
     pub(super) fn of(status: Option<Self>) -> (Cow<'static, str>, Option<Cow<'static, str>>) {
         match status {
             None => (Cow::Borrowed("ok"), None),

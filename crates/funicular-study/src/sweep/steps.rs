@@ -3,39 +3,43 @@
 /// Values along one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Steps {
-    /// In equal steps, both ends included; at least two, ascending.
+    /// Values in equal steps, both ends included; at least two, ascending.
     Range {
-        /// The first.
+        /// First value.
         from: f64,
-        /// The last.
+        /// Last value.
         to: f64,
-        /// How many.
+        /// Number of values.
         count: usize,
     },
-    /// As listed; at least one.
+    /// Listed values, at least one.
     List(Vec<f64>),
 }
 
 impl Steps {
-    /// `count` values from `from` to `to`, or what is wrong with these numbers.
+    /// Range of `count` values from `from` to `to`.
     ///
     /// # Errors
-    /// A text: fewer than two values, an end that is not above the start, or more values than numbers there can be
-    /// told apart.
+    /// A message: fewer than two values, an end that is not above the start, or more values than there are different
+    /// floating-point numbers in the range.
     pub fn range(from: f64, to: f64, count: usize) -> Result<Self, String> {
         if !(to > from && from.is_finite() && to.is_finite()) {
             return Err(format!("the range ends at {to}, it must end above its start {from}"));
         }
         if count < 2 {
-            return Err(format!("{count} is not a number of values for a range: give 2 or more, or a single value"));
+            return Err(format!(
+                "a range cannot have {count} values: give 2 or more, or a single value without a range"
+            ));
         }
         if (to - from) / (count - 1) as f64 <= 4.0 * f64::EPSILON * from.abs().max(to.abs()) {
-            return Err(format!("{count} values are more than the numbers between {from} and {to} can tell apart"));
+            return Err(format!(
+                "between {from} and {to} there are fewer than {count} different numbers: give fewer values"
+            ));
         }
         Ok(Self::Range { from, to, count })
     }
 
-    /// A value that is listed twice.
+    /// First value that is listed twice, if any.
     pub fn repeated(&self) -> Option<f64> {
         let Self::List(values) = self else { return None };
         let mut values = values.clone();
@@ -51,7 +55,7 @@ impl Steps {
         }
     }
 
-    /// Value `i`; the first and the last of a range are exact.
+    /// Value `i`. The first and the last value of a range are exact.
     ///
     /// # Example
     /// ```
@@ -70,7 +74,7 @@ impl Steps {
     }
 }
 
-/// Digits of an index in a grid whose first axis runs fastest.
+/// Indices along the axes for an index in a grid whose first axis runs fastest.
 pub fn digits(mut index: usize, counts: impl Iterator<Item = usize>) -> impl Iterator<Item = usize> {
     counts.map(move |count| {
         let digit = index % count;

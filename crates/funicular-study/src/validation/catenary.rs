@@ -1,7 +1,7 @@
-//! The catenary alone.
+//! Elastic catenary of one cable.
 
 use super::reference::{HungBetween, IsolatedCable, Published};
-use super::{Bound, Case, Kind, Row, Section, over, worst};
+use super::{Bound, Case, Comparison, DifferenceKind, Section, over, worst};
 use anyhow::Result;
 use funicular::catenary::{Catenary, CatenaryError, Rope};
 
@@ -42,19 +42,21 @@ pub(super) fn section(published: &Published) -> Result<Section> {
     rows.extend(isolated_cable(&published.isolated_cable)?);
     Ok(Section {
         title: "Elastic catenary",
-        note: "Forces and stiffness of one hanging cable. Both sides solve the same equations: only rounding is left.",
+        note: "Forces and stiffness of one hanging cable. Both sides solve the same equations, so only rounding \
+               remains.",
         rows,
     })
 }
 
-/// The direct stiffnesses, each over its own size, and the coupling over the larger of them: it may be zero.
-fn stiffness(case: &Case, theirs: [f64; 3], cable: &Catenary) -> Row {
+/// Compares the direct stiffnesses relative to their own size, and the coupling, which may be zero, relative to the
+/// larger of them.
+fn stiffness(case: &Case, theirs: [f64; 3], cable: &Catenary) -> Comparison {
     let [[xx, xz], [_, zz]] = cable.tangent();
     let ours = [xx, xz, zz];
     let larger = theirs[0].max(theirs[2]);
     let sizes = [theirs[0], larger, theirs[2]];
     let difference = worst((0..3).map(|i| over((ours[i] - theirs[i]).abs(), sizes[i])));
-    let difference = (difference, Kind::Relative);
+    let difference = (difference, DifferenceKind::Relative);
     case.row("end stiffness xx, xz, zz [N/m]", (&theirs, &ours), difference, 1e-12, Bound::Rounding)
 }
 
@@ -75,8 +77,8 @@ fn describe(of: &HungBetween) -> String {
     format!("span {} m, rise {} m, length {} m", short(of.span_m), short(of.rise_m), short(of.unstrained_length_m))
 }
 
-/// A load at a node between two cables, in feet and kips as published.
-fn isolated_cable(of: &IsolatedCable) -> Result<Vec<Row>> {
+/// Compares a load at a node between two cables, in feet and kips as published.
+fn isolated_cable(of: &IsolatedCable) -> Result<Vec<Comparison>> {
     let at_rest = node(of, 0.0, [400.0, -96.0])?;
     let loaded = node(of, of.load_kip, [398.0, -114.0])?;
     let moved = [0, 1].map(|i| (loaded[i] - at_rest[i]) * of.metres_per_foot);
@@ -90,7 +92,7 @@ fn isolated_cable(of: &IsolatedCable) -> Result<Vec<Row>> {
     ])
 }
 
-/// Where the node is in balance with a load downward: Newton with differenced slopes.
+/// Equilibrium position of the node with a downward load, by Newton's method with finite differences.
 fn node(of: &IsolatedCable, load: f64, start: [f64; 2]) -> Result<[f64; 2], CatenaryError> {
     let cable = |span: f64, rise: f64, unstrained_length: f64| {
         let axial_stiffness = of.area_in2 * of.youngs_modulus_kip_per_in2;
@@ -113,7 +115,7 @@ fn node(of: &IsolatedCable, load: f64, start: [f64; 2]) -> Result<[f64; 2], Cate
         let ([fx, gx], [fz, gz]) = (balance(x + step, z)?, balance(x, z + step)?);
         let (a, b, c, d) = ((fx - f) / step, (fz - f) / step, (gx - g) / step, (gz - g) / step);
         let determinant = a * d - b * c;
-        // No further at once than the cables reach.
+        // A step is not longer than the reach of the cables.
         x -= ((d * f - b * g) / determinant).clamp(-20.0, 20.0);
         z -= ((a * g - c * f) / determinant).clamp(-20.0, 20.0);
     }

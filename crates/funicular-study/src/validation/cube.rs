@@ -1,7 +1,7 @@
-//! A point mass on eight strings.
+//! Point mass on eight strings.
 
 use super::reference::{Cube, CubeRow, Published, library};
-use super::{Bound, Case, Row, Section};
+use super::{Bound, Case, Comparison, Section};
 use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::catenary::Rope;
@@ -21,15 +21,16 @@ pub(super) fn section(published: &Published) -> Result<Section> {
     }
     Ok(Section {
         title: "A point mass on eight strings",
-        note: "Eight straight cables and 30 kg in the middle of a cube of 2.5 m, every frequency with its multiplicity. The \
-               reference has axial waves, which the closed form leaves out: a mode that stretches the cables is too high \
-               by up to (ω l √(m/EA))²/6. Its strings have the mass of the unstrained length spread over the stretched \
-               one: half of the strain.",
+        note: "Eight straight cables and 30 kg in the middle of a cube of 2.5 m, every frequency with its \
+               multiplicity. The reference includes axial waves, which the model shallow-dynamic leaves out: the \
+               frequency of a mode that stretches the cables is too high by up to (ω l √(m/EA))²/6. In the reference \
+               the mass of the unstrained length is spread over the stretched length, which changes frequencies by \
+               half of the strain.",
         rows,
     })
 }
 
-/// The linearisation at the middle of the cube with the tensions of the lengths, without sag.
+/// Linearisation at the middle of the cube, without sag, with the tensions that follow from the lengths.
 fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
     let (mut robot, _) = library("sap2000-8-cable-point-mass")?;
     robot.gravity_w = Vec3::zeros();
@@ -64,7 +65,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
     Ok((Dynamics::about(&robot, &rest, linearisation, cube.limit_hz)?, strain))
 }
 
-fn frequencies(cube: &Cube, model: &CubeRow) -> Result<Vec<Row>> {
+fn frequencies(cube: &Cube, model: &CubeRow) -> Result<Vec<Comparison>> {
     let (dynamics, strain) = held(cube, model)?;
     let found = modes::below(&dynamics, cube.limit_hz);
     let case = |name: String| Case { name, source: &cube.source };

@@ -1,7 +1,7 @@
 //! Damped natural frequencies, responses of points on cables, and shapes of undamped modes.
 
-use super::reference::{Damped, DampedRobot, Independent, Point, PointRobot, RopeDamping, robot};
-use super::{Bound, Case, Kind, Row, Section, shapes, worst};
+use super::reference::{Damped, DampedRobot, IndependentReference, PointRobot, ReferencePoint, RopeDamping, robot};
+use super::{Bound, Case, Comparison, DifferenceKind, Section, shapes, worst};
 use anyhow::{Context, Result};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
@@ -10,7 +10,7 @@ use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, StaticModel};
 
-pub(super) fn section(reference: &Damped, robots: &Independent) -> Result<Section> {
+pub(super) fn section(reference: &Damped, robots: &IndependentReference) -> Result<Section> {
     let toml = |id: &str| {
         let case = robots.cases.iter().find(|other| other.id == id).context("a robot of independent.json")?;
         Ok::<_, anyhow::Error>(&case.toml)
@@ -27,16 +27,17 @@ pub(super) fn section(reference: &Damped, robots: &Independent) -> Result<Sectio
     }
     Ok(Section {
         title: "Damped modes, shapes and points on cables, computed independently",
-        note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of the \
-               platform; responses whose force or motion is on a cable; energies, modal masses and shapes of undamped \
-               modes. The other program solves one eigenvalue problem of all unknowns in extended precision. A mode is \
-               known to the precision of its frequency over the relative gap to the next one; differences of energies \
-               and modal masses are divided by what that adds. Of lists the last value is shown and all are compared.",
+        note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of \
+               the platform; responses whose force or motion is on a cable; energies, modal masses and shapes of \
+               undamped modes. The other program solves one eigenvalue problem of all unknowns in extended precision. \
+               The error of a mode shape is the error of its frequency divided by the relative gap to the next \
+               frequency. The differences of energies and modal masses are therefore divided by 1 + 0.001/gap. All \
+               values of a list are compared; the table shows the last one.",
         rows,
     })
 }
 
-fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Row>> {
+fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Comparison>> {
     let case = Case { name: format!("{}, {}", of.robot, of.case), source };
     let (mut robot, lengths) = robot(toml)?;
     for cable in &mut robot.cables {
@@ -56,7 +57,7 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Row>> {
         damped.modes.iter().map(|mode| (mode.ringing_hz(), mode.frequency_hz() * mode.damping_ratio())).collect();
     ours.sort_by(|a, b| a.0.total_cmp(&b.0));
     let certified = if damped.certified { ours.len() } else { 0 };
-    // Frequencies that ring alike may come in any order: each is compared with the nearest that is left.
+    // Nearly equal frequencies may have any order: each is compared with the nearest one that is left.
     let mut left = ours.clone();
     let pairs = of.modes.iter().map(|theirs| {
         let gap = |(re, im): &(f64, f64)| (re - theirs.re_hz).hypot(im - theirs.im_hz) / theirs.re_hz;
@@ -74,23 +75,23 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Row>> {
         case.row(
             "complex natural frequency, last [Hz]",
             (&theirs, &last),
-            (worst(gaps.into_iter()), Kind::Relative),
+            (worst(gaps.into_iter()), DifferenceKind::Relative),
             1e-11,
             Bound::Elements,
         ),
-        // Some thousandths of the frequency, whose error it has.
+        // The imaginary part is some thousandths of the frequency and has the absolute error of the frequency.
         case.row(
             "its imaginary part alone, last [Hz]",
             (&theirs[1..], &last[1..]),
-            (worst(of_decay.into_iter()), Kind::Relative),
+            (worst(of_decay.into_iter()), DifferenceKind::Relative),
             1e-8,
             Bound::Elements,
         ),
     ])
 }
 
-/// All pairs of one robot.
-fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Row> {
+/// Compares the responses of all pairs of points of one robot.
+fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Comparison> {
     let case = Case { name: of.robot.clone(), source };
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
@@ -113,14 +114,14 @@ fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Row> {
     Ok(case.row(
         &format!("{} responses of points on cables, largest [m/N]", of.pairs.len()),
         (&[shown.0], &[shown.1]),
-        (worst(gaps.into_iter()), Kind::Relative),
+        (worst(gaps.into_iter()), DifferenceKind::Relative),
         1e-8,
         Bound::Elements,
     ))
 }
 
-/// A signal of the reference, at the platform's origin or on a cable.
-fn signal(point: &Point, robot: &Robot) -> Result<Signal> {
+/// Signal for a point of the reference, at the platform's origin or on a cable.
+fn signal(point: &ReferencePoint, robot: &Robot) -> Result<Signal> {
     let direction_w = Vec3::from(point.direction_world);
     Ok(match &point.cable {
         Some(name) => {

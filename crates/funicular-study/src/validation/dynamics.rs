@@ -1,7 +1,7 @@
 //! Dynamic stiffness and clamped frequencies of one cable.
 
 use super::reference::{BesselRow, ClosedFormRow, Fig2, FiniteElementRow, Published};
-use super::{Bound, Case, Kind, Row, Section, over, worst};
+use super::{Bound, Case, Comparison, DifferenceKind, Section, over, worst};
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::{Complex, Vec3};
@@ -19,16 +19,17 @@ pub(super) fn section(published: &Published) -> Section {
     rows.extend(published.fig2_finite_elements.rows.iter().flat_map(|row| finite_elements(published, source, row)));
     Section {
         title: "Dynamics of one cable",
-        note: "The closed form is a theory of shallow sag: it has one tension per string and no axial inertia. Against \
-               values of the same theory only rounding is left. Against the exact vertical cable the difference is of \
-               second order in the variation of tension along the cable. Against finite elements of the exact \
-               catenary the axial inertia that it leaves out grows with the square of the frequency, to 1.5 % at 10 Hz, \
-               and beside a resonance its slightly shifted pole shows.",
+        note: "The model shallow-dynamic is a closed-form theory of shallow sag, with one tension per string and \
+               without axial inertia. Compared with values of the same theory, only rounding remains. Compared with \
+               the exact vertical cable, the difference is of second order in the variation of tension along the \
+               cable. Compared with finite elements of the elastic catenary, the missing axial inertia causes a \
+               difference that grows with the square of the frequency, to 1.5 % at 10 Hz; beside a resonance the \
+               slightly shifted pole adds to it.",
         rows,
     }
 }
 
-/// The sag of the paper's Fig. 2 cable with a mass per length [kg/m].
+/// Sag of the cable of the paper's Fig. 2, with a mass per length [kg/m].
 pub(super) fn fig2_sag(of: &Fig2, mass_per_length: f64) -> Sag {
     let cos = of.inclination_deg.to_radians().cos();
     Sag::new(
@@ -49,10 +50,10 @@ fn fig2(of: &Fig2, upper_end_moves: bool, damping: Damping) -> ShallowDynamic {
     ShallowDynamic::new(fig2_sag(of, of.mass_kg_per_m), axes, damping, false)
 }
 
-/// Clamped frequencies in plane. Those of the string that sag does not change, even multiples of π, are compared with the
-/// others, but not shown.
-fn roots(published: &Published) -> Vec<Row> {
-    // λ² of the inextensible cable: roots differ from the limit by 1e-15 of themselves.
+/// Compares the clamped frequencies in plane. The frequencies of the string that sag does not change, even multiples of
+/// π, are compared too, but not shown.
+fn roots(published: &Published) -> Vec<Comparison> {
+    // λ² that stands for the inextensible cable: its roots differ from the limit by a relative 1e-15.
     const INEXTENSIBLE: f64 = 1e18;
     let table = &published.irvine_caughey;
     let rows = table.rows.iter().map(|row| {
@@ -66,7 +67,7 @@ fn roots(published: &Published) -> Vec<Row> {
         let last = row.roots[3].max(8.0 * PI);
         let found: Vec<f64> =
             cable.clamped_frequencies_below(unit * last * (1.0 + 1e-9)).into_iter().map(|omega| omega / unit).collect();
-        // The fifth root of the table's kind lies above 8 π: eight frequencies are all that there are.
+        // The fifth root of the table's kind lies above 8 π, so there are eight frequencies in total.
         let mut expected: Vec<(f64, bool)> = row.roots.iter().map(|root| (*root, true)).collect();
         expected.extend((1..=4).map(|k| (f64::from(2 * k) * PI, false)));
         expected.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -78,7 +79,7 @@ fn roots(published: &Published) -> Vec<Row> {
         Case { name, source: &table.source }.row(
             "first four Ω",
             (&row.roots, &shown),
-            (difference, Kind::Relative),
+            (difference, DifferenceKind::Relative),
             1e-13,
             Bound::Rounding,
         )
@@ -86,7 +87,7 @@ fn roots(published: &Published) -> Vec<Row> {
     rows.collect()
 }
 
-fn bessel(published: &Published, row: &BesselRow) -> Vec<Row> {
+fn bessel(published: &Published, row: &BesselRow) -> Vec<Comparison> {
     let of = &published.bessel_cable;
     let weight = of.mass_kg_per_m * of.gravity_m_s2 * of.length_m;
     // Inextensible: τ from the catenary's limit, l·(H/x) = w l/ln(T_B/T_A).
@@ -98,7 +99,7 @@ fn bessel(published: &Published, row: &BesselRow) -> Vec<Row> {
     let variation = (weight / tension).powi(2);
     let varies = Bound::Model("one tension per string: second order in its variation");
     let theirs = row.clamped_rad_per_s;
-    // Every frequency of a vertical string is double.
+    // Every frequency of a vertical string is a double frequency.
     let found: Vec<f64> = cable.clamped_frequencies_below(theirs[2] * 1.2).into_iter().step_by(2).take(3).collect();
     let still = row.stiffness_at_rest_n_per_m;
     let moving = row.stiffness_at_1_rad_per_s_n_per_m;
@@ -110,22 +111,28 @@ fn bessel(published: &Published, row: &BesselRow) -> Vec<Row> {
     ]
 }
 
-fn closed_form(published: &Published, source: &str, row: &ClosedFormRow) -> Row {
+fn closed_form(published: &Published, source: &str, row: &ClosedFormRow) -> Comparison {
     let case = Case { name: format!("Fig. 2, {} Hz, ξ = {}", row.frequency_hz, row.damping_ratio), source };
     let cable = fig2(&published.fig2_cable, true, Damping::Ratio(row.damping_ratio));
     let k = cable.damped(row.frequency_hz * TAU);
     let complex = |[re, im]: [f64; 2]| Complex::new(re, im);
-    // Their chord runs from the fixed to the moving end, so that the coupling has the opposite sign of ours.
+    // The chord of the reference runs from the fixed to the moving end, so its coupling has the opposite sign.
     let theirs = [row.axial_n_per_m, row.coupling_n_per_m, row.normal_n_per_m, row.out_of_plane_n_per_m].map(complex);
     let ours = [k.axial, -k.coupling, k.normal, k.out_of_plane];
     let difference = worst(theirs.iter().zip(ours).map(|(a, b)| over((a - b).norm(), a.norm())));
     let moduli = |of: [Complex; 4]| of.map(Complex::norm);
     let shown = (&moduli(theirs)[..], &moduli(ours)[..]);
     // Fourteen digits are printed, of the larger of both parts.
-    case.row("moduli of k_a, k_b, k_c, k_o [N/m]", shown, (difference, Kind::Relative), 2e-11, Bound::Rounding)
+    case.row(
+        "moduli of k_a, k_b, k_c, k_o [N/m]",
+        shown,
+        (difference, DifferenceKind::Relative),
+        2e-11,
+        Bound::Rounding,
+    )
 }
 
-fn finite_elements(published: &Published, source: &str, row: &FiniteElementRow) -> [Row; 2] {
+fn finite_elements(published: &Published, source: &str, row: &FiniteElementRow) -> [Comparison; 2] {
     let (frequency, end) = (row.frequency_hz, if row.upper_end_moves { "upper" } else { "lower" });
     let case = Case { name: format!("Fig. 2, {frequency} Hz, {end} end"), source };
     let cable = fig2(&published.fig2_cable, row.upper_end_moves, Damping::Ratio(0.0));

@@ -1,7 +1,7 @@
-//! The catenary-dynamic cable, alone and in robots.
+//! Cable model `catenary-dynamic`, of single cables and in robots.
 
-use super::reference::{ExactCable, ExactRobot, Independent, Published, Reference, robot};
-use super::{Bound, Case, Kind, Row, Section, largest, worst};
+use super::reference::{ExactCable, ExactReference, ExactRobot, IndependentReference, Published, robot};
+use super::{Bound, Case, Comparison, DifferenceKind, Section, largest, worst};
 use anyhow::{Context, Result};
 use funicular::cable::CableModel;
 use funicular::cable::catenary_dynamic::CatenaryDynamic;
@@ -14,7 +14,11 @@ use funicular::response::{self, Quantity};
 use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 
-pub(super) fn section(published: &Published, reference: &Reference, robots: &Independent) -> Result<Section> {
+pub(super) fn section(
+    published: &Published,
+    reference: &ExactReference,
+    robots: &IndependentReference,
+) -> Result<Section> {
     let mut rows = Vec::new();
     for cable in &reference.cables {
         rows.extend(alone(&reference.about, cable)?);
@@ -34,7 +38,7 @@ pub(super) fn section(published: &Published, reference: &Reference, robots: &Ind
     })
 }
 
-fn alone(source: &str, of: &ExactCable) -> Result<Vec<Row>> {
+fn alone(source: &str, of: &ExactCable) -> Result<Vec<Comparison>> {
     let case = Case { name: of.id.clone(), source };
     let gravity = Vec3::from(of.gravity_m_s2);
     let rope = Rope {
@@ -56,16 +60,16 @@ fn alone(source: &str, of: &ExactCable) -> Result<Vec<Row>> {
     ])
 }
 
-/// Each frequency with its own relative difference; ours may be more.
-fn last(case: &Case, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64) -> Row {
+/// Compares each frequency relative to itself. The program may find more frequencies than the reference lists.
+fn last(case: &Case, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64) -> Comparison {
     let gaps = theirs.iter().enumerate().map(|(i, a)| ours.get(i).map_or(f64::NAN, |b| (b / a - 1.0).abs()));
     let at = theirs.len().saturating_sub(1);
     let shown = (theirs.get(at..).unwrap_or_default(), ours.get(at..=at).unwrap_or_default());
-    case.row(quantity, shown, (worst(gaps), Kind::Relative), tolerance, Bound::Elements)
+    case.row(quantity, shown, (worst(gaps), DifferenceKind::Relative), tolerance, Bound::Elements)
 }
 
-/// The stiffness of the start, end held, at all frequencies.
-fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &CatenaryDynamic) -> Row {
+/// Compares the stiffness of the start of the cable with the end fixed, at all frequencies.
+fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &CatenaryDynamic) -> Comparison {
     let (h, v) = hanging.axes_w();
     let b = h.cross(&v);
     let of = &of.end_stiffness;
@@ -83,18 +87,24 @@ fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Ca
         shown = (theirs.amax(), ours.amax());
     }
     let quantity = "end stiffness, largest at the last frequency [N/m]";
-    case.row(quantity, (&[shown.0], &[shown.1]), (worst(gaps.into_iter()), Kind::Relative), 1e-9, Bound::Elements)
+    case.row(
+        quantity,
+        (&[shown.0], &[shown.1]),
+        (worst(gaps.into_iter()), DifferenceKind::Relative),
+        1e-9,
+        Bound::Elements,
+    )
 }
 
-/// The 6×6 stiffness of both ends at all frequencies, undamped and with either damping of the rope.
-fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &CatenaryDynamic) -> Row {
+/// Compares the 6×6 stiffness of both ends at all frequencies, undamped and with either damping of the rope.
+fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &CatenaryDynamic) -> Comparison {
     let theirs = &of.end_stiffness;
     let mut gaps = Vec::new();
     let mut shown = (0.0, 0.0);
     for (k, frequency) in theirs.frequency_hz.iter().enumerate() {
         let omega = frequency * TAU;
         let square = omega * omega;
-        // Complex ω², which is how either damping enters: equation (27).
+        // Either damping makes ω² complex: equation (27).
         let with_ratio = Complex::new(square, -2.0 * theirs.xi * square);
         let with_viscosity = Complex::new(square, -theirs.viscous_n_s_m2 * omega / of.mass_kg_per_m);
         for (square, real, imag) in [
@@ -112,7 +122,13 @@ fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Caten
     }
     let quantity =
         format!("stiffness of both ends, undamped, ξ = {}, {} N s/m², last [N/m]", theirs.xi, theirs.viscous_n_s_m2);
-    case.row(&quantity, (&[shown.0], &[shown.1]), (worst(gaps.into_iter()), Kind::Relative), 1e-9, Bound::Elements)
+    case.row(
+        &quantity,
+        (&[shown.0], &[shown.1]),
+        (worst(gaps.into_iter()), DifferenceKind::Relative),
+        1e-9,
+        Bound::Elements,
+    )
 }
 
 /// Stiffness of both ends in world axes, start first, at a complex ω².
@@ -121,7 +137,7 @@ fn end_matrix(hanging: &HangingCable, exact: &CatenaryDynamic, square: Complex) 
     let (pair, b) = ([h, v], h.cross(&v));
     std::array::from_fn(|row| {
         std::array::from_fn(|column| {
-            // Ends and world components.
+            // Index of the end and of the world component.
             let ((end, i), (other, j)) = ((row / 3, row % 3), (column / 3, column % 3));
             let across = exact.out_of_plane.entry(end, other, square);
             let in_plane = (0..4).map(|n| {
@@ -134,7 +150,7 @@ fn end_matrix(hanging: &HangingCable, exact: &CatenaryDynamic, square: Complex) 
     })
 }
 
-fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Row>> {
+fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>> {
     let case = Case { name: of.id.clone(), source };
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
@@ -145,7 +161,7 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Row>> {
     };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, of.below_hz)?;
     let found = modes::below(&dynamics, of.below_hz);
-    // A list that its own count does not certify is no list.
+    // A list that its mode count does not certify does not pass.
     let certified = if found.certified { found.modes.len() } else { 0 };
     let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
     let z = response::along(&Vec3::z(), &Vec3::zeros(), &rest.pose);
@@ -160,14 +176,14 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Row>> {
         case.row(
             "accelerance az/fz, largest [1/kg]",
             (&modulus(&theirs), &modulus(&ours)),
-            (worst(gaps), Kind::Relative),
+            (worst(gaps), DifferenceKind::Relative),
             1e-8,
             Bound::Elements,
         ),
     ])
 }
 
-fn bessel(published: &Published) -> Result<Vec<Row>> {
+fn bessel(published: &Published) -> Result<Vec<Comparison>> {
     const STIFF: f64 = 1e10;
     let of = &published.bessel_cable;
     let weight_per_length = of.mass_kg_per_m * of.gravity_m_s2;

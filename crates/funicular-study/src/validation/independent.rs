@@ -1,7 +1,9 @@
-//! Fourteen robots against a separate program.
+//! Fourteen robots, compared with a separate program.
 
-use super::reference::{ComplexMatrix, Independent, IndependentCase, Matrix, ModeList, Response, robot};
-use super::{Bound, Case, Kind, Row, Section, largest, over, worst};
+use super::reference::{
+    ComplexMatrix, IndependentReference, IndependentRobot, Matrix, ModeList, ReferenceResponse, robot,
+};
+use super::{Bound, Case, Comparison, DifferenceKind, Section, largest, over, worst};
 use anyhow::{Result, ensure};
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
@@ -12,40 +14,45 @@ use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
-pub(super) fn section(independent: &Independent) -> Result<Section> {
+pub(super) fn section(independent: &IndependentReference) -> Result<Section> {
     let mut rows = Vec::new();
     for given in &independent.cases {
         let (robot, lengths) = robot(&given.toml)?;
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
-        ensure!(given.equilibrium.cables.len() == robot.cables.len(), "{}: a row a cable is missing", given.id);
+        ensure!(
+            given.equilibrium.cables.len() == robot.cables.len(),
+            "{}: the reference needs one row per cable",
+            given.id
+        );
         let springs = statics::forward(&robot, &lengths, StaticModel::Spring, None)?;
         let compared =
-            Compared { case: Case { name: given.id.clone(), source: &independent.about }, given, robot, rest };
+            RobotComparison { case: Case { name: given.id.clone(), source: &independent.about }, given, robot, rest };
         compared.equilibrium(&mut rows);
         compared.springs(&springs, &mut rows);
         compared.static_stiffness(&mut rows)?;
-        compared.closed_form_stiffness(&mut rows)?;
+        compared.shallow_dynamic_stiffness(&mut rows)?;
         compared.modes(&mut rows)?;
         compared.responses(&mut rows)?;
     }
     Ok(Section {
         title: "Fourteen robots, computed independently",
-        note: "Both programs have the same models and no code in common. Equilibria need no start. Of matrices the \
-               largest entry is shown and all entries are compared, moments and rotations divided by the mean distance \
-               of the attachments from the origin; of lists the last or largest value is shown and all are compared.",
+        note: "Both programs have the same models and no code in common. The equilibria are found without a given \
+               start. All entries of a matrix are compared, moments and rotations divided by the mean distance of the \
+               attachments from the origin; the table shows the largest entry. All values of a list are compared; the \
+               table shows the last or the largest value.",
         rows,
     })
 }
 
-struct Compared<'a> {
+struct RobotComparison<'a> {
     case: Case<'a>,
-    given: &'a IndependentCase,
+    given: &'a IndependentRobot,
     robot: Robot,
     rest: Equilibrium,
 }
 
-impl Compared<'_> {
-    fn equilibrium(&self, rows: &mut Vec<Row>) {
+impl RobotComparison<'_> {
+    fn equilibrium(&self, rows: &mut Vec<Comparison>) {
         let (case, theirs, cables) = (&self.case, &self.given.equilibrium, &self.given.equilibrium.cables);
         let position: [f64; 3] = self.rest.pose.position_w.into();
         rows.push(case.absolute("position [m]", &theirs.position_m, &position, 1e-10, Bound::Rounding));
@@ -74,20 +81,20 @@ impl Compared<'_> {
         rows.push(case.row(
             "forces on the platform, first [N]",
             (&shown(Vec3::from(cables[0].force_on_platform_n)), &shown(self.rest.cables[0].force_on_platform_w)),
-            (worst(forces), Kind::Relative),
+            (worst(forces), DifferenceKind::Relative),
             1e-9,
             Bound::Rounding,
         ));
     }
 
-    /// Pairs (theirs, ours), each with its own relative difference; the one with the largest of theirs is shown.
-    fn each(&self, quantity: &str, pairs: &[[f64; 2]], tolerance: f64) -> Row {
+    /// Compares pairs (theirs, ours), each relative to itself. The pair with the largest reference number is shown.
+    fn each(&self, quantity: &str, pairs: &[[f64; 2]], tolerance: f64) -> Comparison {
         let difference = worst(pairs.iter().map(|[a, b]| over((a - b).abs(), a.abs())));
         let [a, b] = pairs.iter().copied().max_by(|x, y| x[0].total_cmp(&y[0])).unwrap_or_default();
-        self.case.row(quantity, (&[a], &[b]), (difference, Kind::Relative), tolerance, Bound::Rounding)
+        self.case.row(quantity, (&[a], &[b]), (difference, DifferenceKind::Relative), tolerance, Bound::Rounding)
     }
 
-    fn springs(&self, springs: &Equilibrium, rows: &mut Vec<Row>) {
+    fn springs(&self, springs: &Equilibrium, rows: &mut Vec<Comparison>) {
         let (case, theirs) = (&self.case, &self.given.spring);
         let position: [f64; 3] = springs.pose.position_w.into();
         rows.push(case.absolute("springs: position [m]", &theirs.position_m, &position, 1e-10, Bound::Rounding));
@@ -96,8 +103,8 @@ impl Compared<'_> {
         rows.push(case.together(quantity, &theirs.tension_n, &tensions, 1e-9, Bound::Rounding));
     }
 
-    /// Largest difference over the largest entry, rotations scaled by ℓ.
-    fn matrix(&self, quantity: &str, theirs: &Matrix, ours: &Mat6) -> Row {
+    /// Compares matrices by the maximum difference relative to the largest entry, with rotations scaled by ℓ.
+    fn matrix(&self, quantity: &str, theirs: &Matrix, ours: &Mat6) -> Comparison {
         let ell = self.robot.platform_length();
         let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / ell };
         let entries = |of: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
@@ -111,7 +118,7 @@ impl Compared<'_> {
         row
     }
 
-    fn static_stiffness(&self, rows: &mut Vec<Row>) -> Result<()> {
+    fn static_stiffness(&self, rows: &mut Vec<Comparison>) -> Result<()> {
         let consistent = statics::tangent_stiffness(&self.robot, &self.rest).ok_or(DynamicsError::Rigid)?;
         let theirs = &self.given.static_tangent_consistent;
         rows.push(self.matrix("static stiffness, consistent [N/m]", theirs, &consistent));
@@ -120,47 +127,62 @@ impl Compared<'_> {
             assembly: Assembly::WithoutGeometricStiffness,
             in_plane_only: false,
         };
-        let paper = Dynamics::about(&self.robot, &self.rest, linearisation, 0.0)?.stiffness(0.0).map(|k| k.re);
-        rows.push(self.matrix("static stiffness, paper [N/m]", &self.given.static_tangent_paper, &paper));
+        let end_stiffness = Dynamics::about(&self.robot, &self.rest, linearisation, 0.0)?.stiffness(0.0).map(|k| k.re);
+        rows.push(self.matrix(
+            "static stiffness, without geometric stiffness [N/m]",
+            &self.given.static_tangent_paper,
+            &end_stiffness,
+        ));
         Ok(())
     }
 
-    fn closed(&self, robot: &Robot, assembly: Assembly, in_plane_only: bool) -> Result<Dynamics, DynamicsError> {
+    fn shallow_dynamic(
+        &self,
+        robot: &Robot,
+        assembly: Assembly,
+        in_plane_only: bool,
+    ) -> Result<Dynamics, DynamicsError> {
         let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, assembly, in_plane_only };
         Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
     }
 
-    fn closed_form_stiffness(&self, rows: &mut Vec<Row>) -> Result<()> {
+    fn shallow_dynamic_stiffness(&self, rows: &mut Vec<Comparison>) -> Result<()> {
         let given = self.given;
         let omega = given.closed_form_at_hz * TAU;
         let mut quiet = self.robot.clone();
         for cable in &mut quiet.cables {
             cable.material.damping = Damping::Ratio(0.0);
         }
-        let at = format!("closed form at {} Hz", given.closed_form_at_hz);
+        let at = format!("shallow-dynamic at {} Hz", given.closed_form_at_hz);
         for (assembly, in_plane_only, name, theirs) in [
             (Assembly::Consistent, false, "consistent", &given.closed_form_consistent_undamped),
-            (Assembly::WithoutGeometricStiffness, false, "paper", &given.closed_form_paper_undamped),
+            (
+                Assembly::WithoutGeometricStiffness,
+                false,
+                "without geometric stiffness",
+                &given.closed_form_paper_undamped,
+            ),
             (Assembly::Consistent, true, "in plane only", &given.closed_form_consistent_in_plane_only_undamped),
         ] {
-            let k = self.closed(&quiet, assembly, in_plane_only)?.stiffness(omega).map(|k| k.re);
+            let k = self.shallow_dynamic(&quiet, assembly, in_plane_only)?.stiffness(omega).map(|k| k.re);
             rows.push(self.matrix(&format!("{at}, {name} [N/m]"), theirs, &k));
         }
-        let k = self.closed(&self.robot, Assembly::Consistent, false)?.stiffness(omega);
+        let k = self.shallow_dynamic(&self.robot, Assembly::Consistent, false)?.stiffness(omega);
         let ComplexMatrix { real, imag } = &given.closed_form_consistent_damped;
         rows.push(self.matrix(&format!("{at}, damped, real part [N/m]"), real, &k.map(|k| k.re)));
         rows.push(self.matrix(&format!("{at}, damped, imaginary part [N/m]"), imag, &k.map(|k| k.im)));
         Ok(())
     }
 
-    fn modes(&self, rows: &mut Vec<Row>) -> Result<()> {
+    fn modes(&self, rows: &mut Vec<Comparison>) -> Result<()> {
         for (in_plane_only, name, theirs) in
             [(false, "", &self.given.modes), (true, ", in plane only", &self.given.modes_in_plane_only)]
         {
             let ModeList { below_hz, frequencies_hz, platform_at_rest } = theirs;
-            let found = modes::below(&self.closed(&self.robot, Assembly::Consistent, in_plane_only)?, *below_hz);
+            let found =
+                modes::below(&self.shallow_dynamic(&self.robot, Assembly::Consistent, in_plane_only)?, *below_hz);
             let count = format!("modes below {below_hz} Hz{name}");
-            // A list that its own count does not certify is no list.
+            // A list that its mode count does not certify does not pass.
             let certified = if found.certified { found.modes.len() } else { 0 };
             rows.push(self.case.count(&count, frequencies_hz.len(), certified));
             let resting: f64 = platform_at_rest.iter().map(|(_, several)| several).sum();
@@ -177,8 +199,8 @@ impl Compared<'_> {
         Ok(())
     }
 
-    fn responses(&self, rows: &mut Vec<Row>) -> Result<()> {
-        let dynamics = self.closed(&self.robot, Assembly::Consistent, false)?;
+    fn responses(&self, rows: &mut Vec<Comparison>) -> Result<()> {
+        let dynamics = self.shallow_dynamic(&self.robot, Assembly::Consistent, false)?;
         let along = |direction_w: Vec3, point_p: Vec3| response::along(&direction_w, &point_p, &self.rest.pose);
         let frf = &self.given.frf;
         let (up, aside) = (along(Vec3::z(), Vec3::zeros()), along(Vec3::y(), Vec3::zeros()));
@@ -188,7 +210,7 @@ impl Compared<'_> {
         let az = ours(&frf.frequency_hz, &up, &up, Quantity::Acceleration)?;
         let ay = ours(&frf.frequency_hz, &up, &aside, Quantity::Acceleration)?;
         rows.push(self.response("accelerance az/fz, largest [1/kg]", &frf.az, &frf.az, &az));
-        // Of a symmetric robot ay is zero: compared with az.
+        // For a symmetric robot ay is zero, so its difference is relative to az.
         rows.push(self.response("accelerance ay/fz, largest [1/kg]", &frf.ay, &frf.az, &ay));
         let offset = &self.given.frf_offset;
         let input = along(Vec3::from(offset.input_direction_w), Vec3::from(offset.input_point_p));
@@ -199,9 +221,16 @@ impl Compared<'_> {
         Ok(())
     }
 
-    /// Differences over the larger of theirs and `scale` at each frequency; the largest modulus is shown.
-    fn response(&self, quantity: &str, theirs: &Response, scale: &Response, ours: &[Complex]) -> Row {
-        let complex = |of: &Response| -> Vec<Complex> {
+    /// Compares responses relative to the larger of the reference and `scale` at each frequency. The largest modulus
+    /// is shown.
+    fn response(
+        &self,
+        quantity: &str,
+        theirs: &ReferenceResponse,
+        scale: &ReferenceResponse,
+        ours: &[Complex],
+    ) -> Comparison {
+        let complex = |of: &ReferenceResponse| -> Vec<Complex> {
             of.real.iter().zip(&of.imag).map(|(re, im)| Complex::new(*re, *im)).collect()
         };
         let (theirs, scale) = (complex(theirs), complex(scale));
@@ -212,6 +241,6 @@ impl Compared<'_> {
         let difference = worst(gaps);
         let shown = |of: &[Complex]| largest(&of.iter().map(|z| z.norm()).collect::<Vec<_>>());
         let shown = (&[shown(&theirs)][..], &[shown(ours)][..]);
-        self.case.row(quantity, shown, (difference, Kind::Relative), 1e-8, Bound::Rounding)
+        self.case.row(quantity, shown, (difference, DifferenceKind::Relative), 1e-8, Bound::Rounding)
     }
 }

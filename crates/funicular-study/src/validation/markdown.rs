@@ -1,13 +1,13 @@
-//! The text of docs/validation.md. Rounded to what is claimed, so that it is the same wherever it is made.
+//! Text of docs/validation.md. Numbers are rounded to the claimed digits, so that every machine makes the same text.
 
-use super::{Bound, Kind, Row, Section};
+use super::{Bound, Comparison, DifferenceKind, Section};
 use crate::text::{counted, decimals, significant};
 use std::fmt::Write;
 
-/// Digits of the numbers of a row; their last are far above rounding.
+/// Number of digits in a row. The last digit is far above rounding errors.
 const DIGITS: i32 = 7;
 
-/// The whole text.
+/// Complete text.
 pub fn markdown(sections: &[Section]) -> String {
     let mut text = String::from(INTRODUCTION);
     let all = || sections.iter().flat_map(|section| &section.rows);
@@ -34,26 +34,26 @@ pub fn markdown(sections: &[Section]) -> String {
 const INTRODUCTION: &str = "\
 # Validation
 
-Every number here was published by others or computed by other means; the program computes the same case and says how
-far it is off. This file is generated: `funicular validate -o docs/validation.md`. `funicular validate --format json`
-gives every digit. The reference numbers, each with its source, are in `crates/funicular-study/reference/`.
+Every reference number here was published by others or computed by other means. The program computes the same case and
+reports the difference. This file is generated: `funicular validate -o docs/validation.md`. `funicular validate --format
+json` gives every digit. The reference numbers, each with its source, are in `crates/funicular-study/reference/`.
 
 | column | meaning |
 |:---|:---|
-| case | what was computed |
-| quantity | what is compared, with its unit; of several numbers all are compared |
-| theirs, ours | the reference and this program, rounded here |
-| difference | the largest one: *rel.* over the size of their number, *abs.* in the unit of the quantity |
-| tolerance | the largest difference that passes |
-| bounded by | why it is not smaller |
-| pass | the difference is within the tolerance |
+| case | the robot or cable, and its state |
+| quantity | the compared quantity, with its unit; if it has several numbers, all are compared |
+| theirs, ours | the reference and this program, rounded |
+| difference | the maximum difference: *rel.* relative to the reference number, *abs.* in the unit of the quantity |
+| tolerance | the maximum difference that passes |
+| bounded by | the reason why the tolerance is not smaller |
+| pass | whether the difference is within the tolerance |
 
-Where both sides solve the same equations, only rounding is left, or the small error of elements; its size depends on
-the machine and means nothing, so it is given as less than the tolerance. Where the models differ, or few digits were
-printed, the difference is what it is, and three causes are to be expected: the closed form has no *axial inertia* (a
-cable is too stiff along its chord by about (ω l √(m/EA))²/3); it has *one tension per string*, while the tension of a
-real one grows towards its upper end; and the *strain* of a rope, which models count into its length and mass in
-different ways.
+If both sides solve the same equations, only rounding or the small error of elements remains. The size of this
+difference depends on the machine and has no meaning, so the table gives it as less than the tolerance. If the models
+differ, or if few digits were printed, the table gives the difference itself. Three causes are to be expected. The model
+`shallow-dynamic` has no *axial inertia*: a cable is too stiff along its chord by about (ω l √(m/EA))²/3. It has *one
+tension per string*, while the tension of a real cable grows towards its upper end. And the *strain* of a rope enters its
+length and mass differently in different models.
 
 ";
 
@@ -61,13 +61,13 @@ const HEAD: &str = "\
 | case | quantity | theirs | ours | difference | tolerance | bounded by | pass |
 |:---|:---|---:|---:|---:|---:|:---|:---|";
 
-pub(super) fn line(row: &Row) -> String {
-    let Row { case, quantity, theirs, ours, difference, kind, tolerance, bounded_by, pass, .. } = row;
+pub(super) fn line(row: &Comparison) -> String {
+    let Comparison { case, quantity, theirs, ours, difference, kind, tolerance, bounded_by, pass, .. } = row;
     let places = if *bounded_by == Bound::Count { Places::Decimals(0) } else { Places::of(theirs) };
     let kind = match kind {
         _ if *bounded_by == Bound::Count => "",
-        Kind::Absolute => "abs. ",
-        Kind::Relative => "rel. ",
+        DifferenceKind::Absolute => "abs. ",
+        DifferenceKind::Relative => "rel. ",
     };
     let difference = match bounded_by {
         Bound::Count => format!("{difference}"),
@@ -92,7 +92,7 @@ pub(super) fn line(row: &Row) -> String {
     )
 }
 
-/// How the numbers of a row are printed: all with the decimals of the largest.
+/// Format of the numbers in a row: all have the decimals of the largest number.
 enum Places {
     Decimals(usize),
     Powers,
@@ -115,14 +115,14 @@ impl Places {
         }
     }
 
-    /// As printed, if that is shorter.
+    /// Shortest exact text of a number if it is shorter than the rounded one.
     fn of_theirs(&self, value: f64) -> String {
         let (rounded, printed) = (self.show(value), format!("{value}"));
         if printed.len() < rounded.len() { printed } else { rounded }
     }
 }
 
-/// Two digits.
+/// Number with two digits.
 fn two(value: f64) -> String {
     if value != 0.0 && (value.abs() < 1e-3 || value.abs() >= 100.0) {
         format!("{value:.1e}")
@@ -131,12 +131,12 @@ fn two(value: f64) -> String {
     }
 }
 
-/// One digit: tolerances of rounding are chosen so.
+/// Number with one digit, which tolerances of rounding have.
 fn power(value: f64) -> String {
     format!("{value:e}")
 }
 
-/// Text that a table can hold.
+/// Text with the escapes that a table needs.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }
@@ -156,8 +156,8 @@ mod tests {
         let committed = std::fs::read_to_string(file).unwrap();
         assert!(
             generated == committed,
-            "docs/validation.md is not what the program computes now; if the change is meant, regenerate it with \
-             `UPDATE_DOCS=1 cargo test -p funicular-study validation`"
+            "docs/validation.md differs from what the program computes now; if the change is intended, regenerate it \
+             with `UPDATE_DOCS=1 cargo test -p funicular-study validation`"
         );
     }
 
@@ -172,6 +172,6 @@ mod tests {
         let row = case.absolute("x [m]", &[2.0], &[2.004], 3e-3, Bound::Digits("two decimals"));
         assert_eq!(line(&row), "| a \\| b | x [m] | 2 | 2.004000 | abs. 0.0040 | 0.0030 | two decimals | **no** |");
         let row = case.relative("H [N]", &[1.0], &[f64::NAN], 1e-12, Bound::Rounding);
-        assert!(!row.pass, "what is not a number does not pass");
+        assert!(!row.pass, "NaN never passes");
     }
 }

@@ -1,4 +1,4 @@
-//! What the paper prints of itself.
+//! Numbers that the paper prints and that can be checked.
 
 use super::dynamics::fig2_sag;
 use super::reference::{Published, library};
@@ -24,7 +24,7 @@ pub(super) fn section(published: &Published) -> Result<Section> {
     let length = |sag: &funicular::cable::Sag| sag.effective_length / sag.chord;
     let four = Bound::Digits("four decimals");
     rows.extend([
-        // λ² grows with the square of the mass, ε with the mass: 6 % and 3 %, and half a unit of the last digit.
+        // λ² grows with the square of the mass, and ε with the mass: 6 % and 3 %, plus half a unit of the last digit.
         case.relative("λ²", &[printed.lambda2], &[sag.lambda2], 0.06, conflict),
         case.relative("ε", &[printed.epsilon], &[sag.epsilon], 0.03, conflict),
         case.absolute("L_e/l", &[printed.effective_length_over_chord], &[length(&sag)], 5e-5, four),
@@ -55,9 +55,10 @@ pub(super) fn section(published: &Published) -> Result<Section> {
     rows.extend(lengths_rows);
     Ok(Section {
         title: "The paper",
-        note: "What Yuan, Courteille and Deblaise print can be checked where it depends on printed input alone. λ² of \
+        note: "Numbers of Yuan, Courteille and Deblaise can be checked if they depend on printed input alone. λ² of \
                Fig. 2 does not follow from the mass per length of Table II; with 0.06904 kg/m all three numbers of the \
-               figure do. The lengths of Tables I and II leave one pose of ideal cables, which was solved for separately.",
+               figure do. The lengths of Tables I and II determine one pose of ideal cables, which was solved for \
+               separately.",
         rows,
     })
 }

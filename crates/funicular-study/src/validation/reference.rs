@@ -1,35 +1,35 @@
-//! The files of crates/funicular-study/reference.
+//! Contents of the files in crates/funicular-study/reference.
 
 use anyhow::{Context, Result, anyhow};
 use funicular::robot::{Robot, State};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// A table without values of its own.
+/// Table of a reference file: a source and rows.
 #[derive(Deserialize)]
-pub(super) struct Table<R> {
+pub(super) struct ReferenceTable<R> {
     pub(super) source: String,
     pub(super) rows: Vec<R>,
 }
 
-/// published.json.
+/// Content of published.json.
 #[derive(Deserialize)]
 pub(super) struct Published {
-    pub(super) catenary_grid: Table<GridCable>,
-    pub(super) catenary_moorpy: Table<MoorpyCable>,
-    pub(super) hanging_lines: Table<HangingLine>,
+    pub(super) catenary_grid: ReferenceTable<GridCable>,
+    pub(super) catenary_moorpy: ReferenceTable<MoorpyCable>,
+    pub(super) hanging_lines: ReferenceTable<HangingLine>,
     pub(super) isolated_cable: IsolatedCable,
-    pub(super) irvine_caughey: Table<Roots>,
+    pub(super) irvine_caughey: ReferenceTable<Roots>,
     pub(super) fig2_cable: Fig2,
-    pub(super) fig2_closed_form: Table<ClosedFormRow>,
-    pub(super) fig2_finite_elements: Table<FiniteElementRow>,
+    pub(super) fig2_closed_form: ReferenceTable<ClosedFormRow>,
+    pub(super) fig2_finite_elements: ReferenceTable<FiniteElementRow>,
     pub(super) bessel_cable: Bessel,
-    pub(super) paper_robot_equilibria: Table<PaperEquilibrium>,
-    pub(super) paper_robot_ideal_poses: Table<IdealPose>,
+    pub(super) paper_robot_equilibria: ReferenceTable<PaperEquilibrium>,
+    pub(super) paper_robot_ideal_poses: ReferenceTable<IdealPose>,
     pub(super) cube_point_mass: Cube,
 }
 
-/// What the catenary needs.
+/// Input of the catenary.
 #[derive(Deserialize)]
 pub(super) struct HungBetween {
     pub(super) span_m: f64,
@@ -87,7 +87,7 @@ pub(super) struct IsolatedCable {
 
 #[derive(Deserialize)]
 pub(super) struct Roots {
-    /// None for the inextensible cable.
+    /// λ²; `None` for the inextensible cable.
     pub(super) lambda2: Option<f64>,
     pub(super) roots: [f64; 4],
 }
@@ -188,18 +188,18 @@ pub(super) struct CubeRow {
     pub(super) frequencies_hz: Vec<f64>,
 }
 
-/// independent.json.
+/// Content of independent.json.
 #[derive(Deserialize)]
-pub(super) struct Independent {
+pub(super) struct IndependentReference {
     #[serde(rename = "_about")]
     pub(super) about: String,
-    pub(super) cases: Vec<IndependentCase>,
+    pub(super) cases: Vec<IndependentRobot>,
 }
 
 pub(super) type Matrix = [[f64; 6]; 6];
 
 #[derive(Deserialize)]
-pub(super) struct IndependentCase {
+pub(super) struct IndependentRobot {
     pub(super) id: String,
     pub(super) toml: String,
     pub(super) equilibrium: Equilibrium,
@@ -213,19 +213,19 @@ pub(super) struct IndependentCase {
     pub(super) closed_form_consistent_damped: ComplexMatrix,
     pub(super) modes: ModeList,
     pub(super) modes_in_plane_only: ModeList,
-    pub(super) frf: Frf,
-    pub(super) frf_offset: FrfOffset,
+    pub(super) frf: ReferenceFrf,
+    pub(super) frf_offset: ReferenceFrfOffset,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Equilibrium {
     pub(super) position_m: [f64; 3],
     pub(super) quaternion_wxyz: [f64; 4],
-    pub(super) cables: Vec<CableRow>,
+    pub(super) cables: Vec<ReferenceCable>,
 }
 
 #[derive(Deserialize)]
-pub(super) struct CableRow {
+pub(super) struct ReferenceCable {
     pub(super) tension_platform_n: f64,
     pub(super) tension_anchor_n: f64,
     pub(super) chord_m: f64,
@@ -250,37 +250,37 @@ pub(super) struct ComplexMatrix {
 pub(super) struct ModeList {
     pub(super) below_hz: f64,
     pub(super) frequencies_hz: Vec<f64>,
-    /// Frequency and number of modes there with the platform at rest.
+    /// Frequencies of modes with the platform at rest, and the number of such modes at each.
     pub(super) platform_at_rest: Vec<(f64, f64)>,
 }
 
 #[derive(Deserialize)]
-pub(super) struct Response {
+pub(super) struct ReferenceResponse {
     pub(super) real: Vec<f64>,
     pub(super) imag: Vec<f64>,
 }
 
 #[derive(Deserialize)]
-pub(super) struct Frf {
+pub(super) struct ReferenceFrf {
     pub(super) frequency_hz: Vec<f64>,
-    pub(super) ay: Response,
-    pub(super) az: Response,
+    pub(super) ay: ReferenceResponse,
+    pub(super) az: ReferenceResponse,
 }
 
 #[derive(Deserialize)]
-pub(super) struct FrfOffset {
+pub(super) struct ReferenceFrfOffset {
     pub(super) frequency_hz: Vec<f64>,
     pub(super) input_direction_w: [f64; 3],
     pub(super) input_point_p: [f64; 3],
     pub(super) output_direction_w: [f64; 3],
     pub(super) output_point_p: [f64; 3],
     #[serde(flatten)]
-    pub(super) response: Response,
+    pub(super) response: ReferenceResponse,
 }
 
-/// exact.json.
+/// Content of exact.json.
 #[derive(Deserialize)]
-pub(super) struct Reference {
+pub(super) struct ExactReference {
     #[serde(rename = "_about")]
     pub(super) about: String,
     pub(super) cables: Vec<ExactCable>,
@@ -304,19 +304,19 @@ pub(super) struct ExactCable {
 #[derive(Deserialize)]
 pub(super) struct ExactStiffness {
     pub(super) frequency_hz: Vec<f64>,
-    /// Both ends, start first.
+    /// Stiffness of both ends, start first.
     pub(super) undamped: Vec<Matrix>,
-    /// Constant damping ratio of the next two.
+    /// Constant damping ratio of `xi_real` and `xi_imag`.
     pub(super) xi: f64,
     pub(super) xi_real: Vec<Matrix>,
     pub(super) xi_imag: Vec<Matrix>,
-    /// Viscous damping of the next two.
+    /// Viscous damping of `viscous_real` and `viscous_imag`.
     pub(super) viscous_n_s_m2: f64,
     pub(super) viscous_real: Vec<Matrix>,
     pub(super) viscous_imag: Vec<Matrix>,
 }
 
-/// A robot of independent.json.
+/// Robot of independent.json.
 #[derive(Deserialize)]
 pub(super) struct ExactRobot {
     pub(super) id: String,
@@ -329,10 +329,10 @@ pub(super) struct ExactRobot {
 pub(super) struct ExactFrf {
     pub(super) frequency_hz: Vec<f64>,
     #[serde(flatten)]
-    pub(super) response: Response,
+    pub(super) response: ReferenceResponse,
 }
 
-/// damped.json.
+/// Content of damped.json.
 #[derive(Deserialize)]
 pub(super) struct Damped {
     #[serde(rename = "_about")]
@@ -343,7 +343,7 @@ pub(super) struct Damped {
     pub(super) shapes: Vec<ShapesOfRobot>,
 }
 
-/// A robot of independent.json with other damping.
+/// Robot of independent.json with other damping.
 #[derive(Deserialize)]
 pub(super) struct DampedRobot {
     pub(super) case: String,
@@ -383,43 +383,44 @@ pub(super) struct PointRobot {
 
 #[derive(Deserialize)]
 pub(super) struct PointPair {
-    pub(super) force: Point,
-    pub(super) displacement: Point,
+    pub(super) force: ReferencePoint,
+    pub(super) displacement: ReferencePoint,
     #[serde(flatten)]
-    pub(super) response: Response,
+    pub(super) response: ReferenceResponse,
 }
 
-/// On the platform at its origin, or on a cable.
+/// Point on a cable, or the origin of the platform.
 #[derive(Deserialize)]
-pub(super) struct Point {
+pub(super) struct ReferencePoint {
     pub(super) cable: Option<String>,
     #[serde(default)]
     pub(super) fraction: f64,
     pub(super) direction_world: [f64; 3],
 }
 
-/// Undamped modes of a robot of independent.json, some of its list.
+/// Some undamped modes of a robot of independent.json.
 #[derive(Deserialize)]
 pub(super) struct ShapesOfRobot {
     pub(super) robot: String,
     pub(super) below_hz: f64,
-    /// Places on the cables, from the platform.
+    /// Fractions of the cables' lengths from the platform.
     pub(super) fractions: Vec<f64>,
     pub(super) modes: Vec<ModeShape>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct ModeShape {
-    /// Its place in the list, from 0.
+    /// Index in the list of modes, from 0.
     pub(super) index: usize,
     pub(super) frequency_hz: f64,
     pub(super) relative_gap_to_neighbour: f64,
     pub(super) platform_at_rest: bool,
-    /// None where the platform is at rest: there it has no amplitude to refer to.
+    /// Modal mass; `None` if the platform is at rest, because the shape then has no amplitude of the platform as its
+    /// scale.
     pub(super) modal_mass_kg: Option<f64>,
-    /// Of the platform and of every cable by its name.
+    /// Fractions of the platform and of every cable by its name.
     pub(super) kinetic_energy_fraction: BTreeMap<String, f64>,
-    /// World components at each place, for unit modal mass.
+    /// World components at each of the `fractions`, for unit modal mass.
     pub(super) cable_displacement_m: BTreeMap<String, Vec<[f64; 3]>>,
 }
 
@@ -431,15 +432,15 @@ pub(super) fn published() -> Result<Published> {
     serde_json::from_str(include_str!("../../reference/published.json")).context("published.json")
 }
 
-pub(super) fn independent() -> Result<Independent> {
+pub(super) fn independent() -> Result<IndependentReference> {
     serde_json::from_str(include_str!("../../reference/independent.json")).context("independent.json")
 }
 
-pub(super) fn exact() -> Result<Reference> {
+pub(super) fn exact() -> Result<ExactReference> {
     serde_json::from_str(include_str!("../../reference/exact.json")).context("exact.json")
 }
 
-/// A robot and its unstrained lengths.
+/// Reads a robot and its unstrained lengths.
 pub(super) fn robot(text: &str) -> Result<(Robot, Vec<f64>)> {
     let robot = Robot::from_toml(text)?;
     match robot.state.clone() {
@@ -448,7 +449,7 @@ pub(super) fn robot(text: &str) -> Result<(Robot, Vec<f64>)> {
     }
 }
 
-/// A robot of the library by its file's name.
+/// Reads a robot of the library by the name of its file.
 pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
     robot(match name {
         "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,

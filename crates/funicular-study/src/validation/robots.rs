@@ -1,4 +1,4 @@
-//! The paper's robot at rest.
+//! Equilibria of the paper's robot.
 
 use super::reference::{Published, library};
 use super::{Bound, Case, Section};
@@ -21,7 +21,7 @@ pub(super) fn section(published: &Published) -> Result<Section> {
     }
     Ok(Section {
         title: "Equilibria of the paper's robot",
-        note: "Six catenaries and a platform, no start given. What is left are the digits that were printed.",
+        note: "Six catenaries and a platform, without a given start. The printed digits bound the differences.",
         rows,
     })
 }

@@ -1,7 +1,7 @@
 //! Shapes of undamped modes: energies, modal masses, displacements along the cables.
 
 use super::reference::{ModeShape, ShapesOfRobot, robot};
-use super::{Bound, Case, Kind, Row, largest, worst};
+use super::{Bound, Case, Comparison, DifferenceKind, largest, worst};
 use anyhow::{Context, Result, ensure};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -10,20 +10,20 @@ use funicular::modes::{self, Kind as ModeKind, Mode};
 use funicular::robot::Robot;
 use funicular::statics::{self, Equilibrium, StaticModel};
 
-/// Largest differences of one mode.
+/// Maximum differences of one mode.
 struct Differences {
-    /// Relative.
+    /// Relative difference of the frequency.
     frequency: f64,
-    /// Absolute, divided by what the nearness of the next frequency adds.
+    /// Absolute difference of energy fractions, divided by 1 + 0.001/gap.
     energy: f64,
-    /// Relative, divided by the same; none with the platform at rest.
+    /// Relative difference of the modal mass, divided by 1 + 0.001/gap; `None` with the platform at rest.
     modal_mass: Option<f64>,
-    /// Relative to the largest displacement.
+    /// Difference of displacements, relative to the largest displacement.
     shape: f64,
 }
 
 /// Compares the modes of one robot: one row per quantity.
-pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Result<Vec<Row>> {
+pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Result<Vec<Comparison>> {
     let case = Case { name: given.robot.clone(), source };
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
@@ -31,8 +31,8 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
     let list = modes::below(&dynamics, given.below_hz).modes;
     ensure!(!given.modes.is_empty(), "{}: no modes to compare", given.robot);
 
-    // One comparison a mode.
-    let compared = Compared { robot: &robot, rest: &rest, dynamics: &dynamics, fractions: &given.fractions };
+    // One comparison per mode.
+    let compared = ShapeComparison { robot: &robot, rest: &rest, dynamics: &dynamics, fractions: &given.fractions };
     let mut all = Vec::new();
     let (mut at_rest, mut shown) = (0, None);
     for theirs in &given.modes {
@@ -47,7 +47,7 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
 
     let platform = theirs.kinetic_energy_fraction["platform"];
     let several = given.modes.len();
-    let row = |quantity: &str, kind: Kind, shown: (f64, f64), differences: Vec<f64>, tolerance| {
+    let row = |quantity: &str, kind: DifferenceKind, shown: (f64, f64), differences: Vec<f64>, tolerance| {
         let difference = (worst(differences.into_iter()), kind);
         case.row(quantity, (&[shown.0], &[shown.1]), difference, tolerance, Bound::Elements)
     };
@@ -59,30 +59,31 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
         ),
         row(
             &format!("{several} natural frequencies, last that moves the platform [Hz]"),
-            Kind::Relative,
+            DifferenceKind::Relative,
             (theirs.frequency_hz, ours.frequency_hz),
             all.iter().map(|d| d.frequency).collect(),
             1e-11,
         ),
-        // An eigenvector is known to the precision of the frequency over the gap to the next one: 1e-12 over the gap.
+        // The error of an eigenvector is the error of the frequency divided by the gap to the next one: 1e-12/gap.
         row(
-            "parts of the kinetic energy, over 1 + 0.001/gap; platform's",
-            Kind::Absolute,
+            "fractions of the kinetic energy, divided by 1 + 0.001/gap; platform's",
+            DifferenceKind::Absolute,
             (platform, ours.platform_energy_fraction),
             all.iter().map(|d| d.energy).collect(),
             1e-9,
         ),
         row(
-            "modal masses, over 1 + 0.001/gap, last [kg]",
-            Kind::Relative,
+            "modal masses, divided by 1 + 0.001/gap, last [kg]",
+            DifferenceKind::Relative,
             (modal_mass, ours.modal_mass),
             all.iter().filter_map(|d| d.modal_mass).collect(),
             1e-8,
         ),
-        // Cables are resolved until their frequencies are known to 1e-11; an error of shape enters those squared.
+        // Cables are resolved until their frequencies are known to 1e-11. Errors of the shape enter frequencies
+        // squared.
         row(
             "displacements of the cables, largest [m/√kg]",
-            Kind::Relative,
+            DifferenceKind::Relative,
             compared.largest_displacements(theirs, ours)?,
             all.iter().map(|d| d.shape).collect(),
             3e-6,
@@ -90,14 +91,14 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
     ])
 }
 
-struct Compared<'a> {
+struct ShapeComparison<'a> {
     robot: &'a Robot,
     rest: &'a Equilibrium,
     dynamics: &'a Dynamics,
     fractions: &'a [f64],
 }
 
-impl Compared<'_> {
+impl ShapeComparison<'_> {
     fn differences(&self, theirs: &ModeShape, ours: &Mode) -> Result<Differences> {
         let nearness = 1.0 + 1e-3 / theirs.relative_gap_to_neighbour;
 
@@ -108,7 +109,7 @@ impl Compared<'_> {
         let energy = worst(gaps.chain([(ours.platform_energy_fraction - fraction("platform")).abs()]));
 
         let (a, b) = self.displacements(theirs, ours)?;
-        // One sign for all cables of the mode.
+        // The sign of a shape is free, but it is the same for all cables of the mode.
         let off = |sign: f64| worst(a.iter().zip(&b).map(|(a, b)| (a - sign * b).abs()));
         let (same, opposite) = (off(1.0), off(-1.0));
         let shape = if opposite < same { opposite } else { same } / largest(&a);
@@ -121,7 +122,7 @@ impl Compared<'_> {
         })
     }
 
-    /// Theirs and ours, all cables, for unit modal mass, world axes.
+    /// Displacements of all cables in the reference and in the program, for unit modal mass, world axes.
     fn displacements(&self, theirs: &ModeShape, ours: &Mode) -> Result<(Vec<f64>, Vec<f64>)> {
         let (mut a, mut b) = (Vec::new(), Vec::new());
         for (i, cable) in self.robot.cables.iter().enumerate() {

@@ -1,18 +1,18 @@
-//! Each section by itself: every comparison passes, and says where its numbers come from.
+//! Tests of each section: every comparison passes and has a source.
 
 use super::*;
 use crate::validation::reference::{damped, exact, independent, published};
 
-/// Fails with the rows that do not pass, as docs/validation.md has them.
+/// Fails with the rows that do not pass, in the form of docs/validation.md.
 fn check(section: Result<Section>) {
     let section = section.unwrap();
     let failed: Vec<String> = section.rows.iter().filter(|row| !row.pass).map(markdown::line).collect();
     assert!(failed.is_empty(), "{}:\n{}", section.title, failed.join("\n"));
 
-    // A table without rows, or numbers without a source, would compare nothing that can be looked up.
+    // A section needs rows, and every number needs a source that can be looked up.
     assert!(!section.rows.is_empty(), "{}", section.title);
     for row in &section.rows {
-        assert!(row.source.len() > 20, "{}, {}: {:?} is no source", row.case, row.quantity, row.source);
+        assert!(row.source.len() > 20, "{}, {}: {:?} is not a source", row.case, row.quantity, row.source);
         assert!(!row.theirs.is_empty() && row.tolerance >= 0.0, "{}, {}", row.case, row.quantity);
     }
 }

@@ -1,6 +1,6 @@
 //! Rows of a sweep on their way into pictures: counted and binned all of them, kept as many as a page carries.
 
-use crate::sweep::{CODES, Chunk, Column, Kind, MAX_POINTS, Steps, SweepRows, Values, axes_of};
+use crate::sweep::{CODES, Chunk, Column, ColumnKind, MAX_POINTS, Steps, SweepRows, Values, axes_of};
 use anyhow::{Context as _, Result, bail};
 use serde_json::Value;
 
@@ -133,15 +133,17 @@ impl Rows {
         let record = file.record();
         let columns = &record.columns;
         let damaged = "the file's plan does not fit its rows: it is damaged, or of another program";
-        let coordinates = columns.iter().take_while(|column| column.kind == Kind::Real).count();
+        let coordinates = columns.iter().take_while(|column| column.kind == ColumnKind::Real).count();
         let head = columns.get(coordinates..coordinates + 3);
-        if head.is_none_or(|head| head.iter().map(|c| c.kind).ne([Kind::Flag, Kind::Text, Kind::Text]))
+        if head
+            .is_none_or(|head| head.iter().map(|c| c.kind).ne([ColumnKind::Flag, ColumnKind::Text, ColumnKind::Text]))
             || record.rows > MAX_POINTS
         {
             bail!(damaged);
         }
         let numbers = columns.iter().skip(coordinates + 3);
-        let (numbers, words): (Vec<&Column>, Vec<&Column>) = numbers.partition(|column| column.kind == Kind::Real);
+        let (numbers, words): (Vec<&Column>, Vec<&Column>) =
+            numbers.partition(|column| column.kind == ColumnKind::Real);
         let is_list = record.plan.contains_key("poses");
         let grid = if is_list { None } else { Some(grid_of(&record.plan).with_context(|| damaged)?) };
         if grid.as_ref().is_some_and(|grid| points_of(grid) != record.rows) {
@@ -192,7 +194,7 @@ impl Rows {
     fn count(&mut self, chunk: &Chunk, first: usize, of_series: &[usize], columns: &[Column]) {
         let head = self.coordinates.len();
         if let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3] {
-            debug_assert_eq!(columns[head].kind, Kind::Flag);
+            debug_assert_eq!(columns[head].kind, ColumnKind::Flag);
             self.feasible += feasible.iter().filter(|feasible| **feasible).count();
             for (status, reason) in status.iter().zip(reasons) {
                 let code = code_of(status.as_deref());
@@ -335,8 +337,8 @@ enum Slot {
 
 /// Places of the columns of numbers behind the coordinates.
 fn series_columns(columns: &[Column]) -> Vec<usize> {
-    let begin = columns.iter().position(|column| column.kind != Kind::Real).unwrap_or(columns.len());
-    (begin..columns.len()).filter(|&i| columns[i].kind == Kind::Real).collect()
+    let begin = columns.iter().position(|column| column.kind != ColumnKind::Real).unwrap_or(columns.len());
+    (begin..columns.len()).filter(|&i| columns[i].kind == ColumnKind::Real).collect()
 }
 
 /// The name of a coordinate without its unit, as a grid has it.
