@@ -21,7 +21,7 @@ pub(crate) trait Printed: Found {
     /// Rounded tables for reading.
     fn text(&self) -> String;
 
-    /// One rectangular table with a header.
+    /// Rectangular table with a header.
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
 }
 
@@ -30,7 +30,7 @@ pub(crate) trait Printed: Found {
 pub(crate) struct Content {
     /// Name of the output in messages: "the result".
     pub(crate) name: &'static str,
-    /// The option that names the file.
+    /// Option that names the file.
     pub(crate) option: &'static str,
     /// Kind of the file in messages: "a page".
     pub(crate) in_words: &'static str,

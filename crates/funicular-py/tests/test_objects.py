@@ -203,7 +203,7 @@ def test_files_that_cannot_be_read_say_so(tmp_path: Path) -> None:
     with pytest.raises(IsADirectoryError):
         funicular.Robot.from_file(tmp_path)
     (tmp_path / "binary.toml").write_bytes(b"name = '\xff'")
-    with pytest.raises(funicular.RobotFileError, match="byte 9 is not UTF-8"):
+    with pytest.raises(funicular.RobotFileError, match="not valid UTF-8 at byte 9"):
         funicular.Robot.from_file(tmp_path / "binary.toml")
     with pytest.raises(funicular.RobotFileError, match="line|<dict>"):
         funicular.Robot.from_dict({"name": "r", "platform": {"mass_kg": -1}})

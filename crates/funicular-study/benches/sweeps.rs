@@ -1,4 +1,4 @@
-//! Maps, on one core; robot: robots/yuan2014-4mm.toml at 10.55 kg.
+//! Benchmarks of maps on one core, with the robot robots/yuan2014-4mm.toml at 10.55 kg.
 #![allow(missing_docs)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -6,7 +6,7 @@ use funicular::robot::Robot;
 use funicular_study::sweep::{Options, Plan, Poses, Quantity};
 use std::time::Duration;
 
-/// A thousand poses of the middle of the workspace, on one thread.
+/// Measures a thousand poses in the middle of the workspace, on one thread.
 fn sweeps(c: &mut Criterion) {
     let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).expect("the library's robot");
     let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() - 0.5;

@@ -1,12 +1,13 @@
 //! Requests and results of funicular as plain data.
 //!
-//! A [`Request`] says everything about one analysis: the text of the robot file, its changes, state, loads, limits, models and
-//! the question itself. [`run`] answers it with [`Results`]. Both are serde data with one vocabulary: the names of the keys
-//! are those of the program's options, of Python's keywords and of the plan inside the file of a sweep. The front ends
-//! (program, Python package, browser) translate into a request and out of the results, and decide nothing themselves.
+//! A [`Request`] contains everything about one analysis: the command, the text of the robot file, its changes, state,
+//! loads, limits and models. [`run`] answers it with [`Results`]. Both are serde data with one vocabulary: the keys
+//! have the same names as the program's options, Python's keywords and the plan inside the file of a sweep. The front
+//! ends (program, Python package, browser) convert their input to a request and the results to their output. They make
+//! no decisions themselves.
 //!
-//! This crate has no disk and no threads; it compiles for WebAssembly. Beside the analyses it holds all that turns results
-//! into other forms: [`import`] and [`export`] of other programs' files, [`pages`] in HTML (feature `pages`), and [`validation`].
+//! This crate uses no disk and no threads, and it compiles for WebAssembly. Besides the analyses it contains [`import`]
+//! and [`export`] of other programs' files, [`pages`] in HTML (feature `pages`), and [`validation`].
 //!
 //! # Example
 //! ```

@@ -73,21 +73,21 @@ pub enum Request {
 /// Request of `check`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CheckRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
 }
 
 /// Request of `parameters`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParametersRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
 }
 
 /// Request of `statics`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StaticsRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// State and loads.
     #[serde(flatten)]
@@ -103,7 +103,7 @@ pub struct StaticsRequest {
 /// Request of `stiffness`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StiffnessRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Frequency [Hz]; at 0 the tangent of the static model unless a cable model is named.
     #[serde(default)]
@@ -119,7 +119,7 @@ pub struct StiffnessRequest {
 /// Request of `modes`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModesRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
@@ -149,7 +149,7 @@ pub struct ModesRequest {
 /// Request of `frf`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FrfRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Frequencies.
     #[serde(flatten)]
@@ -175,7 +175,7 @@ pub struct FrfRequest {
 /// Request of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CompareRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
@@ -190,7 +190,7 @@ pub struct CompareRequest {
 /// Request of `pose-error`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PoseErrorRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Platform masses: first [kg], last [kg], number of them in equal steps.
     pub mass_kg: (f64, f64, usize),
@@ -205,7 +205,7 @@ pub struct PoseErrorRequest {
 /// Request of `cable`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CableRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Name of the cable.
     pub name: String,
@@ -226,7 +226,7 @@ pub struct CableRequest {
 /// Request of `reduce`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReduceRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Highest frequency that the model is for [Hz].
     pub below_hz: f64,
@@ -256,7 +256,7 @@ pub struct ReduceRequest {
 /// Request of `map`: quantities over poses, from a grid or a list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MapRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Axes of the grid, each once. An axis that is left out keeps the value of the state.
     #[serde(default)]
@@ -272,7 +272,7 @@ pub struct MapRequest {
 /// Request of `sweep`: quantities over all combinations of values of the robot file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweepRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Values of the robot file that vary, each an axis named by its path. The first axis runs fastest.
     pub vary: Vec<Axis>,
@@ -284,7 +284,7 @@ pub struct SweepRequest {
 /// Request of `report`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReportRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Upper limit of the frequencies [Hz].
     #[serde(default = "twenty")]
@@ -333,7 +333,7 @@ pub struct ImportRequest {
 /// Request of `export`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExportRequest {
-    /// The robot file.
+    /// Robot file.
     pub robot: RobotText,
     /// Program that the file is for.
     #[serde(with = "crate::names")]

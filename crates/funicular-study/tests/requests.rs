@@ -1,4 +1,4 @@
-//! Requests as JSON: what is written is read as the same request, whatever the command and the keys.
+//! Tests of requests in JSON: a request that is written is read as the same request, for all commands and keys.
 
 use funicular_study::Request;
 use funicular_study::request::KEYS;
@@ -18,13 +18,13 @@ fn robot() -> Value {
     })
 }
 
-/// Objects with the keys of all parts given.
+/// Object with the keys of all given parts.
 fn joined(parts: &[&Value]) -> Value {
     let keys = parts.iter().filter_map(|part| part.as_object()).flatten();
     Value::Object(keys.map(|(key, value)| (key.clone(), value.clone())).collect())
 }
 
-/// Requests of every command, each with every key that it has.
+/// Requests of every command, each with all of its keys.
 fn requests() -> Vec<Value> {
     let robot = json!({ "robot": robot() });
     let loads = json!({
@@ -106,7 +106,7 @@ fn a_request_that_is_written_is_read_as_it_was() {
         let request = Request::from_value(value.clone()).unwrap_or_else(|error| panic!("{value}: {error}"));
         let written = request.to_value();
         assert_eq!(written["schema"], "funicular-request/1");
-        // Nothing is lost, added or changed, but for the schema.
+        // Nothing is lost, added or changed, except the schema.
         let mut keys = written.clone();
         keys.as_object_mut().unwrap().remove("schema");
         assert_eq!(keys, value);
@@ -126,7 +126,7 @@ fn every_command_and_every_key_is_in_a_request_here() {
 #[test]
 fn defaults_of_a_request_are_written_and_read_as_they_are() {
     for value in requests() {
-        // What is not required is left out, key by key, as long as the request is one.
+        // Optional keys are left out one by one, as long as the request can be read.
         let Value::Object(mut keys) = value else { panic!("an object") };
         for key in keys.keys().cloned().collect::<Vec<_>>() {
             let mut fewer = keys.clone();
@@ -146,7 +146,7 @@ fn defaults_of_a_request_are_written_and_read_as_they_are() {
 fn every_digit_of_a_number_survives() {
     let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
     for _ in 0..2000 {
-        // A linear congruential generator: any numbers will do.
+        // A linear congruential generator makes arbitrary numbers.
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let number = f64::from_bits(bits);
         if !number.is_finite() {

@@ -1,4 +1,4 @@
-//! Sweeps: rows that depend on their own point alone, and columns that are what the functions they stand for give.
+//! Tests of sweeps: rows depend on their own point alone, and columns equal the results of the functions behind them.
 #![allow(missing_docs)]
 
 use funicular::cable::CableModel;
@@ -45,19 +45,19 @@ fn reals(plan: &Plan, chunks: &[Chunk], name: &str) -> Vec<Option<f64>> {
 fn rows_are_the_same_bits_in_any_order_and_in_any_part() {
     let robot = yuan();
     let (points, options) = (grid(&robot, [9, 8, 7]), Options::default());
-    let asked = quantities("tensions,stiffness,pose-error,condition,energy,lengths");
-    let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+    let requested = quantities("tensions,stiffness,pose-error,condition,energy,lengths");
+    let plan = Plan::new(&points, &robot, &requested, &options).unwrap();
     assert!(plan.chunks() > 50, "{}", plan.chunks());
     let alone = chunks(&plan);
     assert_eq!(alone.iter().map(Chunk::rows).sum::<usize>(), plan.rows());
     assert_eq!(plan.evaluate(1, || true), None);
-    // No value is NaN, so that equality is equality of bits. The order of evaluation does not count.
+    // No value is NaN, so equality means equality of bits. The order of evaluation does not matter.
     for index in [0, plan.chunks() / 2, plan.chunks() - 1] {
         assert_eq!(plan.evaluate(index, || false).as_ref(), Some(&alone[index]));
     }
-    // A single row, of a plan that has no other, is the same too.
+    // A plan with a single row gives the same row.
     let single = Poses::list(robot.clone(), vec![[-1.5, -1.0, 0.2, 0.0, 0.0, 0.0]]);
-    let plan = Plan::new(&single, &robot, &asked, &options).unwrap();
+    let plan = Plan::new(&single, &robot, &requested, &options).unwrap();
     let columns = chunks(&plan).remove(0).columns;
     for (one, all) in columns.iter().zip(&alone[0].columns) {
         match (one, all) {
@@ -72,15 +72,16 @@ fn rows_are_the_same_bits_in_any_order_and_in_any_part() {
 #[test]
 fn every_column_is_what_the_function_it_stands_for_gives() {
     let robot = yuan();
-    // Around the middle, where no cable is all but slack: such a one cannot be resolved far above its first frequency.
+    // The poses are around the middle, where no cable is nearly slack: a nearly slack cable cannot be resolved far
+    // above its first frequency.
     let near = |to: f64, count| Steps::range(-to, to, count).unwrap();
     let given = axes(&[("x", near(0.4, 3)), ("y", near(0.3, 2)), ("z", Steps::range(0.3, 0.9, 2).unwrap())]);
     let points = Poses::grid(robot.clone(), &given, None).unwrap();
     let options = Options::default();
-    let asked = quantities(
+    let requested = quantities(
         "frequencies:3,first-frequency,tension-max,tensions,lengths,stiffness-min,stiffness,energy,model-error:spring,pose-error",
     );
-    let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+    let plan = Plan::new(&points, &robot, &requested, &options).unwrap();
     let all = chunks(&plan);
     let of = |name: &str| reals(&plan, &all, name);
     let (xs, ys, zs) = (of("x_m"), of("y_m"), of("z_m"));
@@ -94,8 +95,8 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
         feasible += 1;
         assert_eq!(of("tension_platform_2_n")[row], Some(rest.cables[1].tension_platform));
         assert_eq!(of("unstrained_length_6_m")[row], Some(rest.cables[5].unstrained_length));
-        let greatest = rest.cables.iter().map(|c| c.tension_anchor.max(c.tension_platform)).fold(0.0, f64::max);
-        assert_eq!(of("tension_max_n")[row], Some(greatest), "all anchors are above the platform");
+        let max_tension = rest.cables.iter().map(|c| c.tension_anchor.max(c.tension_platform)).fold(0.0, f64::max);
+        assert_eq!(of("tension_max_n")[row], Some(max_tension), "all anchors are above the platform");
         assert_eq!(of("potential_energy_j")[row], Some(statics::energy(&robot, &rest)));
         let Stability::Stable { min_stiffness } = rest.stability else { continue };
         assert_eq!(of("stiffness_min_n_per_m")[row], Some(min_stiffness));
@@ -103,14 +104,15 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
         let x = of("stiffness_x_n_per_m")[row].unwrap();
         assert!((x * compliance[(0, 0)] - 1.0).abs() < 1e-9);
         let first = |cable_model| {
-            let asked = Linearisation { cable_model, ..Linearisation::default() };
-            let dynamics = Dynamics::about(&robot, &rest, asked, 15.0).unwrap();
+            let requested = Linearisation { cable_model, ..Linearisation::default() };
+            let dynamics = Dynamics::about(&robot, &rest, requested, 15.0).unwrap();
             modes::below(&dynamics, 15.0).modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>()
         };
         let exact = first(CableModel::CatenaryDynamic);
         let near = |name: &str, expected: f64| {
             let found = of(name)[row].unwrap();
-            // The catenary-dynamic cable is as fine as the limit asks for, which differs here: its own tolerance.
+            // The mesh of a catenary-dynamic cable depends on the frequency limit, which differs here. The tolerance is
+            // the tolerance of the mesh.
             assert!((found / expected - 1.0).abs() < 2e-9, "{name}: {found} for {expected}");
         };
         near("first_frequency_hz", exact[0]);
@@ -141,12 +143,12 @@ fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
             funicular::robot::State::Unknown => continue,
         };
         let reach = robot.cables[0].anchor.reference_w().norm();
-        // At home, and so far away that nothing holds it.
+        // A pose of the workspace, and a pose so far away that no cables hold it.
         let x = rest.position_w.x;
         let steps = Steps::List(vec![x, x + 0.01 * reach, x + 40.0 * reach]);
         let points = Poses::grid(robot.clone(), &axes(&[("x", steps)]), Some(&rest)).unwrap();
-        let (asked, options) = (quantities(all), Options::default());
-        let plan = Plan::new(&points, &robot, &asked, &options).unwrap();
+        let (requested, options) = (quantities(all), Options::default());
+        let plan = Plan::new(&points, &robot, &requested, &options).unwrap();
         let chunks = chunks(&plan);
         let feasible_at = plan.columns().iter().position(|column| column.name == "feasible").unwrap();
         for chunk in &chunks {
@@ -206,8 +208,8 @@ fn plans_that_cannot_be_are_refused_with_what_is_wrong() {
 #[test]
 fn columns_have_units_in_their_names() {
     let robot = yuan();
-    let asked = quantities("first-frequency,tensions,stiffness,sag-max,energy,pose");
-    for column in asked.iter().flat_map(|quantity| quantity.columns(&robot)) {
+    let requested = quantities("first-frequency,tensions,stiffness,sag-max,energy,pose");
+    for column in requested.iter().flat_map(|quantity| quantity.columns(&robot)) {
         let ending = match column.unit.as_ref() {
             "Hz" => "_hz",
             "N" => "_n",

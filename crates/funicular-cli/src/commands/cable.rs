@@ -56,7 +56,7 @@ impl Printed for CableResult {
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        // The matrix is symmetric: its upper half.
+        // The matrix is symmetric, so only its upper half is written.
         const UPPER: [(usize, usize, &str); 6] =
             [(0, 0, "xx"), (0, 1, "xy"), (0, 2, "xz"), (1, 1, "yy"), (1, 2, "yz"), (2, 2, "zz")];
         let names = ["a", "b", "c", "o"].into_iter().chain(UPPER.map(|(_, _, name)| name));

@@ -69,9 +69,9 @@ const MATRICES: Content =
 
 /// Destination of the matrices.
 pub(crate) enum ModelFile {
-    /// One NumPy archive.
+    /// NumPy archive.
     Npz(Target),
-    /// A folder of CSV files, new or empty.
+    /// Folder of CSV files, new or empty.
     Folder(PathBuf),
 }
 

@@ -177,7 +177,7 @@ fn stability(row: &EquilibriumRow) -> String {
     }
 }
 
-/// One sentence about another stable equilibrium.
+/// Sentence about another stable equilibrium.
 fn other_text(other: &OtherStable) -> String {
     let energy = other.energy_above_j.map_or_else(String::new, |energy| {
         format!(", {} J {}", short(energy.abs(), 4), if energy < 0.0 { "lower" } else { "higher" })

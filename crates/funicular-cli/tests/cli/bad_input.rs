@@ -25,7 +25,7 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT ROBOT", "unexpected argument"),
         ("statics no-such-file.toml", "cannot read the robot file no-such-file.toml"),
         ("statics /", "it is a directory"),
-        ("check /dev/zero", "it is no robot file"),
+        ("check /dev/zero", "it is not a robot file"),
         ("check /dev/null", "describes no robot"),
         // Options.
         ("statics ROBOT --pose-m 0,0,1", "unexpected argument"),
@@ -120,7 +120,7 @@ fn broken_command_lines_are_refused() {
         ("pose-error ROBOT", "--mass-kg"),
         ("pose-error ROBOT --mass-kg 10", "write from:to:count"),
         ("pose-error ROBOT --mass-kg 90:10:5", "it must end above its start"),
-        ("pose-error ROBOT --mass-kg 10:90:1", "not a count of masses"),
+        ("pose-error ROBOT --mass-kg 10:90:1", "not a number of masses"),
         ("pose-error ROBOT --mass-kg 0:90:5", "0 is not positive"),
         ("pose-error ROBOT --mass-kg 10:90:5 --tolerance-mm 0", "0 is not positive"),
         ("pose-error ROBOT --mass-kg 10:90:5 --lengths-m 1,2", "2 unstrained lengths for 6 cables"),
@@ -170,6 +170,62 @@ fn broken_robot_files_are_refused_at_their_place() {
 }
 
 #[test]
+fn an_earlier_name_is_answered_with_the_present_name() {
+    // Values and names of options on the command line.
+    const FREQUENCIES: &str = "--from-hz 1 --to-hz 2 --points 9";
+    let lines = [
+        ("modes ROBOT --below-hz 5 --cable-model exact".to_owned(), "catenary-dynamic"),
+        ("modes ROBOT --below-hz 5 --cable-model closed-form".to_owned(), "shallow-dynamic"),
+        (format!("cable ROBOT --name 1 {FREQUENCIES} --cable-model catenary-tangent"), "catenary-static"),
+        ("stiffness ROBOT --cable-model static-sag".to_owned(), "shallow-static"),
+        ("stiffness ROBOT --assembly paper".to_owned(), "without-geometric-stiffness"),
+        ("statics ROBOT --pose 0,0,0.5 --wanted-tension-n 100".to_owned(), "--target-tension-n"),
+        ("reduce ROBOT --below-hz 5 --model model.npz".to_owned(), "--matrices"),
+        ("map ROBOT --grid x=0 --quantity model-error:static-sag".to_owned(), "model-error:shallow-static"),
+        ("map ROBOT --grid x=0 --quantity stiffness-error:closed-form".to_owned(), "stiffness-error:shallow-dynamic"),
+    ];
+    for (line, new) in &lines {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let output = run(&arguments);
+        assert_refused(&output, 2, new, line);
+
+        // The name is suggested, not just one of a list.
+        let message = stderr(&output);
+        let suggested = [format!("a similar value exists: '{new}'"), format!("a similar argument exists: '{new}'")];
+        let suggested = suggested.iter().any(|tip| message.contains(tip));
+        assert!(suggested || message.contains(&format!("did you mean `{new}`?")), "{line}: {message}");
+    }
+    // Other commands never had `--model`, and have more than one option that ends so.
+    let message = stderr(&run(&["statics", "ROBOT", "--model", "spring"]));
+    assert!(!message.contains("--matrices"), "{message}");
+
+    // Keys of a robot file.
+    let with_key = |text: &str| text.replacen("[platform]\n", "[platform]\nfreedoms = \"rigid\"\n", 1);
+    assert_refused(&run_with(&["check", "-"], &with_key(&yuan())), 2, "did you mean `motion`?", "key of a robot file");
+    let set = ["check", "ROBOT", "--set", "platform.freedoms=rigid"];
+    assert_refused(&run(&set), 2, "did you mean `motion`?", "changed key of a robot file");
+
+    // Keys and values of a request.
+    let refused = |command: &str, keys: serde_json::Value, new: &str| {
+        let mut request = serde_json::json!({ "command": command, "robot": { "text": yuan() } });
+        let all = request.as_object_mut().expect("an object");
+        all.extend(keys.as_object().expect("an object").clone());
+        let expected = format!("did you mean `{new}`?");
+        assert_refused(&run_with(&["request", "-"], &request.to_string()), 2, &expected, &keys.to_string());
+    };
+    refused("statics", serde_json::json!({ "wanted_tension_n": [100.0] }), "target_tension_n");
+    refused("stiffness", serde_json::json!({ "assembly": "paper" }), "without-geometric-stiffness");
+    for (old, new) in [
+        ("exact", "catenary-dynamic"),
+        ("closed-form", "shallow-dynamic"),
+        ("catenary-tangent", "catenary-static"),
+        ("static-sag", "shallow-static"),
+    ] {
+        refused("modes", serde_json::json!({ "below_hz": 5.0, "cable_model": old }), new);
+    }
+}
+
+#[test]
 fn a_robot_without_a_state_is_told_which_options_give_one() {
     let text: String =
         yuan().lines().filter(|line| !line.starts_with("unstrained")).map(|l| l.to_owned() + "\n").collect();
@@ -184,16 +240,16 @@ fn a_robot_without_a_state_is_told_which_options_give_one() {
 #[test]
 fn bytes_that_are_no_text_are_refused() {
     let output = super::command(&["check", "-"]).write_stdin(vec![b'a', 0xff]).output().unwrap();
-    assert_refused(&output, 2, "byte 2 is not UTF-8", "bytes");
+    assert_refused(&output, 2, "not valid UTF-8 at byte 2", "bytes");
 }
 
 #[test]
 fn a_point_mass_neither_turns_nor_extends() {
     let robot = super::robot("sap2000-8-cable-point-mass.toml");
     for (line, expected) in [
-        ("--input mz --output z", "a point mass does not turn"),
-        ("--input fz --output rz", "a point mass does not turn"),
-        ("--input fz --output z --input-point-m 0,0,1", "leave out the input's point"),
+        ("--input mz --output z", "a point mass has no rotation"),
+        ("--input fz --output rz", "a point mass has no rotation"),
+        ("--input fz --output z --input-point-m 0,0,1", "leave out the point of the input"),
     ] {
         let arguments: Vec<&str> = ["frf", &robot, "--from-hz", "1", "--to-hz", "2", "--points", "5"]
             .into_iter()

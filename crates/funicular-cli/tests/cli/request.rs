@@ -68,7 +68,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
     let text = serde_json::to_string(&super::yuan()).unwrap();
     for (request, says) in [
         (String::new(), "the request is not valid JSON"),
-        ("[]".to_owned(), "a request is a JSON object"),
+        ("[]".to_owned(), "the request is not a JSON object"),
         (r#"{"robot": {"text": ""}}"#.to_owned(), "it has no `command`"),
         (r#"{"command": "static"}"#.to_owned(), "expected one of `check`, `parameters`, `statics`"),
         (r#"{"command": "statics"}"#.to_owned(), "missing field `robot`"),

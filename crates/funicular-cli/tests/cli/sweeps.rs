@@ -178,7 +178,10 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
     assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
     assert_eq!(output.status.code(), Some(130));
     let message = stderr(&output);
-    assert!(message.contains("--resume goes on") && message.contains("marked as incomplete"), "{message}");
+    assert!(
+        message.contains("continue with the same command and --resume") && message.contains("marked as incomplete"),
+        "{message}"
+    );
     assert!(path.exists() && journal.exists());
     let again = started(&arguments).wait_with_output().unwrap();
     assert_eq!(again.status.code(), Some(2));
@@ -252,8 +255,8 @@ fn broken_sweeps_are_refused_with_one_message() {
             "1000000000000 points are more than the 100000000",
         ),
         ("map ROBOT --grid x=0:1:5 --quantity tension-mx", "did you mean `tension-max`?"),
-        ("map ROBOT --grid x=0:1:5 --quantity energy,energy", "would be there twice"),
-        ("map ROBOT --grid x=0:1:5 --quantity stiffness --static-model ideal", "does not exist with the static model"),
+        ("map ROBOT --grid x=0:1:5 --quantity energy,energy", "would appear twice"),
+        ("map ROBOT --grid x=0:1:5 --quantity stiffness --static-model ideal", "does not exist for the static model"),
         ("map ROBOT --grid x=0:1:5 --tension-rule lowest", "nothing to choose"),
         ("map ROBOT --grid x=0:1:5 -o rows.txt", "names no format: .parquet, .csv or .vti"),
         ("map ROBOT --grid x=0:1:5 -o no/such/folder/a.csv", "there is no directory"),

@@ -1,4 +1,4 @@
-//! The vocabulary of requests.
+//! Vocabulary of requests.
 
 /// Every key of a request and its meaning. The keys are the names of the program's options and of Python's keywords.
 pub const KEYS: &[(&str, &str)] = &[

@@ -237,7 +237,7 @@ pub enum Axis {
     List {
         /// Name of the axis, or path into the robot file.
         axis: String,
-        /// The values.
+        /// Values along the axis.
         values: Vec<f64>,
     },
 }

@@ -73,7 +73,7 @@ pub enum SweepError {
     RepeatedValue {
         /// Name of the axis.
         axis: String,
-        /// The value [m, degrees].
+        /// Value that is given twice [m, degrees].
         value: f64,
     },
     /// Axis along which the platform cannot move.

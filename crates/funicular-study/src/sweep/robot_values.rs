@@ -213,9 +213,9 @@ mod tests {
         }
     }
 
-    /// Every number of every robot of the library, one after the other and in pairs, with values inside and outside its
-    /// range: the robot with the number in its place is the one that is read from the text with the number in it, bit
-    /// for bit, and both ways refuse the same robots with the same words.
+    /// Changes every number of every robot of the library, alone and in pairs, to values inside and outside its range.
+    /// The robot with the number replaced equals the robot read from the changed text, bit for bit, and both methods
+    /// refuse the same robots with the same message.
     #[test]
     fn numbers_in_place_and_numbers_in_the_text_make_the_same_robots() {
         let (mut equal, mut refused) = (0, 0);
@@ -243,7 +243,7 @@ mod tests {
                         changes.iter().map(|(at, value)| path(*at).with(OPTION, *value)).collect();
                     let edited = Robot::from_toml(&set_values::apply(text, &assignments).unwrap());
                     match (parameters.robot_with(&changes), edited) {
-                        // Equal as text, too: zeros of both signs are equal, and their texts are not.
+                        // The texts are compared too, because zeros of both signs are equal and their texts are not.
                         (Ok(one), Ok(other)) => {
                             assert_eq!(format!("{one:?}"), format!("{other:?}"));
                             equal += 1;
@@ -263,11 +263,12 @@ mod tests {
         assert!(equal > 1000 && refused > 1000, "{equal} {refused}");
     }
 
-    /// The robots of a sweep are those of the text way, which a value that is no number of the file still takes.
+    /// Robots of a sweep equal the robots read from changed texts. A value that is not a number of the file is read
+    /// from text.
     #[test]
     fn a_sweep_over_numbers_has_the_robots_of_the_edited_texts() {
         let text = funicular_robots::COGIRO;
-        // The second is not in the file, and neither are the limits of a cable, which exclude each other in some rows.
+        // The second value and the limits of a cable are not in the file. The limits exclude each other in some rows.
         let axes = [
             ("cables.1.anchor_m.z", Steps::range(5.0, 6.0, 3)),
             ("platform.translational_damping_n_s_m.x", Steps::range(0.0, 0.2, 2)),
