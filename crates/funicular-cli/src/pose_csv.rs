@@ -21,6 +21,7 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&bytes[..]);
     let header = reader.headers().with_context(|| format!("cannot read the poses {shown}"))?.clone();
     let places = places(&header).map_err(|reason| anyhow!("{shown} {reason}"))?;
+
     let mut poses = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| match error.kind() {
@@ -46,9 +47,11 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
         }
         poses.push(pose);
     }
+
     if poses.is_empty() {
         bail!("{shown} has a header and no poses: give one pose per line below it");
     }
+
     Ok(poses)
 }
 
@@ -66,6 +69,7 @@ fn line_at(bytes: &[u8], position: &csv::Position) -> usize {
 fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
     let mut places = [None; 6];
     let mut others = Vec::new();
+
     for (i, name) in header.iter().map(|name| name.trim_start_matches('\u{feff}')).enumerate() {
         if let Some(k) = COLUMNS.iter().position(|column| *column == name) {
             if places[k].replace(i).is_some() {
@@ -75,6 +79,7 @@ fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
             others.push(name);
         }
     }
+
     let all = COLUMNS.join(", ");
     if let Some(missing) = (0..3).find(|&k| places[k].is_none()) {
         let missing = COLUMNS[missing];
@@ -82,8 +87,10 @@ fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
             "has no column `{missing}`: the first line names, separated by commas, {all}; angles may be left out"
         ));
     }
+
     let stem = |name: &str| name.split('_').next().unwrap_or_default().to_lowercase();
     let meant = |name: &str| (0..6).find(|&k| places[k].is_none() && stem(COLUMNS[k]) == stem(name));
+
     if let Some((name, k)) = others.iter().find_map(|name| Some((name, meant(name)?))) {
         let column = COLUMNS[k];
         return Err(format!(
@@ -93,6 +100,7 @@ fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
     if !others.is_empty() {
         errors::note(&format!("columns that do not belong to a pose are ignored: {}", others.join(", ")));
     }
+
     Ok(places)
 }
 

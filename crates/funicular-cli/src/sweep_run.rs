@@ -103,6 +103,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     };
     let range = record.range();
     let rows = record.rows_of(range.clone());
+
     let mut work = match funicular_files::Job::open(path, record, begin)? {
         Opened::Done => {
             errors::note(&format!("{} already contains all of {}", path.display(), counted(rows, "row")));
@@ -117,10 +118,12 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     };
     listen()?;
     let mut summary = Summary::new(job, plan.columns());
+
     if work.done() > 0 {
         errors::note(&format!("continuing after {} of {rows} rows", work.done()));
         work.each(&mut |chunk| summary.add(&chunk))?;
     }
+
     let mut progress = Progress::with_rate(rows - work.done(), "rows");
     let outcome = threads::run(plan, work.next()..range.end, threads, &STOPPED, |chunk| {
         work.add(&chunk)?;
@@ -129,10 +132,12 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
         anyhow::Ok(())
     })?;
     drop(progress);
+
     if outcome != Outcome::Complete {
         let safe = work.interrupt()?;
         return Err(Interrupted(format!("stopped: {safe}; continue with the same command and --resume")).into());
     }
+
     work.finish()?;
     errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
     if run.format.is_some() { summary.print(run.format) } else { Ok(()) }

@@ -457,9 +457,11 @@ impl Request {
                 return Err(anyhow!("the schema of the request is {other}; this program reads {SCHEMA}").into());
             }
         }
+
         // A key with `null` counts as a key that is absent.
         given.retain(|_, value| !value.is_null());
         let request: Self = parsed(&given).map_err(|error| anyhow!("the request cannot be read: {error}"))?;
+
         // Every known key is written again. A key that is not written again is unknown to the command.
         let Value::Object(understood) = request.to_value() else {
             unreachable!("a request is serialised as an object")
@@ -469,6 +471,7 @@ impl Request {
             let nearest = suggestion(unknown, &names);
             return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());
         }
+
         Ok(request)
     }
 

@@ -212,6 +212,7 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
     {
         (key, parents) = of_array;
     }
+
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parents = parents.iter();
     let mut walked: Vec<&str> = Vec::new();
@@ -235,6 +236,7 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
             }
         };
     }
+
     match component {
         None => put(table, key, in_lines, assignment, assignment.value.clone()),
         Some((component, name)) => {
@@ -261,6 +263,7 @@ fn with_component(
     let ComponentOfKey { row, column, .. } = *component;
     let count = array.len();
     let Some(element) = array.get_mut(row) else { bail!("`{key}` has {count} elements and no `{name}`") };
+
     match (element.is_array(), column) {
         (true, Some(column)) => {
             for (row, column) in [(row, column), (column, row)] {
@@ -274,6 +277,7 @@ fn with_component(
         }
         _ => replace(element, number),
     }
+
     Ok(Value::Array(array))
 }
 

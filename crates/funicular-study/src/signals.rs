@@ -363,6 +363,7 @@ mod tests {
         for bad in ["", "f", "fw", "fxy", "f:0,0,0", "f:1,2", "x", "Fx"] {
             assert!(Input::parse(bad).is_err(), "{bad}");
         }
+
         for (text, quantity, is_rotation) in [
             ("x", Quantity::Displacement, false),
             ("rz", Quantity::Displacement, true),
@@ -374,6 +375,7 @@ mod tests {
             let found = Output::parse(text).unwrap();
             assert!(found.quantity == quantity && found.is_rotation == is_rotation, "{text}");
         }
+
         for bad in ["", "a", "v", "r", "rw", "fz", "a:0,0,0", "é"] {
             assert!(Output::parse(bad).is_err(), "{bad}");
         }

@@ -21,6 +21,7 @@ impl Printed for CableResult {
         let mut say = |label: &str, text: String| out.push_str(&line(label, &text));
         say("chord", format!("{} m", decimals(self.chord_m, 4)));
         say("tension along the chord", format!("{} N", significant(self.parallel_tension_n, 6)));
+
         if let (Some(ratio), Some(lambda2)) = (self.sag.sag_ratio, self.sag.lambda2) {
             say("sag/chord", decimals(ratio, 5));
             say("λ²", significant(lambda2, 5));
@@ -28,6 +29,7 @@ impl Printed for CableResult {
         if let Some(string) = self.sag.string_frequency_hz {
             say("taut string", format!("{} Hz", significant(string, 5)));
         }
+
         if let Some(clamped) = &self.clamped_frequencies_hz {
             const SHOWN: usize = 12;
             let shown: Vec<String> = clamped.iter().take(SHOWN).map(|f| decimals(*f, 4)).collect();
@@ -38,16 +40,19 @@ impl Printed for CableResult {
                 format!("{}{more}{}", shown.join(", "), if clamped.is_empty() { "in the range" } else { " Hz" }),
             );
         }
+
         let mut table = Table::new(&["f [Hz]", "|k_a| [N/m]", "|k_b| [N/m]", "|k_c| [N/m]", "|k_o| [N/m]"]);
         let Local { k_a, k_b, k_c, k_o } = &self.local;
         let last = self.frequency_hz.len() - 1;
         const ROWS: usize = 10;
         let mut places: Vec<usize> = (0..=ROWS).map(|row| row * last / ROWS).collect();
+
         places.dedup();
         for i in places {
             let size = |curve: &ComplexValues| significant(curve.real[i].hypot(curve.imag[i]), 5);
             table.row(vec![significant(self.frequency_hz[i], 5), size(k_a), size(k_b), size(k_c), size(k_o)]);
         }
+
         format!(
             "{out}\nAlong the chord (a), coupling (b), normal in plane (c), out of plane (o)\n{table}\n\
              All {} frequencies, complex and in world axes: --format csv or --format json.\n",

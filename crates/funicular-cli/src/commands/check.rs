@@ -11,9 +11,11 @@ impl Printed for Checked {
     fn text(&self) -> String {
         let mut out = format!("{}\n", self.robot);
         let mut say = |line: String| out.push_str(&(line + "\n"));
+
         if !self.source.is_empty() {
             say(format!("  source      {}", self.source));
         }
+
         let (cables, dof) = (self.cables.len(), self.degrees_of_freedom);
         let redundancy = match cables.cmp(&dof) {
             Ordering::Less => format!("{} fewer than degrees of freedom", dof - cables),
@@ -21,6 +23,7 @@ impl Printed for Checked {
             Ordering::Greater => format!("{} more than degrees of freedom", cables - dof),
         };
         say(format!("  cables      {}, {redundancy}", self.cables.len()));
+
         let platform = &self.platform;
         let kind = match (platform.plane_normal, platform.plane_offset_m) {
             (Some(normal), Some(offset)) => {
@@ -35,6 +38,7 @@ impl Printed for Checked {
             _ => "rigid platform".to_owned(),
         };
         say(format!("  platform    {kind}, {} kg", short(platform.mass_kg, 6)));
+
         if platform.motion != PlatformMotion::PointMass.name() {
             let rows = platform.inertia_kg_m2;
             let cell = |i: usize, j: usize| short(rows[i][j], 5);
@@ -49,6 +53,7 @@ impl Printed for Checked {
             ));
             say(format!("  mass centre ({}) m in the platform frame", vector(&platform.center_of_mass_m, 4)));
         }
+
         say(format!("  gravity     ({}) m/s²", vector(&self.gravity_m_s2, 4)));
         if let Some(load) = &self.load {
             say(format!("  load        {}", load.text()));
@@ -59,6 +64,7 @@ impl Printed for Checked {
         if let Some(area) = platform.drag_area_m2 {
             say(format!("  drag area   {} m² (drag coefficient times area), at the centre of mass", short(area, 4)));
         }
+
         let state = match &self.pose {
             Some(pose) => format!(
                 "pose ({}) m, roll, pitch, yaw ({})°",
@@ -116,6 +122,7 @@ fn rope_table(found: &Checked) -> String {
     let dragged = found.materials.iter().any(|rope| rope.drag_width_m.is_some());
     let mut columns = header[..if limited { 8 } else { 5 }].to_vec();
     columns.extend(dragged.then_some(header[8]));
+
     let mut ropes = Table::new(&columns);
     for rope in &found.materials {
         let mut row = vec![
@@ -134,6 +141,7 @@ fn rope_table(found: &Checked) -> String {
         }
         ropes.row(row);
     }
+
     ropes.to_string()
 }
 
@@ -143,6 +151,7 @@ fn cable_table(found: &Checked) -> String {
     let loaded = found.cables.iter().any(|cable| cable.load_n_per_m.is_some());
     let mut columns = header[..if limited { 7 } else { 5 }].to_vec();
     columns.extend(loaded.then_some("load [N/m]"));
+
     let mut cables = Table::new(&columns).text_columns(&[1]);
     for cable in &found.cables {
         let point = |values: &[f64; 3]| {
@@ -166,6 +175,7 @@ fn cable_table(found: &Checked) -> String {
         }
         cables.row(row);
     }
+
     cables.to_string()
 }
 

@@ -14,6 +14,7 @@ impl Printed for Compared {
             .collect();
         let mut table = Table::new(&heads.iter().map(String::as_str).collect::<Vec<_>>()).text_columns(&[1]);
         let reference: &[ModeRow] = reference(self).map_or(&[], |model| &model.modes);
+
         for (i, mode) in reference.iter().enumerate() {
             let mut row = vec![decimals(mode.frequency_hz, 4), mode.kind.to_owned()];
             for model in &others {
@@ -27,6 +28,7 @@ impl Printed for Compared {
             }
             table.row(row);
         }
+
         let head = format!(
             "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n",
             self.robot,
@@ -37,6 +39,7 @@ impl Printed for Compared {
             if self.in_plane_only { ", in plane only" } else { "" }
         );
         let mut lines = Vec::new();
+
         for model in others {
             let line = match (&model.error, model.first_wrong_hz) {
                 (Some(error), _) => error.clone(),
@@ -52,6 +55,7 @@ impl Printed for Compared {
             };
             lines.push(format!("  {:<17} {line}", model.cable_model));
         }
+
         let table = if reference.is_empty() { String::new() } else { format!("{table}\n") };
         format!("{head}{table}{}\n\n{}\n", lines.join("\n"), self.advice.text)
     }

@@ -14,11 +14,13 @@ impl Printed for Frf {
                 significant(peak.magnitude, 5),
             ]);
         }
+
         let points = self.frequency_hz.len();
         let magnitude = |i: usize| significant(self.real[i].hypot(self.imag[i]), 5);
         let largest = (0..points)
             .max_by(|&i, &j| self.real[i].hypot(self.imag[i]).total_cmp(&self.real[j].hypot(self.imag[j])))
             .unwrap_or(0);
+
         format!(
             "{}: response of {} at {} to {} at {}\n{}\n\n\
              {points} frequencies from {} to {} Hz; largest magnitude {} {} at {} Hz\n\n{}\

@@ -11,6 +11,7 @@ impl Printed for Modes {
         heads.extend(peak.as_deref());
         heads.extend(["platform [%]", "x", "y", "z", "rx [1/m]", "ry [1/m]", "rz [1/m]", "kind", "cables"]);
         let mut table = Table::new(&heads).text_columns(&[heads.len() - 2, heads.len() - 1]);
+
         for mode in &self.modes {
             let mut row = vec![decimals(mode.frequency_hz, 4), significant(100.0 * mode.damping_ratio, 3)];
             if self.participation.is_some() {
@@ -21,6 +22,7 @@ impl Printed for Modes {
             row.extend([mode.kind.to_owned(), strongest_cables(self, mode)]);
             table.row(row);
         }
+
         let pair = match &self.participation {
             None => String::new(),
             Some(Participation { input, output, .. }) => {
@@ -29,6 +31,7 @@ impl Printed for Modes {
                 )
             }
         };
+
         format!(
             "{}: natural frequencies below {} Hz\n{}\n{pair}\n{}{}\n",
             self.robot,
@@ -59,6 +62,7 @@ impl Printed for Modes {
         ];
         let cables = self.cable_names.iter().map(|name| format!("energy_fraction_cable_{name}"));
         out.write_record(fixed.into_iter().map(str::to_owned).chain(cables))?;
+
         for mode in &self.modes {
             out.serialize((
                 (mode.frequency_hz, mode.multiplicity, mode.damping_ratio, mode.kind, mode.platform_energy_fraction),
@@ -67,6 +71,7 @@ impl Printed for Modes {
                 &mode.cable_energy_fractions,
             ))?;
         }
+
         Ok(())
     }
 }

@@ -23,6 +23,7 @@ impl Printed for Reduced {
         row("natural frequencies", Some(self.frequency_error));
         row("responses, due to omitted modes", self.truncation_error);
         row("responses, due to viscous damping", self.damping_error);
+
         let names = |channels: &[ChannelRow]| {
             channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
         };
@@ -32,6 +33,7 @@ impl Printed for Reduced {
             0 => String::new(),
             n => format!(" and {} of cables up to {} Hz", counted(n, "clamped mode"), decimals(highest, 2)),
         };
+
         let written = match &self.matrices_file {
             None => "The matrices are not written: give --matrices model.npz, or --matrices FOLDER for CSV files."
                 .to_owned(),
@@ -40,6 +42,7 @@ impl Printed for Reduced {
                  space; description.json"
             ),
         };
+
         format!(
             "{}: second-order model for frequencies below {} Hz\n{}\n\n{} coordinates: the platform's {}{kept}\n\
              inputs: {}\noutputs: {}\ndamping: {}\n\n{errors}\n{written}\n",

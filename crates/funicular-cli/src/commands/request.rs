@@ -37,11 +37,14 @@ pub(crate) fn print(request: &Request) -> Result<()> {
 pub(crate) fn run(args: &RequestArgs) -> Result<()> {
     let request = read(&args.file)?;
     let mut guard = Guard::default();
+
     if args.file.as_os_str() != "-" {
         guard.reads("the request", &args.file);
     }
+
     let output = || OutputArgs { format: args.run.format, output_file: args.run.output_file.clone() };
     let place = || args.run.output_file.clone().unwrap_or_else(|| "-".into());
+
     match &request {
         Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),

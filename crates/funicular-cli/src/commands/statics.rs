@@ -35,6 +35,7 @@ impl Printed for Statics {
             row.extend(cable.limits.iter().flat_map(limit_cells));
             cables.row(row);
         }
+
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
             (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
@@ -47,6 +48,7 @@ impl Printed for Statics {
         let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
             format!("  nearest pose that the cables can hold, {} m from the requested pose\n", short(distance, 4))
         });
+
         let others = match (&self.another_stable_equilibrium, equilibria_table(self)) {
             (_, Some(table)) => format!("\n{table}"),
             (Some(other), None) => other_text(other),
@@ -57,6 +59,7 @@ impl Printed for Statics {
         } else {
             format!("Residual {:.1e}", self.residual)
         };
+
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
              {cables}\n{stability}. {balance} after {}.\n{others}",
@@ -131,10 +134,12 @@ fn equilibria_csv(equilibria: &[EquilibriumRow], out: &mut csv::Writer<Vec<u8>>)
     let cables = equilibria.first().map_or(0, |row| row.tensions_platform_n.len());
     header.extend((1..=cables).map(|i| format!("tension_platform_{i}_n")));
     out.write_record(&header)?;
+
     for row in equilibria {
         let state = (row.stable, row.falling_directions, row.indifferent_directions, row.energy_j, row.distance_m);
         out.serialize((state, row.pose.position_m, row.pose.roll_pitch_yaw_deg, &row.tensions_platform_n))?;
     }
+
     Ok(())
 }
 
@@ -143,6 +148,7 @@ fn equilibria_table(found: &Statics) -> Option<String> {
     let (equilibria, search) = (found.equilibria.as_ref()?, found.search.as_ref()?);
     let header = ["", "equilibrium", "energy [J]", "distance [m]", "position [m]", "roll, pitch, yaw [°]"];
     let mut rows = Table::new(&header).text_columns(&[1]);
+
     for (i, row) in equilibria.iter().enumerate() {
         rows.row(vec![
             (i + 1).to_string(),
@@ -153,6 +159,7 @@ fn equilibria_table(found: &Statics) -> Option<String> {
             vector(&row.pose.roll_pitch_yaw_deg, 2),
         ]);
     }
+
     let stable = equilibria.iter().filter(|row| row.stable).count();
     let sum = match search.expected_index_sum {
         Some(expected) if expected == search.index_sum => {
@@ -160,11 +167,13 @@ fn equilibria_table(found: &Statics) -> Option<String> {
         }
         _ => "",
     };
+
     // A point mass has exactly one equilibrium, so the sum of (51) is not printed.
     let sum = if search.starts == 0 { "" } else { sum };
     let found = equilibria.len();
     let noun = if found == 1 { "equilibrium" } else { "equilibria" };
     let starts = table::counted(search.starts.max(1), "start");
+
     Some(format!("{rows}\n{found} {noun}, {stable} stable, from {starts}{sum}.\n"))
 }
 

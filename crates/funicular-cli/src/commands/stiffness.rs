@@ -35,6 +35,7 @@ impl Printed for Stiffness {
             self.robot,
             self.models.line()
         );
+
         if let Some(part) = self.antisymmetric_fraction {
             let line = format!(
                 "The drag of the wind turns with the cables: the matrix is not symmetric, its antisymmetric part is {} % of it \
@@ -43,6 +44,7 @@ impl Printed for Stiffness {
             );
             out += &line;
         }
+
         let is_real = self.imag.iter().flatten().all(|k| *k == 0.0);
         if is_real {
             out += &table(&self.real);
@@ -52,6 +54,7 @@ impl Printed for Stiffness {
             out += "\nImaginary part (damping)\n";
             out += &table(&self.imag);
         }
+
         out
     }
 

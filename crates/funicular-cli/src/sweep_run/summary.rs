@@ -82,6 +82,7 @@ impl Summary {
                 .filter_map(|column| if let Values::Real(values) = column { values[row] } else { None })
                 .collect()
         };
+
         if self.first.is_empty() {
             self.first = at(0);
         }
@@ -90,11 +91,13 @@ impl Summary {
                 *varies |= first.to_bits() != value.to_bits();
             }
         }
+
         let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3]
         else {
             unreachable!("feasible, status and reason follow the coordinates")
         };
         self.feasible += feasible.iter().filter(|feasible| **feasible).count();
+
         for (row, code) in status.iter().enumerate() {
             let Some((code, _)) = CODES.iter().find(|known| Some(known.0) == code.as_deref()) else { continue };
             if let Some(count) = self.status.iter_mut().find(|count| count.code == *code) {
@@ -104,6 +107,7 @@ impl Summary {
                 self.status.push(StatusCount { code, rows: 1, first_reason });
             }
         }
+
         for (column, values) in self.columns.iter().zip(&chunk.columns).skip(head + 3) {
             let Values::Real(values) = values else { continue };
             for (row, value) in values.iter().enumerate() {
@@ -160,6 +164,7 @@ impl Printed for Summary {
         let share = 100.0 * self.feasible as f64 / self.rows.max(1) as f64;
         let rows = counted(self.rows, "row");
         let mut text = format!("{}: {rows}, {} feasible ({} %)\n", self.robot, self.feasible, short(share, 4));
+
         if !self.ranges.is_empty() && !self.varies.contains(&true) {
             let mut table = Table::new(&["", "value"]);
             self.ranges.iter().for_each(|range| table.row(vec![range.column.clone(), significant(range.min, 5)]));
@@ -181,6 +186,7 @@ impl Printed for Summary {
             text += "\n";
             text += &table.to_string();
         }
+
         let others: Vec<&StatusCount> = self.status.iter().filter(|count| count.code != "ok").collect();
         if !others.is_empty() {
             let mut table = Table::new(&["status", "rows", "first reason"]).text_columns(&[2]);
@@ -190,6 +196,7 @@ impl Printed for Summary {
             text += "\n";
             text += &table.to_string();
         }
+
         text
     }
 

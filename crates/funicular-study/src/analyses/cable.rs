@@ -130,6 +130,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
         frequency_hz.iter().fold((f64::INFINITY, 0.0_f64), |(from, to), hz| (from.min(*hz), to.max(*hz)));
     let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);
     let model: CableModel = at_rest::cable_model(cable_model, at_rest.equilibrium.model);
+
     let stiffness = EndStiffness::new(robot, i, state, model, in_plane_only, to_hz)
         .map_err(|reason| DynamicsError::of_cable(name, model, reason))?;
     let sag = Sag::of(robot, i, state);
@@ -142,6 +143,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
     let world = |of: fn(&Complex) -> f64| {
         values.iter().map(|k| rows(&in_part(k, of).in_world(&axes))).collect::<Vec<[[f64; 3]; 3]>>()
     };
+
     Ok(CableResult {
         robot: robot.name.clone(),
         name: name.to_owned(),

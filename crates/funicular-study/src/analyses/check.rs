@@ -172,6 +172,7 @@ pub fn run(robot: Robot) -> Checked {
             materials.push(row);
         }
     }
+
     let lengths = match &robot.state {
         State::Lengths(lengths) => Some(lengths),
         State::Pose(_) | State::Unknown => None,
@@ -203,10 +204,12 @@ pub fn run(robot: Robot) -> Checked {
     };
     let inertia = robot.platform.inertia_p;
     let dof = robot.platform.motion.count();
+
     let plane = match robot.platform.motion {
         PlatformMotion::Planar(plane) => Some(plane),
         PlatformMotion::Rigid | PlatformMotion::PointMass => None,
     };
+
     Checked {
         warnings: warnings(&robot),
         robot: robot.name,

@@ -86,12 +86,14 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     let (reference, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&reference, request.below_hz, modes::MOST)?;
     let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation)?;
+
     let Comparison { below_hz, reference, models, advice } = found;
     for model in &models {
         if let Some(warning) = model.modes.as_ref().ok().and_then(modes::Modes::caveat) {
             warnings.push(format!("{}: {warning}", model.model));
         }
     }
+
     Ok(Compared {
         robot: at_rest.robot.name.clone(),
         below_hz,
@@ -126,6 +128,7 @@ impl From<ModelResult> for ModelRow {
             })
             .collect();
         let (missed, first_wrong_hz) = (result.missed, result.first_wrong_hz);
+
         Self { cable_model: result.model.name(), error, modes, count_below, certified, matches, missed, first_wrong_hz }
     }
 }

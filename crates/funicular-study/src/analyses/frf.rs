@@ -65,6 +65,7 @@ impl From<Peak> for PeakRow {
 pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Frf> {
     let frequencies = request.range.frequencies()?;
     request::check_not_negative("prominence_db", request.prominence_db)?;
+
     // Signals that the robot does not have are refused before the work.
     at_rest::signals(
         &robot,
@@ -78,6 +79,7 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
     let Response { from, to, input_place, output_place, linearisation, values, warnings } =
         response(&at_rest, &pair, &frequencies, watch)?;
     let peaks = response::peaks(&frequencies, &values, request.prominence_db);
+
     Ok(Frf {
         robot: at_rest.robot.name.clone(),
         models: Models::of(&at_rest.equilibrium, linearisation),

@@ -94,10 +94,12 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
     let damping_at = request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
+
     let wanted = Wanted { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
     let from: Vec<Signal> = inputs.iter().map(|(_, signal)| *signal).collect();
     let to: Vec<(Signal, Quantity)> = outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect();
     let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, wanted)?;
+
     let mut reduced = Reduced {
         robot: at_rest.robot.name.clone(),
         below_hz: request.below_hz,
@@ -134,6 +136,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
             request.tolerance
         ));
     }
+
     Ok(reduced)
 }
 

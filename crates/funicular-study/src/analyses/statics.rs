@@ -220,6 +220,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     };
     let (mut equilibria, mut search, mut another_stable_equilibrium) = (None, None, None);
     let mut warnings = at_rest.warnings(None);
+
     if all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
         let found = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
@@ -236,6 +237,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     } else {
         another_stable_equilibrium = OtherStable::of(robot, equilibrium);
     }
+
     Ok(Statics {
         warnings,
         robot: robot.name.clone(),

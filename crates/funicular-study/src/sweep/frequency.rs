@@ -101,6 +101,7 @@ mod tests {
         const MODES: usize = 12;
         let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
         let options = Options::default();
+
         let followed = |count: u32| -> Vec<Vec<usize>> {
             let step = |i: u32| {
                 let heavy = robot.with_mass(10.55 + (86.35 - 10.55) * f64::from(i) / f64::from(count - 1));
@@ -112,9 +113,11 @@ mod tests {
             };
             track(&(0..count).map(step).collect::<Vec<_>>())
         };
+
         // The curves of a robot without symmetry come near each other and never meet.
         let fine = followed(800);
         assert!(fine.iter().all(|of| of.iter().copied().eq(0..MODES)), "{:?}", fine.last());
+
         // The motions cross where the frequencies only come near each other.
         let coarse = followed(8);
         let crossed = coarse.iter().filter(|of| of.windows(2).any(|pair| pair[0] > pair[1])).count();

@@ -180,22 +180,26 @@ impl<'a> Plan<'a> {
             rows if rows > MAX_POINTS => return Err(SweepError::TooMany { count: rows.to_string() }),
             _ => {}
         }
+
         if quantities.is_empty() {
             return Err(SweepError::NoQuantity);
         }
         if let Some(quantity) = quantities.iter().find(|quantity| quantity.excludes(options.static_model)) {
             return Err(SweepError::NotWithModel { quantity: quantity.name(), model: options.static_model });
         }
+
         let with_distance = robot.cables.len() < robot.platform.motion.count();
         let of_points = points.columns();
         let of_rows = row_columns(robot, quantities, with_distance);
         let width = of_rows.len();
         let columns: Vec<Column> = of_points.into_iter().chain(of_rows).collect();
+
         for (i, column) in columns.iter().enumerate() {
             if columns[..i].iter().any(|other| other.name == column.name) {
                 return Err(SweepError::RepeatedColumn { column: column.name.clone() });
             }
         }
+
         let plan = Self { points, quantities, options, rows, columns, width, with_distance };
         plan.check_first()?;
         Ok(plan)

@@ -81,6 +81,7 @@ impl Poses {
                 return Err(SweepError::RepeatedAxis { axis: name.clone() });
             }
         }
+
         if base.is_none()
             && let Some(axis) = (0..3).find(|&axis| found[axis].is_none())
         {
@@ -89,6 +90,7 @@ impl Poses {
         let base = base.copied().unwrap_or_else(|| Pose::new([0.0; 3], [0.0; 3]));
         let at_base: [f64; 6] = numbers(&base);
         let turns = found[3..].iter().any(Option::is_some);
+
         let mut at_base = at_base.into_iter();
         let axes = Box::new(found.map(|steps| {
             let value = at_base.next().unwrap_or(0.0);

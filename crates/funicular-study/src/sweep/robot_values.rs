@@ -56,6 +56,7 @@ impl RobotValues {
                 return Err(format!("{OPTION} {} has the value {value} twice: leave one out", axis.path.text));
             }
         }
+
         let mut variations = Self { text, axes, numbers: None, adjust };
         for axis in &variations.axes {
             let tried = match &axis.steps {
@@ -78,6 +79,7 @@ impl RobotValues {
                 ));
             }
         }
+
         variations.numbers = variations.find_numbers();
         Ok(variations)
     }

@@ -164,6 +164,7 @@ impl PointEvaluation<'_> {
         let spring = with(StaticModel::Spring);
         let distance = |from: &_, to: &_| PoseDifference::between(from, to).distance;
         let catenary = &self.rest.pose;
+
         let of_spring = spring.as_ref().map(|spring| distance(catenary, spring)).map_err(Clone::clone);
         if has_ideal_pose(self.robot) {
             let ideal = with(StaticModel::Ideal);
@@ -173,6 +174,7 @@ impl PointEvaluation<'_> {
             self.push(Some(both), out);
             self.push(Some(of_ideal), out);
         }
+
         self.push(Some(of_spring), out);
     }
 
@@ -184,6 +186,7 @@ impl PointEvaluation<'_> {
             let requested = Linearisation { cable_model, ..linearisation };
             frequency::lowest(robot, rest, requested, 1, highest_hz)
         };
+
         let mut certified = true;
         let mut of = |found: &Result<Lowest, Status>| match found {
             Ok(lowest) => {
@@ -200,9 +203,11 @@ impl PointEvaluation<'_> {
             of(self.exact.get_or_init(|| first(CableModel::CatenaryDynamic)))?
         };
         let simpler = of(&first(model))?;
+
         if !certified {
             self.missing.get_or_insert_with(not_certified);
         }
+
         Ok(simpler / exact - 1.0)
     }
 

@@ -15,6 +15,7 @@ pub(super) fn section(published: &Published) -> Result<Section> {
         rows.push(case.relative("H, V at the end [N]", &theirs, &forces, 1e-12, Bound::Rounding));
         rows.push(stiffness(&case, cable.end_stiffness_xx_xz_zz_n_per_m, &ours));
     }
+
     for cable in &published.catenary_moorpy.rows {
         let case = Case { name: describe(&cable.hung), source: &published.catenary_moorpy.source };
         let ours = hang(&cable.hung)?;
@@ -39,7 +40,9 @@ pub(super) fn section(published: &Published) -> Result<Section> {
             }
         }
     }
+
     rows.extend(isolated_cable(&published.isolated_cable)?);
+
     Ok(Section {
         title: "Elastic catenary",
         note: "Forces and stiffness of one hanging cable. Both sides solve the same equations, so only rounding \
@@ -110,6 +113,7 @@ fn node(of: &IsolatedCable, load: f64, start: [f64; 2]) -> Result<[f64; 2], Cate
     };
     let [mut x, mut z] = start;
     let step = 1e-6;
+
     for _ in 0..60 {
         let [f, g] = balance(x, z)?;
         let ([fx, gx], [fz, gz]) = (balance(x + step, z)?, balance(x, z + step)?);
@@ -119,5 +123,6 @@ fn node(of: &IsolatedCable, load: f64, start: [f64; 2]) -> Result<[f64; 2], Cate
         x -= ((d * f - b * g) / determinant).clamp(-20.0, 20.0);
         z -= ((a * g - c * f) / determinant).clamp(-20.0, 20.0);
     }
+
     Ok([x, z])
 }

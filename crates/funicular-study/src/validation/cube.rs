@@ -36,6 +36,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
     robot.gravity_w = Vec3::zeros();
     let pose = Pose::new(cube.position_m, [0.0; 3]);
     let mut cables = Vec::new();
+
     for (cable, unstrained_length) in robot.cables.iter().zip(model.unstrained_length_m) {
         let axial_stiffness = cable.material.axial_stiffness;
         let rope = Rope { unstrained_length, weight_per_length: 0.0, axial_stiffness };
@@ -52,6 +53,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
             hanging: Some(hanging),
         });
     }
+
     let strain = cables.iter().map(|cable| cable.tension_platform / cube.axial_stiffness_n).fold(0.0, f64::max);
     let rest = Equilibrium {
         pose,
@@ -62,6 +64,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
         stability: Stability::Rigid,
     };
     let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
+
     Ok((Dynamics::about(&robot, &rest, linearisation, cube.limit_hz)?, strain))
 }
 

@@ -16,6 +16,7 @@ pub(super) fn section(reference: &Damped, robots: &IndependentReference) -> Resu
         Ok::<_, anyhow::Error>(&case.toml)
     };
     let mut rows = Vec::new();
+
     for of in &reference.robots {
         rows.extend(frequencies(&reference.about, of, toml(&of.robot)?)?);
     }
@@ -25,6 +26,7 @@ pub(super) fn section(reference: &Damped, robots: &IndependentReference) -> Resu
     for of in &reference.shapes {
         rows.extend(shapes::of_robot(&reference.about, of, toml(&of.robot)?)?);
     }
+
     Ok(Section {
         title: "Damped modes, shapes and points on cables, computed independently",
         note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of \
@@ -40,6 +42,7 @@ pub(super) fn section(reference: &Damped, robots: &IndependentReference) -> Resu
 fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Comparison>> {
     let case = Case { name: format!("{}, {}", of.robot, of.case), source };
     let (mut robot, lengths) = robot(toml)?;
+
     for cable in &mut robot.cables {
         cable.material.damping = match of.cable_damping.get(&cable.name).context("damping of every cable")? {
             RopeDamping::Ratio { damping_ratio } => Damping::Ratio(*damping_ratio),
@@ -50,6 +53,7 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Compari
         robot.platform.translational_damping_p = Vec3::from(platform.translation_n_s_m);
         robot.platform.rotational_damping_p = Vec3::from(platform.rotation_n_m_s_rad);
     }
+
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), of.below_hz)?;
     let damped = modes::damped::damped_modes(&dynamics, &modes::below(&dynamics, of.below_hz));
@@ -57,6 +61,7 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Compari
         damped.modes.iter().map(|mode| (mode.ringing_hz(), mode.frequency_hz() * mode.damping_ratio())).collect();
     ours.sort_by(|a, b| a.0.total_cmp(&b.0));
     let certified = if damped.certified { ours.len() } else { 0 };
+
     // Nearly equal frequencies may have any order: each is compared with the nearest one that is left.
     let mut left = ours.clone();
     let pairs = of.modes.iter().map(|theirs| {
@@ -70,6 +75,7 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Compari
     let (gaps, of_decay): (Vec<f64>, Vec<f64>) = pairs.unzip();
     let theirs = of.modes.last().map_or([f64::NAN; 2], |mode| [mode.re_hz, mode.im_hz]);
     let last = ours.last().map_or([f64::NAN; 2], |(re, im)| [*re, *im]);
+
     Ok(vec![
         case.count(&format!("damped modes below {} Hz", of.below_hz), of.modes.len(), certified),
         case.row(
@@ -97,6 +103,7 @@ fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Comparison> {
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
     let highest = of.frequency_hz.iter().copied().fold(0.0, f64::max);
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), highest)?;
+
     let mut gaps = Vec::new();
     let mut shown = (0.0, 0.0);
     for pair in &of.pairs {
@@ -111,6 +118,7 @@ fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Comparison> {
             }
         }
     }
+
     Ok(case.row(
         &format!("{} responses of points on cables, largest [m/N]", of.pairs.len()),
         (&[shown.0], &[shown.1]),

@@ -90,20 +90,24 @@ fn roots(published: &Published) -> Vec<Comparison> {
 fn bessel(published: &Published, row: &BesselRow) -> Vec<Comparison> {
     let of = &published.bessel_cable;
     let weight = of.mass_kg_per_m * of.gravity_m_s2 * of.length_m;
+
     // Inextensible: τ from the catenary's limit, l·(H/x) = w l/ln(T_B/T_A).
     let tension = weight / f64::ln(1.0 + weight / row.lower_tension_n);
     let sag = Sag::new(of.length_m, 0.0, tension, 1e9, of.mass_kg_per_m, of.mass_kg_per_m * of.gravity_m_s2);
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &(Vec3::z() * of.length_m), &Vec3::z());
     let cable = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), false);
     let case = Case { name: format!("vertical, {} N below", row.lower_tension_n), source: &of.source };
+
     let variation = (weight / tension).powi(2);
     let varies = Bound::Model("one tension per string: second order in its variation");
     let theirs = row.clamped_rad_per_s;
+
     // Every frequency of a vertical string is a double frequency.
     let found: Vec<f64> = cable.clamped_frequencies_below(theirs[2] * 1.2).into_iter().step_by(2).take(3).collect();
     let still = row.stiffness_at_rest_n_per_m;
     let moving = row.stiffness_at_1_rad_per_s_n_per_m;
     let (at_rest, at_one) = (cable.undamped(0.0).out_of_plane, cable.undamped(1.0).out_of_plane);
+
     vec![
         case.relative("stiffness at rest [N/m]", &[still], &[at_rest], 1e-12, Bound::Rounding),
         case.relative("first clamped ω [rad/s]", &theirs, &found, 0.012 * variation, varies),
@@ -138,16 +142,19 @@ fn finite_elements(published: &Published, source: &str, row: &FiniteElementRow) 
     let cable = fig2(&published.fig2_cable, row.upper_end_moves, Damping::Ratio(0.0));
     let k = cable.undamped(frequency * TAU).in_world(&cable.axes);
     let [xx, xz, zz, yy] = row.stiffness_xx_xz_zz_yy_n_per_m;
+
     // Axial inertia, the static coupling of an inclined cable, and the shift of the symmetric pole at 3.12 Hz. A wrong
     // sign of the coupling is off by 29 % at 2.8 Hz.
     let near_pole = 0.012 / (frequency / 3.123 - 1.0).abs();
     let tolerance = 0.015 + near_pole.min(0.1);
     let in_plane = Bound::Model("axial inertia; shift of the pole at 3.12 Hz");
     let ours = [k[(0, 0)], k[(0, 2)], k[(2, 2)]];
+
     // The tension varies along the cable by 17 % of its mean: poles at multiples of 2.485 Hz are off by 0.1 %.
     let distance = (frequency / 2.485 / (frequency / 2.485).round().max(1.0) - 1.0).abs();
     let across = (0.03 + 0.001 / distance) * yy.abs() + 0.7;
     let out_of_plane = Bound::Model("one tension per string; poles at multiples of 2.485 Hz");
+
     [
         case.together("K_xx, K_xz, K_zz [N/m]", &[xx, xz, zz], &ours, tolerance, in_plane),
         case.absolute("K_yy [N/m]", &[yy], &[k[(1, 1)]], across, out_of_plane),

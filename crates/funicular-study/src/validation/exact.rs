@@ -48,10 +48,12 @@ fn alone(source: &str, of: &ExactCable) -> Result<Vec<Comparison>> {
     };
     let hanging = HangingCable::new(Vec3::from(of.start_m), Vec3::from(of.end_m), -gravity.normalize(), rope)?;
     let all = [&of.clamped_in_plane_hz, &of.clamped_out_of_plane_hz, &of.end_stiffness.frequency_hz];
+
     let highest = worst(all.iter().map(|list| largest(list)));
     let exact = CatenaryDynamic::new(&hanging.catenary, of.mass_kg_per_m, 1.01 * highest * TAU)?;
     let hertz = |squares: &[f64]| squares.iter().map(|square| square.sqrt() / TAU).collect::<Vec<_>>();
     let (in_plane, across) = (hertz(&exact.in_plane.poles), hertz(&exact.out_of_plane.poles));
+
     Ok(vec![
         last(&case, "clamped frequencies in plane, last [Hz]", &of.clamped_in_plane_hz, &in_plane, 1e-9),
         last(&case, "clamped frequencies out of plane, last [Hz]", &of.clamped_out_of_plane_hz, &across, 1e-9),
@@ -75,6 +77,7 @@ fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Ca
     let of = &of.end_stiffness;
     let mut gaps = Vec::new();
     let mut shown = (0.0, 0.0);
+
     for (frequency, matrix) in of.frequency_hz.iter().zip(&of.undamped) {
         let k = exact.undamped(frequency * TAU);
         let mixed = h * v.transpose();
@@ -86,6 +89,7 @@ fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Ca
         gaps.push((ours - theirs).amax() / theirs.amax());
         shown = (theirs.amax(), ours.amax());
     }
+
     let quantity = "end stiffness, largest at the last frequency [N/m]";
     case.row(
         quantity,
@@ -101,6 +105,7 @@ fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Caten
     let theirs = &of.end_stiffness;
     let mut gaps = Vec::new();
     let mut shown = (0.0, 0.0);
+
     for (k, frequency) in theirs.frequency_hz.iter().enumerate() {
         let omega = frequency * TAU;
         let square = omega * omega;
@@ -120,6 +125,7 @@ fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Caten
             shown = (size, worst(ours.iter().flatten().map(|entry| entry.norm())));
         }
     }
+
     let quantity =
         format!("stiffness of both ends, undamped, ξ = {}, {} N s/m², last [N/m]", theirs.xi, theirs.viscous_n_s_m2);
     case.row(
@@ -154,6 +160,7 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>
     let case = Case { name: of.id.clone(), source };
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+
     let linearisation = Linearisation {
         cable_model: CableModel::CatenaryDynamic,
         assembly: Assembly::Consistent,
@@ -161,6 +168,7 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>
     };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, of.below_hz)?;
     let found = modes::below(&dynamics, of.below_hz);
+
     // A list that its mode count does not certify does not pass.
     let certified = if found.certified { found.modes.len() } else { 0 };
     let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
@@ -168,8 +176,10 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>
     let ours = response::frf(&dynamics, &of.frf.frequency_hz, &z, &z, Quantity::Acceleration)?;
     let theirs: Vec<Complex> =
         of.frf.response.real.iter().zip(&of.frf.response.imag).map(|(re, im)| Complex::new(*re, *im)).collect();
+
     let gaps = theirs.iter().enumerate().map(|(i, a)| ours.get(i).map_or(f64::NAN, |b| (b - a).norm() / a.norm()));
     let modulus = |of: &[Complex]| [largest(&of.iter().map(|z| z.norm()).collect::<Vec<_>>())];
+
     Ok(vec![
         case.count(&format!("modes below {} Hz", of.below_hz), of.frequencies_hz.len(), certified),
         last(&case, "natural frequencies, last [Hz]", &of.frequencies_hz, &frequencies, 1e-9),

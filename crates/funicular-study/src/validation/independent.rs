@@ -58,6 +58,7 @@ impl RobotComparison<'_> {
         rows.push(case.absolute("position [m]", &theirs.position_m, &position, 1e-10, Bound::Rounding));
         let turn = rotation::quaternion_wxyz(&self.rest.pose.rot_wp);
         rows.push(case.absolute("quaternion w, x, y, z", &theirs.quaternion_wxyz, &turn, 1e-10, Bound::Rounding));
+
         // Both ends of every cable; the largest is shown.
         let pairs: Vec<[f64; 2]> = cables
             .iter()
@@ -69,6 +70,7 @@ impl RobotComparison<'_> {
             self.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(&self.robot, i, cable)).collect();
         let pairs: Vec<[f64; 2]> = cables.iter().zip(&sags).map(|(a, b)| [a.sag_ratio, b.ratio()]).collect();
         rows.push(self.each("sag over chord, largest", &pairs, 1e-9));
+
         let pairs: Vec<[f64; 2]> = cables.iter().zip(&sags).map(|(a, b)| [a.lambda2, b.lambda2]).collect();
         rows.push(self.each("λ², largest", &pairs, 1e-9));
         let pairs: Vec<[f64; 2]> = cables.iter().zip(&self.rest.cables).map(|(a, b)| [a.chord_m, b.chord()]).collect();
@@ -150,9 +152,11 @@ impl RobotComparison<'_> {
         let given = self.given;
         let omega = given.closed_form_at_hz * TAU;
         let mut quiet = self.robot.clone();
+
         for cable in &mut quiet.cables {
             cable.material.damping = Damping::Ratio(0.0);
         }
+
         let at = format!("shallow-dynamic at {} Hz", given.closed_form_at_hz);
         for (assembly, in_plane_only, name, theirs) in [
             (Assembly::Consistent, false, "consistent", &given.closed_form_consistent_undamped),
@@ -167,10 +171,12 @@ impl RobotComparison<'_> {
             let k = self.shallow_dynamic(&quiet, assembly, in_plane_only)?.stiffness(omega).map(|k| k.re);
             rows.push(self.matrix(&format!("{at}, {name} [N/m]"), theirs, &k));
         }
+
         let k = self.shallow_dynamic(&self.robot, Assembly::Consistent, false)?.stiffness(omega);
         let ComplexMatrix { real, imag } = &given.closed_form_consistent_damped;
         rows.push(self.matrix(&format!("{at}, damped, real part [N/m]"), real, &k.map(|k| k.re)));
         rows.push(self.matrix(&format!("{at}, damped, imaginary part [N/m]"), imag, &k.map(|k| k.im)));
+
         Ok(())
     }
 
@@ -207,11 +213,13 @@ impl RobotComparison<'_> {
         let ours = |frequencies: &[f64], input: &Vec6, output: &Vec6, quantity| {
             response::frf(&dynamics, frequencies, input, output, quantity)
         };
+
         let az = ours(&frf.frequency_hz, &up, &up, Quantity::Acceleration)?;
         let ay = ours(&frf.frequency_hz, &up, &aside, Quantity::Acceleration)?;
         rows.push(self.response("accelerance az/fz, largest [1/kg]", &frf.az, &frf.az, &az));
         // For a symmetric robot ay is zero, so its difference is relative to az.
         rows.push(self.response("accelerance ay/fz, largest [1/kg]", &frf.ay, &frf.az, &ay));
+
         let offset = &self.given.frf_offset;
         let input = along(Vec3::from(offset.input_direction_w), Vec3::from(offset.input_point_p));
         let output = along(Vec3::from(offset.output_direction_w), Vec3::from(offset.output_point_p));

@@ -13,6 +13,7 @@ pub fn markdown(sections: &[Section]) -> String {
     let all = || sections.iter().flat_map(|section| &section.rows);
     let _ =
         writeln!(text, "{} of {} pass.\n", all().filter(|row| row.pass).count(), counted(all().count(), "comparison"));
+
     for (i, section) in sections.iter().enumerate() {
         let passed = section.rows.iter().filter(|row| row.pass).count();
         let (number, title, rows) = (i + 1, section.title, section.rows.len());
@@ -26,6 +27,7 @@ pub fn markdown(sections: &[Section]) -> String {
         }
         text.push('\n');
     }
+
     text.truncate(text.trim_end().len());
     text.push('\n');
     text
@@ -69,6 +71,7 @@ pub(super) fn line(row: &Comparison) -> String {
         DifferenceKind::Absolute => "abs. ",
         DifferenceKind::Relative => "rel. ",
     };
+
     let difference = match bounded_by {
         Bound::Count => format!("{difference}"),
         Bound::Rounding | Bound::Elements if *pass => format!("{kind}< {}", power(*tolerance)),
@@ -83,8 +86,10 @@ pub(super) fn line(row: &Comparison) -> String {
         |values: &[f64], show: &dyn Fn(f64) -> String| values.iter().map(|v| show(*v)).collect::<Vec<_>>().join(", ");
     let theirs = list(theirs, &|value| places.of_theirs(value));
     let ours = list(ours, &|value| places.show(value));
+
     let bound: &str = (*bounded_by).into();
     let pass = if *pass { "yes" } else { "**no**" };
+
     format!(
         "| {} | {} | {theirs} | {ours} | {difference} | {tolerance} | {bound} | {pass} |",
         cell(case),
