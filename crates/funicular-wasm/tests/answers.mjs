@@ -1,4 +1,4 @@
-// Answers of the module under Node beside those of the native program for the same requests: run by scripts/web.
+// Compares the answers of the module under Node with those of the native program. Run by scripts/web.
 //
 // FUNICULAR_WEB: folder with funicular.wasm and funicular.js. FUNICULAR_PROGRAM: the native program.
 
@@ -22,17 +22,17 @@ const robots = Object.fromEntries(
   ["cogiro", "yuan2014-4mm"].map((name) => [name, readFileSync(new URL(`../../../robots/${name}.toml`, import.meta.url), "utf8")]),
 );
 
-// Two ways of rounding are between the answers: sin, cos, exp and log of the platform's mathematics library beside those
-// of Rust, and the vector kernels, whose native version multiplies and adds with one rounding where WebAssembly has two.
-// Numbers are compared by the largest one beside them. Equilibria and frequencies differ by some 1e-12, and a response by
-// 1e-10 beside a resonance, where it has the rounding of the frequency over the damping.
+// The answers differ by rounding for two reasons. The native program uses sin, cos, exp and log of the platform's
+// mathematics library, and WebAssembly those of Rust. The native vector kernels multiply and add with one rounding, and
+// WebAssembly with two. Differences are relative to the largest number beside a value. Equilibria and frequencies differ
+// by some 1e-12. A response beside a resonance differs by 1e-10: the rounding of the frequency divided by the damping.
 const ROUNDING = 1e-9;
-// A shape has the rounding of its matrix over the relative distance to the next frequency, by first-order perturbation.
-// Seen: 6e-12.
+// By first-order perturbation the error of a shape is the rounding of its matrix divided by the relative distance to the
+// next frequency. Observed: 6e-12.
 const ROUNDING_OF_SHAPES = 1e-10;
-// What is left of a balance, and the steps until it was small, are rounding themselves.
+// Residuals, and the number of iterations until they are small, consist of rounding.
 const LEFT_OVER = new Set(["residual", "iterations"]);
-// Differences and correlations are fractions of one: near zero they have the rounding of what they compare.
+// Differences and correlations are fractions of one. Near zero their error is the rounding of the compared numbers.
 const FRACTIONS = new Set(["relative_difference", "correlation"]);
 
 let most = 0;
@@ -65,7 +65,7 @@ function compare(found, expected, path = "", scale = 0, limit = ROUNDING) {
   }
 }
 
-/** For a list of modes the limit of each one's shape and of what is computed from it; for other lists nothing. */
+/** Limits for a list of modes, one per mode, for its shape and the numbers computed from it; undefined for other lists. */
 function limitsOfShapes(list) {
   if (!list.every((mode) => mode?.frequency_hz !== undefined && mode.shape !== undefined)) {
     return undefined;
@@ -81,7 +81,7 @@ function native(request) {
   return spawnSync(program, ["request", file, "--format", "json"], { encoding: "utf8", maxBuffer: 1 << 28 });
 }
 
-/** Time of the fastest of some runs [ms], as text. */
+/** Time of the fastest of several runs [ms], as text. */
 function fastest(work) {
   const times = Array.from({ length: 5 }, () => {
     const begin = performance.now();
@@ -108,7 +108,7 @@ const requests = {
 };
 for (const robot of Object.keys(robots)) {
   for (const [name, command] of Object.entries(requests)) {
-    // A robot in a plane or with few cables has its own state in the file.
+    // A planar robot or a robot with few cables has its own state in the file.
     const { pose, ...own } = command;
     const request = robot === "cogiro" ? command : own;
     if (robot !== "cogiro" && command.tension_rule) {
@@ -168,7 +168,7 @@ test("errors are those of the program, with the same status", () => {
     assert.throws(() => funicular.answer(request), (error) => {
       assert.ok(error instanceof RequestError, String(error));
       assert.equal(error.status, expected.status);
-      // The program says from which file the request is, and shows keys as its options.
+      // The program's message names the file of the request and shows keys as its options.
       const words = expected.stderr.trimEnd().replace(/^error: /, "").replace(join(folder, "request.json") + ": ", "");
       const keys = words.replace(/--([a-z-]+)/g, (_, name) => "`" + name.replaceAll("-", "_") + "`");
       assert.equal(error.message.replace(/^error: /, ""), keys);
@@ -185,7 +185,7 @@ test("the module needs nothing from outside", () => {
 });
 
 test("a panic leaves a message, and a new instance works", async () => {
-  // Room that no memory has is a mistake of the caller, and panics as any mistake inside would.
+  // A length that no memory can hold is a mistake of the caller. It panics like a mistake in the library.
   const { exports } = await WebAssembly.instantiate(new WebAssembly.Module(bytes));
   assert.throws(() => exports.funicular_input(-1), WebAssembly.RuntimeError);
   const text = new TextDecoder().decode(
@@ -193,7 +193,7 @@ test("a panic leaves a message, and a new instance works", async () => {
   );
   assert.match(text, /^mistake in funicular \S+: capacity overflow \(.+\); please report it with the request/);
 
-  // The loader: the same call, made for it by a text that claims that length.
+  // The loader makes the same call for a text that claims that length.
   const broken = await load(bytes);
   const encode = TextEncoder.prototype.encode;
   TextEncoder.prototype.encode = () => ({ length: 2 ** 32 - 1 });

@@ -4,7 +4,7 @@
 //   const found = funicular.answer({ command: "statics", pose: [1, 2, 1.5] }, robotFile);
 //   console.log(found.cables[0].tension_platform_n);
 
-/** A request without results. `status`: 1, the robot has no such solution; 2, the request has to change. */
+/** Error of a request without results. `status`: 1 if the robot has no such solution, 2 if the request has to change. */
 export class RequestError extends Error {
   constructor(message, status) {
     super(message);
@@ -13,7 +13,7 @@ export class RequestError extends Error {
   }
 }
 
-/** A mistake of funicular, or memory that ran out. The instance is broken: await `renew()`. */
+/** Error of a mistake in funicular, or of exhausted memory. The instance is broken: await `renew()`. */
 export class BrokenError extends Error {
   constructor(message, cause) {
     super(message, { cause });
@@ -21,31 +21,31 @@ export class BrokenError extends Error {
   }
 }
 
-/** One instance of funicular. It works on the thread that calls it; a worker keeps a page responsive. */
+/** Instance of funicular. It runs on the thread that calls it; a worker keeps a page responsive. */
 export class Funicular {
   #module;
   #exports = null;
-  #broken = "this instance has not begun: await `renew()`";
+  #broken = "this instance has not been started: await `renew()`";
 
   /** @param {WebAssembly.Module} module */
   constructor(module) {
     this.#module = module;
   }
 
-  /** Makes the instance anew; nothing of the one before is kept. */
+  /** Starts a new instance. Nothing of the previous one is kept. */
   async renew() {
     this.#exports = (await WebAssembly.instantiate(this.#module)).exports;
     this.#broken = "";
   }
 
-  /** Whether the instance has to be made anew before the next request. */
+  /** True if the instance has to be started again with `renew()` before the next request. */
   get broken() {
     return this.#broken !== "";
   }
 
   /**
-   * Results of a request, as an object.
-   * @param {object} request keys as in docs/web.md
+   * Answers a request and returns the results as an object.
+   * @param {object} request keys as described in docs/web.md
    * @param {string} [robotFile] text of the robot file, if the request does not have it
    * @param {string} [robotName] name of the robot file in messages
    */
@@ -53,7 +53,7 @@ export class Funicular {
     return JSON.parse(this.answerText(JSON.stringify(withRobot(request, robotFile, robotName))));
   }
 
-  /** Results of a request, both as text: every digit as the program prints it. */
+  /** Answers a request in text and returns the results as text, with every digit that the program prints. */
   answerText(request) {
     if (this.broken) {
       throw new BrokenError(this.#broken);
@@ -63,7 +63,7 @@ export class Funicular {
     let status;
     try {
       const at = funicular_input(bytes.length) >>> 0;
-      // A view made now: memory that grows leaves older views empty.
+      // The view is made now, because older views are empty if the memory has grown.
       new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
       status = funicular_answer();
     } catch (trap) {
@@ -83,7 +83,7 @@ export class Funicular {
     return new TextDecoder().decode(new Uint8Array(memory.buffer, funicular_output() >>> 0, length));
   }
 
-  /** What a panic left behind; without one, memory or the stack ran out. */
+  /** Message that a panic has left; without a message, memory or the stack was exhausted. */
   #messageAboutTrap(trap) {
     try {
       const text = this.#output();
@@ -91,7 +91,7 @@ export class Funicular {
         return text;
       }
     } catch {
-      // The store of the text is part of what is broken.
+      // The text cannot be read, because the instance is broken.
     }
     return `funicular stopped without a message (${trap.message}): memory or stack ran out; ask for less at once, or ` +
       "report it with the request and its robot file. This instance is broken: make a new one";

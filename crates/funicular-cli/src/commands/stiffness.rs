@@ -28,13 +28,13 @@ impl Printed for Stiffness {
             }
             table.to_string()
         };
-        let frequency =
-            if self.frequency_hz == 0.0 { "at rest".to_owned() } else { format!("at {} Hz", self.frequency_hz) };
-        let mut out = format!(
-            "{}: stiffness {frequency}, about the platform origin, world axes\n{}\n\n",
-            self.robot,
-            self.models.line()
-        );
+        let quantity = if self.frequency_hz == 0.0 {
+            "static stiffness".to_owned()
+        } else {
+            format!("stiffness at {} Hz", self.frequency_hz)
+        };
+        let mut out =
+            format!("{}: {quantity}, about the platform origin, world axes\n{}\n\n", self.robot, self.models.line());
 
         if let Some(part) = self.antisymmetric_fraction {
             let line = format!(

@@ -68,7 +68,7 @@ fn ropes_whose_long_names_begin_alike_stay_apart_in_moordyn_and_on_the_way_back(
 }
 
 #[test]
-fn a_script_for_opensees_has_the_robot_its_numbers_and_the_frequencies_asked_for() {
+fn a_script_for_opensees_has_the_robot_its_numbers_and_the_requested_frequencies() {
     let script = succeed(&["export", "ROBOT", "--to", "opensees", "--segments", "3"]);
     assert!(script.starts_with("#!/usr/bin/env python3\n") && script.ends_with(")\n"));
     let line = |start: &str| script.lines().find(|line| line.starts_with(start)).unwrap().to_owned();

@@ -1,4 +1,4 @@
-//! Files: results written as a whole or not at all, robots from odd places, readers that leave.
+//! Files: results written completely or not at all, robots from unusual places, readers that stop early.
 
 use super::{command, project, run, stderr, stdout, succeed, yuan};
 use std::fs;

@@ -1,4 +1,4 @@
-//! `import`: the same robot from every format, what is asked for, what is lost.
+//! `import`: the same robot from every format, missing values, and data that is not carried over.
 
 mod refused;
 
@@ -191,7 +191,7 @@ fn lengths_of_a_mooring_file_lead_back_to_the_pose_they_are_of() {
 }
 
 #[test]
-fn what_a_source_lacks_is_asked_for_in_one_message() {
+fn missing_values_of_a_source_are_listed_in_one_message() {
     let [bodies, cables] = caspr();
     let lacking = |more: &[&str], expected: &[&str], absent: &[&str]| {
         let output = import(&[&[bodies.as_str(), &cables], more].concat());

@@ -59,11 +59,11 @@ fn tensions_of_a_redundant_robot_follow_the_rule_and_show_their_limits() {
     assert!(reached(&wide), "{wide}");
     assert!(tensions(&wide).iter().all(|t| *t > 264.0 && *t < 800.0));
     let middle = of(&["--tension-rule", "middle", "--max-tension-n", "800"]);
-    let least = |value: &Value| {
+    let min_margin = |value: &Value| {
         let margins = value["cables"].as_array().unwrap().iter().map(|c| number(&c["tension_margin_n"]));
         margins.fold(f64::INFINITY, f64::min)
     };
-    assert!(least(&middle) >= least(&of(&["--max-tension-n", "800"])));
+    assert!(min_margin(&middle) >= min_margin(&of(&["--max-tension-n", "800"])));
     let stiffest = of(&["--tension-rule", "stiffest", "--max-tension-n", "800"]);
     let stiffness = |value: &Value| number(&value["stiffness_min_n_per_m"]);
     assert!(stiffness(&stiffest) >= stiffness(&middle) && stiffness(&stiffest) >= stiffness(&lowest));

@@ -41,8 +41,8 @@ fn a_row_of_a_map_is_what_the_command_for_one_pose_says() {
         "--grid", "x=1", "--grid", "y=-2", "--grid", "z=1.5", "--grid", "roll=0", "--grid", "pitch=0", "--grid",
         "yaw=5",
     ];
-    let asked = ["--quantity", "tensions,lengths", "--format", "csv"];
-    let text = succeed(&[&["map", &robot], &grid[..], &pose[1..], &asked[..]].concat());
+    let requested = ["--quantity", "tensions,lengths", "--format", "csv"];
+    let text = succeed(&[&["map", &robot], &grid[..], &pose[1..], &requested[..]].concat());
     for (i, cable) in one["cables"].as_array().unwrap().iter().enumerate() {
         for (key, name) in [("tension_platform_n", "tension_platform"), ("unstrained_length_m", "unstrained_length")] {
             let suffix = key.rsplit('_').next().unwrap();
@@ -106,10 +106,10 @@ fn rows_are_never_written_over_what_they_are_computed_from() {
 
 #[test]
 fn springs_that_are_all_slack_are_no_pose_to_compare_with() {
-    // At the least tensions of a robot in a horizontal plane its ropes are longer than their chords.
+    // At the minimum tensions of a robot in a horizontal plane its ropes are longer than their chords.
     let robot = robot("kntu-planar.toml");
-    let asked = ["--pose", "0.2,0.1,0,0,0,10", "--grid", "x=0.2", "--quantity", "pose-error", "--format", "csv"];
-    let text = succeed(&[&["map", &robot], &asked[..]].concat());
+    let requested = ["--pose", "0.2,0.1,0,0,0,10", "--grid", "x=0.2", "--quantity", "pose-error", "--format", "csv"];
+    let text = succeed(&[&["map", &robot], &requested[..]].concat());
     assert_eq!(column(&text, "status"), ["no-comparison"]);
     assert_eq!(column(&text, "spring_from_catenary_distance_m"), [""]);
     let reason = &column(&text, "reason")[0];
@@ -171,11 +171,11 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
     while length() < 20_000 && begun.elapsed() < Duration::from_secs(60) {
         std::thread::sleep(Duration::from_millis(5));
     }
-    let asked = Instant::now();
+    let interrupted = Instant::now();
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     // A second, and what a busy machine adds.
-    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert!(interrupted.elapsed() < Duration::from_secs(5), "{:?}", interrupted.elapsed());
     assert_eq!(output.status.code(), Some(130));
     let message = stderr(&output);
     assert!(
