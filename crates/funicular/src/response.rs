@@ -91,7 +91,7 @@ pub fn between(
             Port::Cable { stations, station: loaded, direction_w: force_w },
             Port::Cable { stations: of_output, station, direction_w },
         ) if stations.cable == of_output.cable => {
-            if !(Arc::ptr_eq(stations, of_output) && stations.is_exact()) {
+            if !(Arc::ptr_eq(stations, of_output) && stations.has_own_receptance()) {
                 return Err(ResponseError::SameCable);
             }
             Some((stations, (*station, direction_w), (*loaded, force_w)))

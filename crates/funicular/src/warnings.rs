@@ -141,7 +141,7 @@ pub const DRAG_TURN_LIMIT: f64 = 0.01;
 
 /// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
 /// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
-pub const AXIAL_PART: f64 = 1.0 / 3.0;
+pub const AXIAL_FRACTION: f64 = 1.0 / 3.0;
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -312,7 +312,7 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {
         let axial_hz = sags[i].axial_frequency_hz();
-        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_PART * axial_hz {
+        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz {
             warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
         }
     }

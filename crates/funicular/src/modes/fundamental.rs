@@ -45,7 +45,7 @@ use super::{Kind, Mode, Modes};
 use crate::dynamics::{DynamicsError, Linearisation};
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
-use pencil::Pencil;
+use pencil::RobotPencil;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -112,7 +112,7 @@ pub enum FirstError {
 /// # References
 /// docs/theory.md, section 9, equations (35a) to (35c).
 pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    if let Some(found) = Pencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
+    if let Some(found) = RobotPencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
         return Ok(found);
     }
     lowest_by_count(robot, equilibrium)
@@ -176,7 +176,7 @@ mod tests {
                     // Beyond, loops hang down far below the robot.
                     if slackness < 1000.0 {
                         poses[usize::from(slackness > 3.0)] += 1;
-                        let found = Pencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
+                        let found = RobotPencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
                         assert!(found.is_some(), "{x}, {y}, {z}");
                     }
                 }

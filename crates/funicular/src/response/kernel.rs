@@ -1,7 +1,7 @@
 //! Receptance at many frequencies, [`LANES`] of them side by side.
 
 use super::receptance;
-use crate::cable::catenary_dynamic::{ExactEnd, PoleResidue};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, PoleResidue};
 use crate::cable::shallow_dynamic::{self, Entire, SERIES_BELOW, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::dynamics::Dynamics;
@@ -106,13 +106,13 @@ impl<'a> Prepared<'a> {
 
 /// The catenary-dynamic cable's stiffness at each lane.
 #[inline(always)]
-fn exact(form: &ExactEnd, omega: &Lane) -> LocalStiffness<Complexes> {
+fn exact(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         (re[i], im[i]) = form.damping.square(omega[i], form.mass_per_length);
     }
     let x = Complexes { re, im };
-    let [axial, coupling, normal] = pole_sum(form.plane(), &x);
+    let [axial, coupling, normal] = pole_sum(form.in_plane(), &x);
     let out_of_plane = match form.out_of_plane() {
         Some(across) => pole_sum(across, &x)[0],
         None => Complexes::ZERO,

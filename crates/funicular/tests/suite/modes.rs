@@ -6,7 +6,7 @@ mod tracking;
 
 use crate::random::any_robot;
 use funicular::cable::CableModel;
-use funicular::cable::catenary_dynamic::ExactError;
+use funicular::cable::catenary_dynamic::CatenaryDynamicError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{Mat6, Vec3, rotation};
 use funicular::modes::{self, Kind};
@@ -154,7 +154,7 @@ proptest! {
         let dynamics = match Dynamics::about(&robot, &rest, linearisation, limit) {
             Ok(dynamics) => dynamics,
             // Very slack and heavy cables have hundreds of resonances there: refused with a reason.
-            Err(DynamicsError::CatenaryDynamic { reason: ExactError::TooFine { .. }, .. }) => return Ok(()),
+            Err(DynamicsError::CatenaryDynamic { reason: CatenaryDynamicError::TooFine { .. }, .. }) => return Ok(()),
             Err(other) => return Err(TestCaseError::fail(other.to_string())),
         };
         let found = modes::below(&dynamics, limit);

@@ -17,8 +17,8 @@ pub(super) use element::place;
 
 use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes};
-use element::{Element, Shapes};
-use mesh::Mesh;
+use element::{ElementBatch, ForceShapes};
+use mesh::GradedMesh;
 use node_elimination::Chain;
 use pulp::Simd;
 use std::array::from_fn;
@@ -38,7 +38,7 @@ pub(super) struct Abreast {
     /// Which of the cables that were asked for.
     members: Vec<usize>,
     /// Elements side by side; the last lanes repeat the last element.
-    packs: Vec<Element>,
+    packs: Vec<ElementBatch>,
     /// Of each cable, if it has several elements.
     chains: Vec<Chain>,
     /// Legendre terms of C.
@@ -50,13 +50,13 @@ pub(super) struct Abreast {
 /// Unknowns kept in plane: n and e of the end, n of the bubble or node.
 pub(super) const IN_PLANE: usize = 3;
 /// Unknowns kept out of plane: the end, the bubble or node.
-pub(super) const ACROSS: usize = 2;
+pub(super) const OUT_OF_PLANE: usize = 2;
 
 /// The dynamic stiffness of the kept unknowns [N/m], lower triangles by rows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Kept {
-    pub(super) plane: [Lane; 6],
-    pub(super) across: [Lane; 3],
+    pub(super) in_plane: [Lane; 6],
+    pub(super) out_of_plane: [Lane; 3],
     /// Least pivot of what was eliminated: positive if nothing of it has a natural frequency below.
     pub(super) min_pivot: Lane,
 }
@@ -64,24 +64,24 @@ pub(super) struct Kept {
 impl Default for Kept {
     /// Zero, of nothing eliminated.
     fn default() -> Self {
-        Self { plane: Default::default(), across: Default::default(), min_pivot: [f64::INFINITY; LANES] }
+        Self { in_plane: Default::default(), out_of_plane: Default::default(), min_pivot: [f64::INFINITY; LANES] }
     }
 }
 
 /// Amplitudes of all functions of elements side by side: of each pack, in plane and out of plane.
 #[derive(Debug)]
-pub(super) struct Motion(Vec<[Lanes; 2]>);
+pub(super) struct FunctionMotion(Vec<[Lanes; 2]>);
 
 impl Abreast {
     /// All cables, of mass m per unstrained length [kg/m] each, in groups. None if one has no tension somewhere.
     pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
-        let meshes = cables.iter().map(|(catenary, _)| Mesh::of(catenary)).collect::<Option<Vec<_>>>()?;
+        let meshes = cables.iter().map(|(catenary, _)| GradedMesh::of(catenary)).collect::<Option<Vec<_>>>()?;
         let (whole, cut): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
         let groups = whole.chunks(LANES).chain(cut.chunks(LANES));
         Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
     }
 
-    fn of(cables: &[(&Catenary, f64)], meshes: &[Mesh], members: &[usize]) -> Self {
+    fn of(cables: &[(&Catenary, f64)], meshes: &[GradedMesh], members: &[usize]) -> Self {
         let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
         let terms = terms.min(MAX_TERMS);
@@ -99,14 +99,14 @@ impl Abreast {
 
         // Eight at a time side by side.
         let shapes = elements.chunks(LANES).map(|pack| {
-            let mut shapes = Shapes::default();
+            let mut shapes = ForceShapes::default();
             for lane in 0..LANES {
                 let (i, from, to) = pack[lane.min(pack.len() - 1)];
                 shapes.set(lane, cables[i], meshes[i].axis, from, to);
             }
             shapes
         });
-        let shapes: Vec<Shapes> = shapes.collect();
+        let shapes: Vec<ForceShapes> = shapes.collect();
         Self {
             members: members.to_vec(),
             packs: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
@@ -138,47 +138,47 @@ impl Abreast {
 
     /// K − xM of the kept unknowns at x = ω² [rad²/s²], from functions up to `degree`, which is at least 2.
     pub(super) fn kept(&mut self, x: f64, degree: usize) -> Kept {
-        pulp::Arch::new().dispatch(Factorise { cables: self, x, degree })
+        pulp::Arch::new().dispatch(FactoriseCables { cables: self, x, degree })
     }
 
-    /// Motion of all functions for motions of the kept unknowns, at the frequency and the degree of the last
+    /// FunctionMotion of all functions for motions of the kept unknowns, at the frequency and the degree of the last
     /// [`kept`](Self::kept).
-    pub(super) fn moved(&self, plane: [Lane; IN_PLANE], across: [Lane; ACROSS]) -> Motion {
-        pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
+    pub(super) fn moved(&self, in_plane: [Lane; IN_PLANE], out_of_plane: [Lane; OUT_OF_PLANE]) -> FunctionMotion {
+        pulp::Arch::new().dispatch(Substitute { cables: self, in_plane, out_of_plane })
     }
 
     /// `aᵀ M b` in plane and out of plane [kg × motion²].
-    pub(super) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
+    pub(super) fn mass(&self, a: &FunctionMotion, b: &FunctionMotion) -> [Lane; 2] {
         pulp::Arch::new().dispatch(Mass { cables: self, a, b })
     }
 }
 
 struct Expand<'a> {
-    shapes: &'a [Shapes],
+    shapes: &'a [ForceShapes],
     terms: usize,
 }
 
 impl pulp::WithSimd for Expand<'_> {
-    type Output = Vec<Element>;
+    type Output = Vec<ElementBatch>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<Element> {
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<ElementBatch> {
         let Self { shapes, terms } = self;
         let mut elements = Vec::with_capacity(shapes.len());
         for shapes in shapes {
-            elements.push(Element::new(simd, shapes, terms));
+            elements.push(ElementBatch::new(simd, shapes, terms));
         }
         elements
     }
 }
 
-struct Factorise<'a> {
+struct FactoriseCables<'a> {
     cables: &'a mut Abreast,
     x: f64,
     degree: usize,
 }
 
-impl pulp::WithSimd for Factorise<'_> {
+impl pulp::WithSimd for FactoriseCables<'_> {
     type Output = Kept;
 
     #[inline(always)]
@@ -187,10 +187,10 @@ impl pulp::WithSimd for Factorise<'_> {
         if chains.is_empty() {
             let mut min_pivot = [f64::INFINITY; LANES];
             let element = &mut packs[0];
-            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut min_pivot);
+            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, OUT_OF_PLANE), &mut min_pivot);
             return Kept {
-                plane: from_fn(|k| element.plane_factor[k].0),
-                across: from_fn(|k| element.across_factor[k].0),
+                in_plane: from_fn(|k| element.in_plane_factor[k].0),
+                out_of_plane: from_fn(|k| element.out_of_plane_factor[k].0),
                 min_pivot,
             };
         }
@@ -206,31 +206,31 @@ impl pulp::WithSimd for Factorise<'_> {
 
 struct Substitute<'a> {
     cables: &'a Abreast,
-    plane: [Lane; IN_PLANE],
-    across: [Lane; ACROSS],
+    in_plane: [Lane; IN_PLANE],
+    out_of_plane: [Lane; OUT_OF_PLANE],
 }
 
 impl pulp::WithSimd for Substitute<'_> {
-    type Output = Motion;
+    type Output = FunctionMotion;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Motion {
-        let Self { cables: Abreast { packs, chains, .. }, plane, across } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> FunctionMotion {
+        let Self { cables: Abreast { packs, chains, .. }, in_plane, out_of_plane } = self;
         if chains.is_empty() {
-            return Motion(vec![packs[0].moved(simd, &plane, &across)]);
+            return FunctionMotion(vec![packs[0].moved(simd, &in_plane, &out_of_plane)]);
         }
         let mut all = Vec::with_capacity(packs.len());
-        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &plane, &across)) {
-            all.push(element.moved(simd, &ends.plane, &ends.across));
+        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &in_plane, &out_of_plane)) {
+            all.push(element.moved(simd, &ends.in_plane, &ends.out_of_plane));
         }
-        Motion(all)
+        FunctionMotion(all)
     }
 }
 
 struct Mass<'a> {
     cables: &'a Abreast,
-    a: &'a Motion,
-    b: &'a Motion,
+    a: &'a FunctionMotion,
+    b: &'a FunctionMotion,
 }
 
 impl pulp::WithSimd for Mass<'_> {
@@ -259,7 +259,7 @@ mod tests {
 
     /// The entries of one cable, in plane and out of plane.
     fn of(kept: &Kept, lane: usize) -> ([f64; 6], [f64; 3]) {
-        (from_fn(|entry| kept.plane[entry][lane]), from_fn(|entry| kept.across[entry][lane]))
+        (from_fn(|entry| kept.in_plane[entry][lane]), from_fn(|entry| kept.out_of_plane[entry][lane]))
     }
 
     /// Slope, length over chord, elasticity.

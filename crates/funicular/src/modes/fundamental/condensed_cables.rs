@@ -1,6 +1,6 @@
 //! The cables of a pencil, side by side in groups: as a matrix about rest, and with all unknowns.
 
-use super::batched_cable::{ACROSS, Abreast, IN_PLANE, Kept, MAX_DEGREES, place};
+use super::batched_cable::{OUT_OF_PLANE, Abreast, IN_PLANE, Kept, MAX_DEGREES, place};
 use crate::math::simd::{LANES, Lane};
 use std::array::from_fn;
 
@@ -10,14 +10,14 @@ pub(super) trait Cables {
 
     /// `aᵀ M b` of each arm of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at the x of
     /// the last call of `kept`.
-    fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane>;
+    fn mass(&self, group: usize, motions: &[KeptMotion]) -> Vec<Lane>;
 
     /// To be called where the search closes in.
     fn refine(&mut self) {}
 }
 
 /// Motion of a group's kept unknowns, in plane and out of plane.
-pub(super) type Ends = ([Lane; IN_PLANE], [Lane; ACROSS]);
+pub(super) type KeptMotion = ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]);
 
 /// Matrices of each group about x = 0, the eliminated unknowns following the kept ones as at rest.
 pub(super) struct Reduced {
@@ -71,16 +71,16 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
     let mut masses = Kept::default();
     for (row, motion) in units.iter().enumerate() {
         for (column, other) in units[..=row].iter().enumerate() {
-            let [plane, across] = group.mass(motion, other);
-            masses.plane[place(row, column)] = plane;
-            if row < ACROSS {
-                masses.across[place(row, column)] = across;
+            let [in_plane, out_of_plane] = group.mass(motion, other);
+            masses.in_plane[place(row, column)] = in_plane;
+            if row < OUT_OF_PLANE {
+                masses.out_of_plane[place(row, column)] = out_of_plane;
             }
         }
     }
 
     // K at x, moved by x M.
-    for (k, m) in stiffness.plane.iter_mut().zip(&masses.plane).chain(stiffness.across.iter_mut().zip(&masses.across)) {
+    for (k, m) in stiffness.in_plane.iter_mut().zip(&masses.in_plane).chain(stiffness.out_of_plane.iter_mut().zip(&masses.out_of_plane)) {
         for i in 0..LANES {
             k[i] += x * m[i];
         }
@@ -92,15 +92,15 @@ impl Cables for Reduced {
     fn kept(&mut self, x: f64, into: &mut Vec<Kept>) {
         into.clear();
         into.extend(self.stiffness.iter().zip(&self.mass).map(|(k, m)| Kept {
-            plane: from_fn(|entry| from_fn(|i| k.plane[entry][i] - x * m.plane[entry][i])),
-            across: from_fn(|entry| from_fn(|i| k.across[entry][i] - x * m.across[entry][i])),
+            in_plane: from_fn(|entry| from_fn(|i| k.in_plane[entry][i] - x * m.in_plane[entry][i])),
+            out_of_plane: from_fn(|entry| from_fn(|i| k.out_of_plane[entry][i] - x * m.out_of_plane[entry][i])),
             min_pivot: k.min_pivot,
         }));
     }
 
-    fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane> {
+    fn mass(&self, group: usize, motions: &[KeptMotion]) -> Vec<Lane> {
         let m = &self.mass[group];
-        pairs(motions, |(plane, across), (other_plane, other_across)| {
+        pairs(motions, |(in_plane, out_of_plane), (other_in_plane, other_out_of_plane)| {
             let mut sums = [0.0; LANES];
             let mut add = |entry: &Lane, a: &Lane, b: &Lane| {
                 for i in 0..LANES {
@@ -110,9 +110,9 @@ impl Cables for Reduced {
             for row in 0..IN_PLANE {
                 for column in 0..IN_PLANE {
                     let at = place(row.max(column), row.min(column));
-                    add(&m.plane[at], &plane[row], &other_plane[column]);
-                    if row.max(column) < ACROSS {
-                        add(&m.across[at], &across[row], &other_across[column]);
+                    add(&m.in_plane[at], &in_plane[row], &other_in_plane[column]);
+                    if row.max(column) < OUT_OF_PLANE {
+                        add(&m.out_of_plane[at], &out_of_plane[row], &other_out_of_plane[column]);
                     }
                 }
             }
@@ -132,12 +132,12 @@ impl Cables for Whole<'_> {
         into.extend(self.groups.iter_mut().zip(&self.degrees).map(|(group, degree)| group.kept(x, *degree)));
     }
 
-    fn mass(&self, group: usize, motions: &[Ends]) -> Vec<Lane> {
+    fn mass(&self, group: usize, motions: &[KeptMotion]) -> Vec<Lane> {
         let group = &self.groups[group];
-        let all: Vec<_> = motions.iter().map(|(plane, across)| group.moved(*plane, *across)).collect();
+        let all: Vec<_> = motions.iter().map(|(in_plane, out_of_plane)| group.moved(*in_plane, *out_of_plane)).collect();
         pairs(&all, |a, b| {
-            let [plane, across] = group.mass(a, b);
-            from_fn(|i| plane[i] + across[i])
+            let [in_plane, out_of_plane] = group.mass(a, b);
+            from_fn(|i| in_plane[i] + out_of_plane[i])
         })
     }
 

@@ -1,6 +1,6 @@
 //! Cables at the platform, side by side as their matrices are, and motions of the whole robot.
 
-use super::batched_cable::{ACROSS, IN_PLANE};
+use super::batched_cable::{OUT_OF_PLANE, IN_PLANE};
 use crate::math::Vec6;
 use crate::math::simd::{LANES, Lane, Lanes, Line, Part, sum};
 use pulp::Simd;
@@ -44,11 +44,11 @@ impl Arms {
     }
 }
 
-/// Motion of the platform, and of the lowest bubbles of each group's cables in plane and out of plane; or forces on them.
+/// RobotMotion of the platform, and of the lowest bubbles of each group's cables in plane and out of plane; or forces on them.
 #[derive(Debug)]
-pub(super) struct Motion(Lanes);
+pub(super) struct RobotMotion(Lanes);
 
-impl Motion {
+impl RobotMotion {
     /// Of any values.
     pub(super) fn any(groups: usize) -> Self {
         Self(Lanes::any(1 + 2 * groups))
@@ -107,15 +107,15 @@ impl Motion {
 
     /// The kept unknowns of a group.
     #[inline(always)]
-    pub(super) fn kept<S: Simd>(&self, simd: S, arms: &Arms, group: usize) -> ([Lane; IN_PLANE], [Lane; ACROSS]) {
+    pub(super) fn kept<S: Simd>(&self, simd: S, arms: &Arms, group: usize) -> ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]) {
         let [q, p] = self.bubbles(group);
-        let (mut plane, mut across) = ([[0.0; LANES], [0.0; LANES], q.0], [[0.0; LANES], p.0]);
+        let (mut in_plane, mut out_of_plane) = ([[0.0; LANES], [0.0; LANES], q.0], [[0.0; LANES], p.0]);
         for part in Part::all(simd) {
             let [n, e, b] = arms.ends(part, self.platform());
-            part.set(&mut plane[0], n);
-            part.set(&mut plane[1], e);
-            part.set(&mut across[0], b);
+            part.set(&mut in_plane[0], n);
+            part.set(&mut in_plane[1], e);
+            part.set(&mut out_of_plane[0], b);
         }
-        (plane, across)
+        (in_plane, out_of_plane)
     }
 }

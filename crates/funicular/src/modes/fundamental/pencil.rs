@@ -2,8 +2,8 @@
 
 use super::batched_cable::{Abreast, Kept};
 use super::condensed_cables::{Reduced, Whole, degree_of_start};
-use super::lever_axes::{Arms, Motion};
-use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
+use super::lever_axes::{Arms, RobotMotion};
+use super::search::{EXACT, LowestPair, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
@@ -15,7 +15,7 @@ use pulp::Simd;
 use std::array::from_fn;
 
 /// A robot about its equilibrium.
-pub(super) struct Pencil {
+pub(super) struct RobotPencil {
     pub(super) dof: usize,
     motions: PlatformMotion,
     ell: f64,
@@ -36,7 +36,7 @@ pub(super) struct Pencil {
 const MAX_TANGENTS: usize = 3;
 const CLOSE_ENOUGH: f64 = 0.2;
 
-impl Pencil {
+impl RobotPencil {
     /// None if a cable is none that this way knows.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
@@ -108,7 +108,7 @@ impl Pencil {
 
     /// A better start where cables are cut: at rest, what has been eliminated moves otherwise than at the frequency, which
     /// comes out far too high.
-    fn nearer(&self, mut near: Found, start: &mut Reduced, groups: &mut [Abreast]) -> Option<Found> {
+    fn nearer(&self, mut near: LowestPair, start: &mut Reduced, groups: &mut [Abreast]) -> Option<LowestPair> {
         let mut x = 0.7 * near.square;
         for _ in 0..MAX_TANGENTS {
             if start.follow(groups, x) {
@@ -127,17 +127,17 @@ impl Pencil {
     }
 
     /// Not at right angles to any mode that somebody built; another one for each number.
-    pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> Motion {
+    pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> RobotMotion {
         // Even over its range, and of either sign but for the first.
         let part = |i: usize| {
             let even = ((i + 97 * number) as f64 * 0.754_877_666).fract();
             if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
         };
-        let mut motion = Motion::any(masses.len());
+        let mut motion = RobotMotion::any(masses.len());
         *motion.platform_mut() = from_fn(|i| if i < self.dof { part(i) } else { 0.0 });
         let mut next = 6;
         for (group, (mass, members)) in masses.iter().zip(&self.members).enumerate() {
-            for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.plane[5], &mass.across[2]]) {
+            for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.in_plane[5], &mass.out_of_plane[2]]) {
                 let used = members.len();
                 *line =
                     Line(from_fn(
@@ -151,7 +151,7 @@ impl Pencil {
 
     /// B y with the masses about x = 0, which inverse iteration goes by: any positive definite B serves it.
     #[inline(always)]
-    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &Motion, into: &mut Motion) {
+    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &RobotMotion, into: &mut RobotMotion) {
         let motion = y.platform();
         let mut platform = [0.0; LANES];
         for part in Part::all(simd) {
@@ -168,12 +168,12 @@ impl Pencil {
             let [force_q, force_p] = into.bubbles_mut(group);
             let mut wrench = [[0.0; LANES]; 6];
             for part in Part::all(simd) {
-                let mut plane = [part.splat(0.0); 6];
-                for (entry, mass) in plane.iter_mut().zip(&mass.plane) {
+                let mut in_plane = [part.splat(0.0); 6];
+                for (entry, mass) in in_plane.iter_mut().zip(&mass.in_plane) {
                     *entry = part.of(mass);
                 }
-                let [nn, en, ee, qn, qe, qq] = plane;
-                let [oo, bo, bb] = [part.of(&mass.across[0]), part.of(&mass.across[1]), part.of(&mass.across[2])];
+                let [nn, en, ee, qn, qe, qq] = in_plane;
+                let [oo, bo, bb] = [part.of(&mass.out_of_plane[0]), part.of(&mass.out_of_plane[1]), part.of(&mass.out_of_plane[2])];
 
                 let ([n, e, b], q, p) = (arms.ends(part, motion), part.of(q), part.of(p));
 
@@ -197,12 +197,12 @@ impl Pencil {
     }
 
     /// `aᵀ M b` of the platform alone.
-    pub(super) fn platform_mass(&self, a: &Motion, b: &Motion) -> f64 {
+    pub(super) fn platform_mass(&self, a: &RobotMotion, b: &RobotMotion) -> f64 {
         let [a, b] = [a, b].map(|motion| Vec6::from_column_slice(&motion.platform()[..6]));
         a.dot(&(self.mass * b))
     }
 
-    fn report(&self, found: &Found) -> First {
+    fn report(&self, found: &LowestPair) -> First {
         let mut cable_energy_fractions = vec![0.0; self.cable_count];
         for (members, masses) in self.members.iter().zip(&found.cables) {
             for (cable, mass) in members.iter().zip(masses) {

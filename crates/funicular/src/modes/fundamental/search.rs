@@ -1,10 +1,10 @@
 //! The lowest eigenvalue of a pencil, between a shift at which it is positive definite and a Rayleigh quotient.
 
 use super::batched_cable::{Kept, place};
-use super::condensed_cables::{Cables, Ends};
+use super::condensed_cables::{Cables, KeptMotion};
 use super::factor::Factor;
-use super::lever_axes::Motion;
-use super::pencil::Pencil;
+use super::lever_axes::RobotMotion;
+use super::pencil::RobotPencil;
 use crate::math::simd::{LANES, Lane, sum};
 use crate::math::{DMat, symmetric_part};
 use pulp::Simd;
@@ -34,9 +34,9 @@ const MAX_EVALUATIONS: usize = 40;
 const BLOCK: usize = 3;
 
 /// Motions, and the Rayleigh quotient of the first.
-pub(super) struct Found {
+pub(super) struct LowestPair {
     pub(super) square: f64,
-    pub(super) motions: Vec<Motion>,
+    pub(super) motions: Vec<RobotMotion>,
     /// Mass of platform and cables in the first motion.
     pub(super) mass: f64,
     /// The part of each cable, in groups.
@@ -91,8 +91,8 @@ impl Bracket {
 const WITHIN_COARSE: f64 = 0.9;
 
 /// What an evaluation has found.
-struct Claim {
-    found: Found,
+struct UnprovenPair {
+    found: LowestPair,
     /// The pencil of a finer discretisation at the next shift proves it by being positive definite there.
     provable: bool,
 }
@@ -104,16 +104,16 @@ struct Claim {
 /// first one that is positive definite. Where this leads to a higher mode, or above several, more motions go along, and
 /// shifts are halved between what is known.
 pub(super) fn lowest(
-    pencil: &Pencil,
+    pencil: &RobotPencil,
     cables: &mut impl Cables,
     metric: &[Kept],
     mut x: f64,
-    mut motions: Vec<Motion>,
+    mut motions: Vec<RobotMotion>,
     aim: &Aim,
-) -> Option<Found> {
+) -> Option<LowestPair> {
     let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, leading: f64::INFINITY };
     let mut kept = Vec::with_capacity(metric.len());
-    let mut claim: Option<Claim> = None;
+    let mut claim: Option<UnprovenPair> = None;
 
     for _ in 0..MAX_EVALUATIONS {
         // Bracket: the eigenvalues below the shift are counted.
@@ -125,7 +125,7 @@ pub(super) fn lowest(
 
         // Verify: no eigenvalue lies below the shift that the last quotient led to. A finer discretisation has nothing
         // below either.
-        if let Some(Claim { found, provable }) = claim.take() {
+        if let Some(UnprovenPair { found, provable }) = claim.take() {
             if provable && factor.negative == 0 {
                 return Some(found);
             }
@@ -156,13 +156,13 @@ pub(super) fn lowest(
             add_any_motions(pencil, metric, &mut found.motions, BLOCK);
         }
         x = if leads { quotient * (1.0 - 0.5 * aim.width) } else { bracket.inside() };
-        claim = Some(Claim { found, provable: aim.checked && close });
+        claim = Some(UnprovenPair { found, provable: aim.checked && close });
     }
     None
 }
 
 /// Adds motions of no particular shape until there are `count`.
-fn add_any_motions(pencil: &Pencil, metric: &[Kept], motions: &mut Vec<Motion>, count: usize) {
+fn add_any_motions(pencil: &RobotPencil, metric: &[Kept], motions: &mut Vec<RobotMotion>, count: usize) {
     motions.extend((motions.len()..count).map(|number| pencil.any_motion(metric, number)));
 }
 
@@ -171,14 +171,14 @@ const CLOSE: f64 = 0.1;
 
 /// Inverse iteration at a shift, and what is best of several motions.
 fn improved(
-    pencil: &Pencil,
+    pencil: &RobotPencil,
     cables: &impl Cables,
     metric: &[Kept],
     factor: &Factor,
     x: f64,
-    motions: Vec<Motion>,
+    motions: Vec<RobotMotion>,
     aim: &Aim,
-) -> Found {
+) -> LowestPair {
     let Iterated { motions, work, ends } =
         pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, aim });
     let count = motions.len();
@@ -197,27 +197,27 @@ fn improved(
 
     if count == 1 {
         let mass = mass(0, 0);
-        return Found { square: x + work[0] / mass, mass, motions, cables: parts.swap_remove(0) };
+        return LowestPair { square: x + work[0] / mass, mass, motions, cables: parts.swap_remove(0) };
     }
     let work = |i: usize, j: usize| work[count * i + j];
     combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), motions, &parts)
 }
 
 struct Iteration<'a> {
-    pencil: &'a Pencil,
+    pencil: &'a RobotPencil,
     metric: &'a [Kept],
     factor: &'a Factor,
     x: f64,
-    motions: Vec<Motion>,
+    motions: Vec<RobotMotion>,
     aim: &'a Aim,
 }
 
 struct Iterated {
-    motions: Vec<Motion>,
+    motions: Vec<RobotMotion>,
     /// `yᵀ (K − xM) z` of all pairs of motions.
     work: Vec<f64>,
     /// The kept unknowns of each group, of each motion.
-    ends: Vec<Vec<Ends>>,
+    ends: Vec<Vec<KeptMotion>>,
 }
 
 impl pulp::WithSimd for Iteration<'_> {
@@ -231,10 +231,10 @@ impl pulp::WithSimd for Iteration<'_> {
         // B y of each motion.
         let (mut forces, mut images) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for motion in &motions {
-            let mut force = Motion::any(metric.len());
+            let mut force = RobotMotion::any(metric.len());
             pencil.inertia(simd, metric, motion, &mut force);
             forces.push(force);
-            images.push(Motion::any(metric.len()));
+            images.push(RobotMotion::any(metric.len()));
         }
 
         // Inverse iteration until the least quotient stands still.
@@ -295,18 +295,18 @@ impl pulp::WithSimd for Iteration<'_> {
 
 /// `Σ factor motion`.
 struct Sum<'a> {
-    motions: &'a [Motion],
+    motions: &'a [RobotMotion],
     factors: Vec<f64>,
     groups: usize,
 }
 
 impl pulp::WithSimd for Sum<'_> {
-    type Output = Motion;
+    type Output = RobotMotion;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+    fn with_simd<S: Simd>(self, simd: S) -> RobotMotion {
         let Self { motions, factors, groups } = self;
-        let mut sum = Motion::any(groups);
+        let mut sum = RobotMotion::any(groups);
         sum.clear();
         for (motion, factor) in motions.iter().zip(factors) {
             sum.add(simd, factor, motion);
@@ -316,14 +316,14 @@ impl pulp::WithSimd for Sum<'_> {
 }
 
 /// The motions in which stiffness and mass are diagonal, ascending by their quotient.
-fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec<Lane>]) -> Found {
+fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<RobotMotion>, parts: &[Vec<Lane>]) -> LowestPair {
     let count = motions.len();
     let groups = parts[0].len();
 
     // L⁻¹ A L⁻ᵀ with the mass L Lᵀ has the quotients as its eigenvalues.
     let factor = mass.clone().cholesky();
     let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
-        return Found { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
+        return LowestPair { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
     };
     let symmetric = symmetric_part(work);
     let eigen = (&inverse * symmetric * inverse.transpose()).symmetric_eigen();
@@ -350,7 +350,7 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec
         masses
     };
 
-    Found {
+    LowestPair {
         square: x + eigen.eigenvalues[order[0]],
         motions: order.iter().map(motion).collect(),
         mass: 1.0,

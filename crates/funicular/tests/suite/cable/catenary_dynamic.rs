@@ -1,6 +1,6 @@
 //! The catenary-dynamic cable against its limits and identities.
 
-use funicular::cable::catenary_dynamic::{CatenaryDynamic, ExactError};
+use funicular::cable::catenary_dynamic::{CatenaryDynamic, CatenaryDynamicError};
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::Complex;
 use std::f64::consts::TAU;
@@ -96,10 +96,10 @@ fn it_is_symmetric_positive_in_mass_and_passive_with_damping() {
 fn a_cable_without_tension_and_a_limit_out_of_reach_are_refused() {
     let slack = Rope { unstrained_length: 12.0, weight_per_length: 0.0, axial_stiffness: 1e5 };
     let cable = Catenary::between(10.0, 0.0, slack).unwrap();
-    assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), ExactError::NoTension);
+    assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), CatenaryDynamicError::NoTension);
     let hanging = Rope { unstrained_length: 12.0, weight_per_length: 5.0, axial_stiffness: 1e5 };
     let cable = Catenary::between(0.0, 2.0, hanging).unwrap();
-    assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), ExactError::NoTension);
+    assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), CatenaryDynamicError::NoTension);
     let cable = Catenary::between(10.0, 0.0, hanging).unwrap();
-    assert!(matches!(CatenaryDynamic::new(&cable, 0.5, 1e5), Err(ExactError::TooFine { .. })));
+    assert!(matches!(CatenaryDynamic::new(&cable, 0.5, 1e5), Err(CatenaryDynamicError::TooFine { .. })));
 }

@@ -8,7 +8,7 @@ pub(crate) mod robots;
 
 use bars::Bars;
 use funicular::cable::CableModel;
-use funicular::cable::catenary_dynamic::ExactError;
+use funicular::cable::catenary_dynamic::CatenaryDynamicError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{DMat, Vec3};
 use funicular::modes::{self, Modes};
@@ -132,7 +132,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
         Ok(dynamics) => dynamics,
         Err(
             DynamicsError::NoTension { cable, .. }
-            | DynamicsError::CatenaryDynamic { cable, reason: ExactError::NoTension },
+            | DynamicsError::CatenaryDynamic { cable, reason: CatenaryDynamicError::NoTension },
         ) => {
             let i = sample.robot.cables.iter().position(|c| c.name == cable).unwrap();
             let hanging = rest.cables[i].hanging.as_ref().unwrap();
@@ -141,7 +141,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
             }
             return Err("a cable without tension");
         }
-        Err(DynamicsError::CatenaryDynamic { reason: ExactError::TooFine { .. }, .. }) => {
+        Err(DynamicsError::CatenaryDynamic { reason: CatenaryDynamicError::TooFine { .. }, .. }) => {
             if sample.kind != Kind::FarTooHigh {
                 fault(format!("{} Hz are too many", sample.below_hz));
             }

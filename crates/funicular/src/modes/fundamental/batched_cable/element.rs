@@ -7,7 +7,7 @@ use pulp::Simd;
 use std::array::from_fn;
 
 /// Components of C in the plane, and out of it: (nn, en, ee, oo).
-const PARTS: usize = 4;
+const COMPONENTS: usize = 4;
 
 /// Functions of an element that most searches end with.
 const USUAL_FUNCTIONS: usize = 12;
@@ -20,27 +20,27 @@ pub(in crate::modes::fundamental) const fn place(row: usize, column: usize) -> u
 
 /// Stiffness and mass of an element of each cable over its hats and bubbles.
 #[derive(Debug)]
-pub(super) struct Element {
+pub(super) struct ElementBatch {
     /// Degree that the matrices have.
     degree: usize,
     /// Legendre coefficients of C over half the length [N/m], the parts of each degree.
     coefficients: Lanes,
     /// Lower triangle by rows, unknowns n, e of each function: hats, then bubbles, ascending.
-    plane: Lanes,
+    in_plane: Lanes,
     /// The same out of plane.
-    across: Lanes,
+    out_of_plane: Lanes,
     /// Half the mass [kg].
     half_mass: Lane,
     /// The factors at the last frequency: rows of eliminated unknowns, the inverses of their pivots on the diagonal.
-    pub(super) plane_factor: Lanes,
-    pub(super) across_factor: Lanes,
+    pub(super) in_plane_factor: Lanes,
+    pub(super) out_of_plane_factor: Lanes,
     /// Functions of the factors.
     functions: usize,
 }
 
 /// What C depends on: the force along the unstrained length of an element.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Shapes {
+pub(super) struct ForceShapes {
     /// Force at the middle of the element, along e and n [N].
     along: Lane,
     normal: Lane,
@@ -52,7 +52,7 @@ pub(super) struct Shapes {
     half_mass: Lane,
 }
 
-impl Shapes {
+impl ForceShapes {
     /// Lane `i`: the element between two arc lengths [m] of a cable of mass m per length [kg/m]; e has the components
     /// `axis` along the horizontal and up.
     pub(super) fn set(&mut self, i: usize, (catenary, mass): (&Catenary, f64), axis: [f64; 2], from: f64, to: f64) {
@@ -69,32 +69,32 @@ impl Shapes {
     }
 }
 
-impl Element {
+impl ElementBatch {
     /// With so many Legendre terms of C, by Gauss's rule.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(simd: S, s: &Shapes, terms: usize) -> Self {
-        let mut coefficients = Lanes::any(PARTS * terms);
+    pub(super) fn new<S: Simd>(simd: S, s: &ForceShapes, terms: usize) -> Self {
+        let mut coefficients = Lanes::any(COMPONENTS * terms);
 
         // With as many points as terms, what is left out comes back in the last term at most.
         let rule = &RULES[terms - 1];
 
         // C at the points of the rule, and its coefficients.
-        let mut at_points = Lanes::any(PARTS * terms);
+        let mut at_points = Lanes::any(COMPONENTS * terms);
         for part in Part::all(simd) {
-            for (xi, parts) in rule.points.iter().zip(at_points.chunks_exact_mut(PARTS)) {
+            for (xi, parts) in rule.points.iter().zip(at_points.chunks_exact_mut(COMPONENTS)) {
                 for (lane, value) in parts.iter_mut().zip(s.integrands(part, *xi)) {
                     part.set(lane, value);
                 }
             }
-            for (weights, sums) in rule.weights.iter().zip(coefficients.chunks_exact_mut(PARTS)) {
-                let mut sum = [part.splat(0.0); PARTS];
-                for (weight, parts) in weights.iter().zip(at_points.chunks_exact(PARTS)) {
+            for (weights, sums) in rule.weights.iter().zip(coefficients.chunks_exact_mut(COMPONENTS)) {
+                let mut sum = [part.splat(0.0); COMPONENTS];
+                for (weight, parts) in weights.iter().zip(at_points.chunks_exact(COMPONENTS)) {
                     let weight = part.splat(*weight);
-                    for k in 0..PARTS {
+                    for k in 0..COMPONENTS {
                         sum[k] = part.mul_add(weight, part.of(&parts[k]), sum[k]);
                     }
                 }
-                for k in 0..PARTS {
+                for k in 0..COMPONENTS {
                     part.set(&mut sums[k], sum[k]);
                 }
             }
@@ -103,11 +103,11 @@ impl Element {
         Self {
             degree: 0,
             coefficients,
-            plane: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
-            across: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
+            in_plane: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
+            out_of_plane: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
             half_mass: s.half_mass,
-            plane_factor: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
-            across_factor: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
+            in_plane_factor: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
+            out_of_plane_factor: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
             functions: 0,
         }
     }
@@ -116,29 +116,29 @@ impl Element {
     /// is minus that of the first.
     #[inline(always)]
     fn refine<S: Simd, const H: usize>(&mut self, simd: S, degree: usize) {
-        let Self { coefficients, plane, across, .. } = self;
+        let Self { coefficients, in_plane, out_of_plane, .. } = self;
         let triples = &*TRIPLES;
 
         let functions = |degree: usize| if degree == 0 { 0 } else { degree + H - 1 };
         for f in functions(self.degree)..functions(degree) {
             // Room for the row of the function.
-            let (row, row_across) = (plane.len(), across.len());
-            plane.resize(row + 4 * f + 3, Line::ZERO);
-            across.resize(row_across + f + 1, Line::ZERO);
-            let (of_n, of_e) = plane[row..].split_at_mut(2 * f + 1);
-            let of_b = &mut across[row_across..];
+            let (row, row_out_of_plane) = (in_plane.len(), out_of_plane.len());
+            in_plane.resize(row + 4 * f + 3, Line::ZERO);
+            out_of_plane.resize(row_out_of_plane + f + 1, Line::ZERO);
+            let (of_n, of_e) = in_plane[row..].split_at_mut(2 * f + 1);
+            let of_b = &mut out_of_plane[row_out_of_plane..];
 
             let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
             for part in Part::all(simd) {
                 for j in 0..=f {
                     // Sum over the coefficients of C that both slopes have in common.
                     let (high, low) = (slope(f), slope(j));
-                    let mut sums = [part.splat(0.0); PARTS];
+                    let mut sums = [part.splat(0.0); COMPONENTS];
                     let every_second =
-                        coefficients[PARTS * (high - low).min(coefficients.len() / PARTS)..].chunks_exact(PARTS);
+                        coefficients[COMPONENTS * (high - low).min(coefficients.len() / COMPONENTS)..].chunks_exact(COMPONENTS);
                     for (factor, c) in triples.of(high, low).iter().zip(every_second.step_by(2)) {
                         let factor = part.splat(*factor);
-                        for k in 0..PARTS {
+                        for k in 0..COMPONENTS {
                             sums[k] = part.mul_add(factor, part.of(&c[k]), sums[k]);
                         }
                     }
@@ -168,27 +168,27 @@ impl Element {
         simd: S,
         x: f64,
         degree: usize,
-        (plane_kept, across_kept): (usize, usize),
+        (in_plane_kept, out_of_plane_kept): (usize, usize),
         min_pivot: &mut Lane,
     ) {
         self.refine::<S, H>(simd, degree);
         let functions = degree + H - 1;
         let inertia = self.half_mass.map(|mass| x * mass);
-        let Self { plane, across, plane_factor, across_factor, .. } = self;
-        plane_factor.resize(place(2 * functions, 0), Line::ZERO);
-        across_factor.resize(place(functions, 0), Line::ZERO);
+        let Self { in_plane, out_of_plane, in_plane_factor, out_of_plane_factor, .. } = self;
+        in_plane_factor.resize(place(2 * functions, 0), Line::ZERO);
+        out_of_plane_factor.resize(place(functions, 0), Line::ZERO);
         for part in Part::all(simd) {
-            factor::<S, 2, H>(part, plane, plane_factor, functions, &inertia, plane_kept, min_pivot);
-            factor::<S, 1, H>(part, across, across_factor, functions, &inertia, across_kept, min_pivot);
+            factor::<S, 2, H>(part, in_plane, in_plane_factor, functions, &inertia, in_plane_kept, min_pivot);
+            factor::<S, 1, H>(part, out_of_plane, out_of_plane_factor, functions, &inertia, out_of_plane_kept, min_pivot);
         }
         self.functions = functions;
     }
 
     /// Amplitudes of all functions, in plane and across, that follow the kept ones.
     #[inline(always)]
-    pub(super) fn moved<S: Simd>(&self, simd: S, plane: &[Lane], across: &[Lane]) -> [Lanes; 2] {
-        let Self { plane_factor, across_factor, functions, .. } = self;
-        [substitute(simd, plane_factor, 2 * functions, plane), substitute(simd, across_factor, *functions, across)]
+    pub(super) fn moved<S: Simd>(&self, simd: S, in_plane: &[Lane], out_of_plane: &[Lane]) -> [Lanes; 2] {
+        let Self { in_plane_factor, out_of_plane_factor, functions, .. } = self;
+        [substitute(simd, in_plane_factor, 2 * functions, in_plane), substitute(simd, out_of_plane_factor, *functions, out_of_plane)]
     }
 
     /// `aᵀ M b` in plane and out of plane.
@@ -204,10 +204,10 @@ impl Element {
     }
 }
 
-impl Shapes {
+impl ForceShapes {
     /// C over half the length at ξ: its parts.
     #[inline(always)]
-    fn integrands<S: Simd>(&self, part: Part<S>, xi: f64) -> [S::f64s; PARTS] {
+    fn integrands<S: Simd>(&self, part: Part<S>, xi: f64) -> [S::f64s; COMPONENTS] {
         let simd = part.simd;
         let xi = part.splat(xi);
         let along = part.mul_add(xi, part.of(&self.along_change), part.of(&self.along));
@@ -216,14 +216,14 @@ impl Shapes {
         let tension = simd.sqrt_f64s(square);
         let ea = part.of(&self.axial_stiffness);
         let scale = simd.div_f64s(part.mul(part.of(&self.inverse_half), ea), simd.add_f64s(ea, tension));
-        let across = part.mul(scale, tension);
+        let out_of_plane = part.mul(scale, tension);
         let extra = simd.div_f64s(part.mul(scale, ea), square);
         let by_normal = part.mul(extra, normal);
         [
-            part.mul_add(by_normal, normal, across),
+            part.mul_add(by_normal, normal, out_of_plane),
             part.mul(by_normal, along),
-            part.mul_add(part.mul(extra, along), along, across),
-            across,
+            part.mul_add(part.mul(extra, along), along, out_of_plane),
+            out_of_plane,
         ]
     }
 }

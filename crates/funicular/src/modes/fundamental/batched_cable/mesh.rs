@@ -11,8 +11,8 @@ const GROWTH: f64 = 2.5;
 
 /// How a cable is cut.
 #[derive(Debug, Clone)]
-pub(super) struct Mesh {
-    /// Ends of its elements from start to end [m].
+pub(super) struct GradedMesh {
+    /// ElementEnds of its elements from start to end [m].
     pub(super) nodes: Vec<f64>,
     /// Components of its axis e along the horizontal and up: the chord's, or upright where it is cut.
     pub(super) axis: [f64; 2],
@@ -22,7 +22,7 @@ pub(super) struct Mesh {
     pub(super) size: f64,
 }
 
-impl Mesh {
+impl GradedMesh {
     /// None if the cable has no tension somewhere.
     pub(super) fn of(catenary: &Catenary) -> Option<Self> {
         if !has_tension(catenary) {
@@ -101,7 +101,7 @@ mod tests {
                 axial_stiffness: 1e5,
             };
             let catenary = Catenary::between(span, rise, rope).unwrap();
-            let Some(Mesh { nodes, kept, .. }) = Mesh::of(&catenary) else { return Ok(()) };
+            let Some(GradedMesh { nodes, kept, .. }) = GradedMesh::of(&catenary) else { return Ok(()) };
             if kept == 0 {
                 prop_assert_eq!(nodes.len(), 2);
                 return Ok(());

@@ -1,8 +1,8 @@
 //! Cables of several elements: the elements of all of them side by side, and the nodes cable by cable.
 
-use super::element::{Element, place};
-use super::mesh::Mesh;
-use super::{ACROSS, IN_PLANE, Kept};
+use super::element::{ElementBatch, place};
+use super::mesh::GradedMesh;
+use super::{OUT_OF_PLANE, IN_PLANE, Kept};
 use crate::math::Matrix;
 use crate::math::simd::{LANES, Lane, Lanes};
 
@@ -14,38 +14,38 @@ pub(super) struct Chain {
     elements: usize,
     /// The node that is kept beside the platform end, node 0.
     kept: usize,
-    plane: Nodes<2>,
-    across: Nodes<1>,
+    in_plane: Nodes<2>,
+    out_of_plane: Nodes<1>,
     /// What the kept unknowns do to e of the kept node, and the inverse of its pivot.
     level: ([f64; IN_PLANE], f64),
 }
 
 impl Chain {
-    pub(super) fn new(mesh: &Mesh, first: usize) -> Self {
+    pub(super) fn new(mesh: &GradedMesh, first: usize) -> Self {
         Self {
             first,
             elements: mesh.nodes.len() - 1,
             kept: mesh.kept,
-            plane: Nodes::default(),
-            across: Nodes::default(),
+            in_plane: Nodes::default(),
+            out_of_plane: Nodes::default(),
             level: ([0.0; IN_PLANE], 0.0),
         }
     }
 
     /// Eliminates the nodes between elements that are condensed onto their ends; writes the lane of `into`.
-    fn condense(&mut self, packs: &[Element], min_pivots: &[Lane], lane: usize, into: &mut Kept) {
+    fn condense(&mut self, packs: &[ElementBatch], min_pivots: &[Lane], lane: usize, into: &mut Kept) {
         let mut least = self.of(min_pivots).fold(f64::INFINITY, f64::min);
 
-        let entry = |factor: fn(&Element) -> &Lanes, e: usize, row: usize, column: usize| {
+        let entry = |factor: fn(&ElementBatch) -> &Lanes, e: usize, row: usize, column: usize| {
             let at = self.first + e;
             factor(&packs[at / LANES])[place(row.max(column), row.min(column))][at % LANES]
         };
-        let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.plane_factor, e, row, column);
+        let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.in_plane_factor, e, row, column);
         let out_of_plane =
-            |e: usize, row: usize, column: usize| entry(|element| &element.across_factor, e, row, column);
+            |e: usize, row: usize, column: usize| entry(|element| &element.out_of_plane_factor, e, row, column);
 
         // In plane, where e of the kept node goes out last.
-        let [own, between, kept] = self.plane.eliminate(in_plane, self.elements, self.kept, &mut least);
+        let [own, between, kept] = self.in_plane.eliminate(in_plane, self.elements, self.kept, &mut least);
         let pivot = kept[(1, 1)];
         least = if pivot < least { pivot } else { least };
         let level = [between[(0, 1)], between[(1, 1)], kept[(0, 1)]];
@@ -54,13 +54,13 @@ impl Chain {
         for row in 0..IN_PLANE {
             for column in 0..=row {
                 let at = place(row, column);
-                into.plane[at][lane] = all[at] - level[row] * level[column] / pivot;
+                into.in_plane[at][lane] = all[at] - level[row] * level[column] / pivot;
             }
         }
 
         // Out of plane.
-        let all = self.across.eliminate(out_of_plane, self.elements, self.kept, &mut least);
-        for (into, k) in into.across.iter_mut().zip(all) {
+        let all = self.out_of_plane.eliminate(out_of_plane, self.elements, self.kept, &mut least);
+        for (into, k) in into.out_of_plane.iter_mut().zip(all) {
             into[lane] = k[(0, 0)];
         }
 
@@ -68,21 +68,21 @@ impl Chain {
     }
 
     /// Puts the motion of all nodes, as it follows from that of the kept unknowns, into the ends of the elements.
-    fn spread(&self, plane: [f64; IN_PLANE], across: [f64; ACROSS], ends: &mut [Ends]) {
-        let [n, e, q] = plane;
+    fn spread(&self, in_plane: [f64; IN_PLANE], out_of_plane: [f64; OUT_OF_PLANE], ends: &mut [ElementEnds]) {
+        let [n, e, q] = in_plane;
         let (level, inverse) = self.level;
         let level = -inverse * (level[0] * n + level[1] * e + level[2] * q);
-        let plane = self.plane.follow([n, e].into(), [q, level].into(), self.elements, self.kept);
-        let across = self.across.follow([across[0]].into(), [across[1]].into(), self.elements, self.kept);
-        for (node, (plane, across)) in plane.iter().zip(&across).enumerate() {
+        let in_plane = self.in_plane.follow([n, e].into(), [q, level].into(), self.elements, self.kept);
+        let out_of_plane = self.out_of_plane.follow([out_of_plane[0]].into(), [out_of_plane[1]].into(), self.elements, self.kept);
+        for (node, (in_plane, out_of_plane)) in in_plane.iter().zip(&out_of_plane).enumerate() {
             // The second end of one element and the first of the next; the anchor does not move.
             for (element, side) in [(node.checked_sub(1), 1), (Some(node), 0)] {
                 let Some(element) = element else { continue };
                 let at = self.first + element;
                 let ends = &mut ends[at / LANES];
-                ends.plane[2 * side][at % LANES] = plane[0];
-                ends.plane[2 * side + 1][at % LANES] = plane[1];
-                ends.across[side][at % LANES] = across[0];
+                ends.in_plane[2 * side][at % LANES] = in_plane[0];
+                ends.in_plane[2 * side + 1][at % LANES] = in_plane[1];
+                ends.out_of_plane[side][at % LANES] = out_of_plane[0];
             }
         }
     }
@@ -93,11 +93,11 @@ impl Chain {
     }
 }
 
-/// Motion of both ends of elements side by side.
+/// FunctionMotion of both ends of elements side by side.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Ends {
-    pub(super) plane: [Lane; 4],
-    pub(super) across: [Lane; 2],
+pub(super) struct ElementEnds {
+    pub(super) in_plane: [Lane; 4],
+    pub(super) out_of_plane: [Lane; 2],
 }
 
 /// Elimination of a chain's nodes but two, D unknowns each.
@@ -159,7 +159,7 @@ impl<const D: usize> Nodes<D> {
         [own[0], end[kept], own[kept]]
     }
 
-    /// Motion of all nodes.
+    /// FunctionMotion of all nodes.
     fn follow(&self, platform: Column<D>, at_kept: Column<D>, elements: usize, kept: usize) -> Vec<Column<D>> {
         let mut all = vec![Column::zeros(); elements];
         (all[0], all[kept]) = (platform, at_kept);
@@ -194,10 +194,10 @@ fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
 }
 
 /// What is left of the nodes of chains, whose elements are condensed onto their ends.
-pub(super) fn condense(chains: &mut [Chain], packs: &[Element], min_pivots: &[Lane]) -> Kept {
+pub(super) fn condense(chains: &mut [Chain], packs: &[ElementBatch], min_pivots: &[Lane]) -> Kept {
     let mut kept = Kept::default();
     // Where there is no cable, pivots are to be divided by.
-    (kept.plane[5], kept.across[2]) = ([1.0; LANES], [1.0; LANES]);
+    (kept.in_plane[5], kept.out_of_plane[2]) = ([1.0; LANES], [1.0; LANES]);
     for (lane, chain) in chains.iter_mut().enumerate() {
         chain.condense(packs, min_pivots, lane, &mut kept);
     }
@@ -205,10 +205,10 @@ pub(super) fn condense(chains: &mut [Chain], packs: &[Element], min_pivots: &[La
 }
 
 /// Motions of packs of elements that follow those of the kept unknowns of chains.
-pub(super) fn ends(chains: &[Chain], packs: usize, plane: &[Lane; IN_PLANE], across: &[Lane; ACROSS]) -> Vec<Ends> {
-    let mut ends = vec![Ends::default(); packs];
+pub(super) fn ends(chains: &[Chain], packs: usize, in_plane: &[Lane; IN_PLANE], out_of_plane: &[Lane; OUT_OF_PLANE]) -> Vec<ElementEnds> {
+    let mut ends = vec![ElementEnds::default(); packs];
     for (lane, chain) in chains.iter().enumerate() {
-        chain.spread(plane.map(|of| of[lane]), across.map(|of| of[lane]), &mut ends);
+        chain.spread(in_plane.map(|of| of[lane]), out_of_plane.map(|of| of[lane]), &mut ends);
     }
     ends
 }
