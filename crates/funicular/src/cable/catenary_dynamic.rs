@@ -173,8 +173,9 @@ impl CatenaryDynamicEnd {
     /// Undamped stiffness at x = ω² without the poles in the relative distance `width` of x, and those poles.
     pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<NearPole>) {
         let (in_plane, out_of_plane) = self.near(x, width);
-        let stiffness = self
-            .with_out_of_plane(self.in_plane().undamped(x, in_plane.clone()), |family| family.undamped(x, out_of_plane.clone()));
+        let stiffness = self.with_out_of_plane(self.in_plane().undamped(x, in_plane.clone()), |family| {
+            family.undamped(x, out_of_plane.clone())
+        });
         (stiffness, self.near_poles(in_plane, out_of_plane))
     }
 
@@ -200,7 +201,9 @@ impl CatenaryDynamicEnd {
     /// [`beside_poles`](Self::beside_poles) leaves out.
     pub(crate) fn effective_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
         let (in_plane, out_of_plane) = self.near(x, width);
-        self.with_out_of_plane(self.in_plane().effective_mass(x, in_plane), |family| family.effective_mass(x, out_of_plane))
+        self.with_out_of_plane(self.in_plane().effective_mass(x, in_plane), |family| {
+            family.effective_mass(x, out_of_plane)
+        })
     }
 
     /// Indices of the poles in the relative distance `width` of x, in plane and out of plane.

@@ -84,9 +84,12 @@ impl Dynamics {
             if let DynamicCable::CatenaryDynamic(form) = &term.form {
                 let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
                 add_local(&mut stiffness, term, &regular, |k, product| k * product);
-                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION), |m, product| m * product);
+                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION), |m, product| {
+                    m * product
+                });
                 borders.extend(poles.iter().map(|near| {
-                    let motion = NearMotion { term: t, out_of_plane: near.out_of_plane, pole: near.index, amplitude: 0.0 };
+                    let motion =
+                        NearMotion { term: t, out_of_plane: near.out_of_plane, pole: near.index, amplitude: 0.0 };
                     (motion, term.vector(near.direction), near.pole)
                 }));
             }

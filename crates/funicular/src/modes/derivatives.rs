@@ -281,7 +281,8 @@ impl CableMotion {
             // Third derivative of |N|, twice along δN.
             let along = tension.direction.dot(change_w);
             let transverse = change_w - tension.direction * along;
-            let third = (tension.direction * transverse.norm_squared() + transverse * (2.0 * along)) / tension.size.powi(2);
+            let third =
+                (tension.direction * transverse.norm_squared() + transverse * (2.0 * along)) / tension.size.powi(2);
             by_force += third * *weight;
             by_load += third * (*weight * s / length);
             by_stiffness += change_w.norm_squared() * weight / stiffness.powi(2);

@@ -1,49 +1,54 @@
-//! The cables of a pencil, side by side in groups: as a matrix about rest, and with all unknowns.
+//! Cables of a pencil, side by side in groups: as matrices condensed about one frequency, and with all unknowns.
 
-use super::batched_cable::{OUT_OF_PLANE, Abreast, IN_PLANE, Kept, MAX_DEGREES, place};
+use super::batched_cable::{Abreast, IN_PLANE, Kept, MAX_DEGREES, OUT_OF_PLANE, place};
 use crate::math::simd::{LANES, Lane};
 use std::array::from_fn;
 
-/// K − xM of the kept unknowns of each group, and the mass of motions that follow.
+/// Groups of cables, condensed onto their kept unknowns.
 pub(super) trait Cables {
+    /// Matrices K − xM of the kept unknowns of each group.
     fn kept(&mut self, x: f64, into: &mut Vec<Kept>);
 
-    /// `aᵀ M b` of each arm of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at the x of
-    /// the last call of `kept`.
+    /// Products `aᵀ M b` per cable of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at the
+    /// x of the last call of `kept`.
     fn mass(&self, group: usize, motions: &[KeptMotion]) -> Vec<Lane>;
 
-    /// To be called where the search closes in.
+    /// Refines the discretisation; called when the search comes near its result.
     fn refine(&mut self) {}
 }
 
 /// Motion of a group's kept unknowns, in plane and out of plane.
 pub(super) type KeptMotion = ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]);
 
-/// Matrices of each group about x = 0, the eliminated unknowns following the kept ones as at rest.
+/// Stiffness and mass of each group with the eliminated unknowns following the kept ones as at one frequency, first at
+/// x = 0.
 pub(super) struct Reduced {
     pub(super) stiffness: Vec<Kept>,
     pub(super) mass: Vec<Kept>,
 }
 
-/// All unknowns, finer where the search closes in: so its last step checks the discretisation, too.
+/// Cables with all unknowns. The degrees rise when the search comes near its result, so that its last step also checks the
+/// discretisation.
 pub(super) struct Whole<'a> {
     pub(super) groups: &'a mut [Abreast],
     pub(super) degrees: Vec<usize>,
 }
 
-/// Two digits of half a wave, more where C varies; three degrees more give nine digits. Elements have a part of the wave.
+/// Degree at the start of a search. It gives two digits for half a wave, and more degrees are needed where C varies; three
+/// additional degrees give nine digits. If a cable is divided, an element has only a fraction of the wave.
 pub(super) fn degree_of_start(group: &Abreast) -> usize {
     if group.is_cut() { 5 } else { 4 + group.terms() / 8 }
 }
 
 impl Reduced {
+    /// Matrices condensed at x = 0.
     pub(super) fn of(groups: &mut [Abreast]) -> Self {
         let (stiffness, mass) = groups.iter_mut().map(|group| tangent(group, 0.0)).unzip();
         Self { stiffness, mass }
     }
 
-    /// Lets what has been eliminated follow as at x where a cable is cut. False if x is above a natural frequency of that:
-    /// then it follows as before.
+    /// Condenses the groups of divided cables at x. If x is above a natural frequency of their eliminated unknowns, the
+    /// matrices stay as they were and the result is false.
     pub(super) fn follow(&mut self, groups: &mut [Abreast], x: f64) -> bool {
         let cut = groups.iter_mut().enumerate().filter(|(_, group)| group.is_cut());
         let tangents: Vec<_> = cut.map(|(i, group)| (i, tangent(group, x))).collect();
@@ -57,11 +62,11 @@ impl Reduced {
     }
 }
 
-/// Stiffness and mass of a group's kept unknowns such that K − xM and its slope are right at x.
+/// Stiffness and mass of a group's kept unknowns such that K − xM and its derivative are correct at x.
 fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
     let mut stiffness = group.kept(x, degree_of_start(group));
 
-    // Mass of the motions that follow a unit of each kept unknown.
+    // Mass of the motions that follow a unit motion of each kept unknown.
     let unit = |k: usize| {
         let one = |j: usize| if j == k { [1.0; LANES] } else { [0.0; LANES] };
         group.moved(from_fn(one), from_fn(one))
@@ -79,8 +84,13 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
         }
     }
 
-    // K at x, moved by x M.
-    for (k, m) in stiffness.in_plane.iter_mut().zip(&masses.in_plane).chain(stiffness.out_of_plane.iter_mut().zip(&masses.out_of_plane)) {
+    // K is the matrix at x plus x M.
+    for (k, m) in stiffness
+        .in_plane
+        .iter_mut()
+        .zip(&masses.in_plane)
+        .chain(stiffness.out_of_plane.iter_mut().zip(&masses.out_of_plane))
+    {
         for i in 0..LANES {
             k[i] += x * m[i];
         }
@@ -121,7 +131,7 @@ impl Cables for Reduced {
     }
 }
 
-/// The lower triangle, by rows, of a form over pairs.
+/// Values of a form over all pairs: lower triangle by rows.
 fn pairs<T>(all: &[T], form: impl Fn(&T, &T) -> Lane) -> Vec<Lane> {
     (0..all.len()).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| form(&all[i], &all[j])).collect()
 }
@@ -134,7 +144,8 @@ impl Cables for Whole<'_> {
 
     fn mass(&self, group: usize, motions: &[KeptMotion]) -> Vec<Lane> {
         let group = &self.groups[group];
-        let all: Vec<_> = motions.iter().map(|(in_plane, out_of_plane)| group.moved(*in_plane, *out_of_plane)).collect();
+        let all: Vec<_> =
+            motions.iter().map(|(in_plane, out_of_plane)| group.moved(*in_plane, *out_of_plane)).collect();
         pairs(&all, |a, b| {
             let [in_plane, out_of_plane] = group.mass(a, b);
             from_fn(|i| in_plane[i] + out_of_plane[i])

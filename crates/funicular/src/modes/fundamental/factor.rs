@@ -1,4 +1,4 @@
-//! The pencil at a shift, factored: bubbles first, then the platform.
+//! Factorisation of the pencil at a shift: bubbles first, then the platform.
 
 use super::batched_cable::Kept;
 use super::lever_axes::RobotMotion;
@@ -7,15 +7,17 @@ use crate::math::Mat6;
 use crate::math::simd::{LANES, Lane, Part, sum};
 use pulp::Simd;
 
+/// Factored pencil at a shift.
 pub(super) struct Factor {
     /// L below the diagonal, inverse pivots on it.
     platform: Mat6,
     bubbles: Vec<Bubbles>,
-    /// Pivots that are not positive; as many eigenvalues lie below the shift, if those of what has been eliminated do not.
+    /// Number of pivots that are not positive. It is the number of eigenvalues below the shift, provided that no eigenvalue
+    /// of the eliminated unknowns lies below.
     pub(super) negative: usize,
 }
 
-/// Of a group's cables: stiffness of the bubbles against the end, and the inverses of their pivots.
+/// Stiffness of the bubbles of a group's cables against the platform ends, and the inverse pivots of the bubbles.
 #[derive(Default)]
 struct Bubbles {
     normal: Lane,
@@ -25,6 +27,7 @@ struct Bubbles {
     inverse_out_of_plane: Lane,
 }
 
+/// Job for vector registers: factors the pencil.
 struct FactorisePencil<'a> {
     pencil: &'a RobotPencil,
     kept: &'a [Kept],
@@ -42,13 +45,13 @@ impl pulp::WithSimd for FactorisePencil<'_> {
         let mut negative = 0;
         let mut all = Vec::with_capacity(kept.len());
         for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
-            // Signs of the pivots of what each cable has eliminated.
+            // Signs of the pivots of each cable.
             for lane in 0..cables.len() {
                 let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.in_plane[5][lane], k.out_of_plane[2][lane]];
                 negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
             }
 
-            // Its bubbles go out, and what is left stands over the platform's coordinates.
+            // Eliminate the bubbles and transform the rest to the platform's coordinates.
             let mut bubbles = Bubbles::default();
             let [nn, en, ee, qn, qe, qq] = &k.in_plane;
             let [oo, bo, bb] = &k.out_of_plane;
@@ -108,22 +111,25 @@ impl pulp::WithSimd for FactorisePencil<'_> {
     }
 }
 
+/// True for negative pivots, zero and NaN.
 fn not_positive(pivot: f64) -> bool {
     pivot.is_nan() || pivot <= 0.0
 }
 
 impl Factor {
-    /// Without exchanges: a positive definite pencil needs none, and of another one only a direction is wanted.
+    /// Factors a pencil at a shift, without pivoting: a positive definite pencil needs none, and for an indefinite one an
+    /// approximate direction is enough.
     pub(super) fn of(pencil: &RobotPencil, kept: &[Kept], x: f64) -> Self {
         pulp::Arch::new().dispatch(FactorisePencil { pencil, kept, x })
     }
 
+    /// Solves (K − xM) `into` = `force`.
     #[inline(always)]
     pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &RobotPencil, force: &RobotMotion, into: &mut RobotMotion) {
         let n = pencil.dof;
         let mut v = *force.platform();
 
-        // Bubbles to platform.
+        // Eliminate the forces on the bubbles.
         for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
             let mut wrench = [[0.0; LANES]; 6];
@@ -157,7 +163,7 @@ impl Factor {
             }
         }
 
-        // And back to the bubbles.
+        // Back substitution of the bubbles.
         *into.platform_mut() = v;
         for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
