@@ -150,8 +150,8 @@ pub(super) fn lowest(
             return Some(found);
         }
 
-        // Next shift: just below the quotient, or inside the interval. Only a result near its shift, whose discretisation
-        // is refined now, can be proved there.
+        // Next shift: just below the quotient, or inside the interval. If the quotient is near its shift, the discretisation
+        // is refined, and the next shift can prove the result.
         let leads = bracket.lower_to(quotient);
         let close = leads && (quotient - x).abs() < CLOSE * quotient;
         if close {
