@@ -81,8 +81,8 @@ fn tension_distribution(c: &mut Criterion) {
     }
 }
 
-/// Two sets of a thousand poses of the paper's robot. In the first the platform is nearly level, and no cable sags by more
-/// than a quarter of its chord. The second fills a box; at more than half of its poses a cable has little tension.
+/// Two sets of a thousand poses of the paper's robot. In the first the platform is nearly level, and no cable sags by
+/// more than a quarter of its chord. The second fills a box; at more than half of its poses a cable has little tension.
 fn first_frequencies(c: &mut Criterion) {
     let (robot, _) = robot();
     let entry = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
@@ -106,7 +106,7 @@ fn first_frequencies(c: &mut Criterion) {
         [("", held([2.0, 1.0, 0.8], 1.0, 2.0)), (", slack cables too", held([3.0, 1.2, 1.0], 3.0, f64::INFINITY))];
     for (name, poses) in sets {
         assert_eq!(poses.len(), 1000);
-        c.bench_function(&format!("1,000 poses: statics, tensions, exact first frequency{name}"), |b| {
+        c.bench_function(&format!("1,000 poses: statics, tensions, first frequency{name}"), |b| {
             b.iter(|| {
                 let first = |pose: &Pose| {
                     let rest = statics::inverse(&robot, pose, StaticModel::Catenary).expect("possible");
@@ -141,7 +141,7 @@ fn responses(c: &mut Criterion) {
 fn natural_frequencies(c: &mut Criterion) {
     let (robot, lengths) = robot();
     let (dynamics, _) = linearised(&robot, &lengths);
-    c.bench_function("modes: all below 20 Hz, certified", |b| {
+    c.bench_function("shallow-dynamic: all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let found = modes::below(black_box(&dynamics), 20.0);
             assert!(found.certified);
@@ -156,8 +156,8 @@ fn catenary_dynamic_cables(c: &mut Criterion) {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
         (Dynamics::about(&robot, &rest, Linearisation::default(), up_to_hz).expect("taut"), rest.pose)
     };
-    c.bench_function("exact: statics and set-up below 20 Hz", |b| b.iter(|| linearised(black_box(20.0))));
-    c.bench_function("exact: statics, set-up and all modes below 20 Hz, certified", |b| {
+    c.bench_function("catenary-dynamic: statics and set-up below 20 Hz", |b| b.iter(|| linearised(black_box(20.0))));
+    c.bench_function("catenary-dynamic: statics, set-up and all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let (dynamics, _) = linearised(black_box(20.0));
             let found = modes::below(&dynamics, 20.0);
@@ -167,7 +167,7 @@ fn catenary_dynamic_cables(c: &mut Criterion) {
     });
     let (dynamics, _) = linearised(20.0);
     let undamped = modes::below(&dynamics, 20.0);
-    c.bench_function("exact: damped partners of all modes below 20 Hz, certified", |b| {
+    c.bench_function("catenary-dynamic: damped partners of all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let found = modes::damped::damped_modes(black_box(&dynamics), &undamped);
             assert!(found.certified);
@@ -175,7 +175,7 @@ fn catenary_dynamic_cables(c: &mut Criterion) {
         });
     });
     let frequencies: Vec<f64> = (0..10_000).map(|i| 0.002 * f64::from(i + 1)).collect();
-    c.bench_function("exact: set-up and frf of 10,000 frequencies, all 36 entries", |b| {
+    c.bench_function("catenary-dynamic: set-up and frf of 10,000 frequencies, all 36 entries", |b| {
         b.iter(|| {
             let (dynamics, _) = linearised(black_box(20.0));
             response::receptances(&dynamics, &frequencies)

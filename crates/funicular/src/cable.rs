@@ -2,8 +2,8 @@
 //!
 //! Every model uses the local axes of docs/theory.md, section 4: e along the chord from the platform to the anchor, n
 //! normal to it in the plane of the cable, upwards, b = e × n. In these axes
-//! `K = k_a eeᵀ + k_b (enᵀ + neᵀ) + k_c nnᵀ + k_o bbᵀ`. One formula serves cables that go up from the platform and cables
-//! that go down. There is one file per model.
+//! `K = k_a eeᵀ + k_b (enᵀ + neᵀ) + k_c nnᵀ + k_o bbᵀ`. One formula serves cables that go up from the platform and
+//! cables that go down. There is one file per model.
 
 pub mod catenary_dynamic;
 mod damping;
@@ -140,8 +140,8 @@ pub struct Sag {
 pub const SHALLOW_SAG_LIMIT: f64 = 1.0 / 20.0;
 
 impl Sag {
-    /// Sag parameters of cable `i` at an equilibrium. A straight cable (spring or ideal statics) gets the sag that follows
-    /// from its tension.
+    /// Sag parameters of cable `i` at an equilibrium. A straight cable (spring or ideal statics) gets the sag that
+    /// follows from its tension.
     pub fn of(robot: &Robot, i: usize, state: &CableState) -> Self {
         let material = &robot.cables[i].material;
         let chord_w = state.chord_w();
@@ -282,12 +282,12 @@ impl DynamicCable {
 
 impl EndStiffness {
     /// End stiffness of cable `i` of a robot at an equilibrium, valid up to the frequency `up_to_hz` [Hz]. Only the
-    /// catenary-dynamic model uses that frequency. `in_plane_only` leaves out all stiffness out of the cable's plane, as
-    /// the paper does.
+    /// catenary-dynamic model uses that frequency. `in_plane_only` leaves out all stiffness out of the cable's plane,
+    /// as the paper does.
     ///
     /// # Errors
-    /// [`NoStiffness`]: an ideal cable has no stiffness in the catenary models, a cable without tension none in the models
-    /// with sag.
+    /// [`NoStiffness`]: an ideal cable has no stiffness in the catenary models, a cable without tension none in the
+    /// models with sag.
     pub fn new(
         robot: &Robot,
         i: usize,

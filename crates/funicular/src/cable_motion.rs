@@ -1,7 +1,7 @@
 //! Motion of the points along the cables, in a natural mode and in a response to a force.
 //!
-//! If the platform end of a cable moves by u, the points along the cable move by `Ψ(s) u + Σ φ_k(s) q_k`: the slow shape
-//! and the clamped modes, whose amplitudes q_k follow from u and the frequency (docs/theory.md, section 11).
+//! If the platform end of a cable moves by u, the points along the cable move by `Ψ(s) u + Σ φ_k(s) q_k`: the slow
+//! shape and the clamped modes, whose amplitudes q_k follow from u and the frequency (docs/theory.md, section 11).
 
 mod weighted;
 
@@ -162,9 +162,9 @@ impl CableStations {
         }
     }
 
-    /// Transmission vector v(ω): displacement of station `at` along `direction_w` (unit) per platform motion, `u = vᵀ x`,
-    /// damped, at ω [rad/s]. v is a 6-vector about the platform origin. By reciprocity a force f at the station acts on
-    /// the platform as the wrench `v f`.
+    /// Transmission vector v(ω): displacement of station `at` along `direction_w` (unit) per platform motion,
+    /// `u = vᵀ x`, damped, at ω [rad/s]. v is a 6-vector about the platform origin. By reciprocity a force f at the
+    /// station acts on the platform as the wrench `v f`.
     pub fn transmission(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3, omega: f64) -> CVec6 {
         let LocalAxes { e, n, b } = self.axes;
         let towards = self.local(direction_w);
@@ -195,9 +195,9 @@ impl CableStations {
         vector
     }
 
-    /// Row of the motion of station `at` along `direction_w` (unit) over the platform's slow motion and the amplitudes of
-    /// the cable's clamped modes, in plane and then out of plane. The results are the platform's 6-vector, the index of a
-    /// catenary-dynamic cable among the terms of the dynamics, and the row over the amplitudes.
+    /// Row of the motion of station `at` along `direction_w` (unit) over the platform's slow motion and the amplitudes
+    /// of the cable's clamped modes, in plane and then out of plane. The results are the platform's 6-vector, the index
+    /// of a catenary-dynamic cable among the terms of the dynamics, and the row over the amplitudes.
     pub(crate) fn row(&self, dynamics: &Dynamics, at: usize, direction_w: &Vec3) -> (Vec6, Option<usize>, Vec<f64>) {
         let towards = self.local(direction_w);
         match &self.model {
@@ -230,8 +230,8 @@ impl CableStations {
         Vec6::new(force_w.x, force_w.y, force_w.z, moment_w.x, moment_w.y, moment_w.z)
     }
 
-    /// Displacement of station `at` along a unit vector per force along another one at station `loaded`, with the platform
-    /// held, at ω [rad/s], damped [m/N]. The stations' cable adds it to the response through the platform.
+    /// Displacement of station `at` along a unit vector per force along another one at station `loaded`, with the
+    /// platform held, at ω [rad/s], damped [m/N]. The stations' cable adds it to the response through the platform.
     pub(crate) fn own_receptance(
         &self,
         dynamics: &Dynamics,
@@ -262,7 +262,8 @@ impl CableStations {
     }
 }
 
-/// Motion along a cable that follows from its start's. With `in_plane_only` the motion out of plane has no clamped modes.
+/// Motion along a cable that follows from its start's. With `in_plane_only` the motion out of plane has no clamped
+/// modes.
 fn internal_motion(
     dynamics: &Dynamics,
     cable: &CatenaryDynamic,

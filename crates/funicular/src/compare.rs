@@ -1,4 +1,5 @@
-//! Comparison of the cable models: natural frequencies of each below a limit, and the simplest model that is good enough.
+//! Comparison of the cable models: natural frequencies of each below a limit, and the simplest model that is good
+//! enough.
 
 use crate::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
@@ -14,8 +15,8 @@ pub const TOLERANCE: f64 = 0.01;
 /// Minimum MAC of the platform shapes of two modes that count as the same motion.
 pub const SAME_MOTION: f64 = 0.5;
 
-/// Maximum ratio of the frequencies of two modes that count as the same motion. With 20 cable resonances in between, there
-/// is always a mode with a similar platform shape.
+/// Maximum ratio of the frequencies of two modes that count as the same motion. With 20 cable resonances in between,
+/// there is always a mode with a similar platform shape.
 const SAME_RANGE: f64 = 2.0;
 
 /// Maximum relative difference of frequency for modes of two dynamic models that can be the same.
@@ -43,9 +44,9 @@ pub struct ModelResult {
     pub modes: Result<Modes, DynamicsError>,
     /// Modes that have a counterpart in the reference; empty for the reference itself.
     ///
-    /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at least
-    /// [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly move the
-    /// platform, it is the nearest in frequency.
+    /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
+    /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
+    /// move the platform, it is the nearest in frequency.
     pub matches: Vec<Match>,
     /// Number of modes of the reference without a counterpart.
     pub missed: usize,
@@ -93,7 +94,8 @@ pub fn compare(
         |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
     let (reference, dynamics) = match with(CableModel::CatenaryDynamic) {
         Ok(dynamics) => (CableModel::CatenaryDynamic, dynamics),
-        // Too many unknowns for one cable: the next best reference is the shallow-dynamic model, which has no such limit.
+        // Too many unknowns for one cable: the next best reference is the shallow-dynamic model, which has no such
+        // limit.
         Err(DynamicsError::CatenaryDynamic { .. }) => (CableModel::ShallowDynamic, with(CableModel::ShallowDynamic)?),
         Err(other) => return Err(other),
     };
@@ -147,8 +149,8 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
         .collect()
 }
 
-/// Pairs every mode with the reference mode of the most similar platform motion, weighted by the platform's energy fraction
-/// in that mode; with `by_frequency`, with the nearest in frequency. Each reference mode is used once.
+/// Pairs every mode with the reference mode of the most similar platform motion, weighted by the platform's energy
+/// fraction in that mode; with `by_frequency`, with the nearest in frequency. Each reference mode is used once.
 fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) -> Vec<Match> {
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
@@ -241,8 +243,8 @@ fn advise(
     let total = truth.modes.len();
 
     let constant = format!(
-        "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant cable \
-         stiffness misses {lost} of them"
+        "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant \
+         cable stiffness misses {lost} of them"
     );
 
     let choice = match simplest {
@@ -263,13 +265,13 @@ fn advise(
             )
         }
         _ => format!(
-            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of those by `{reference}`; \
-             {string}"
+            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
+             `{reference}`; {string}"
         ),
     };
 
     let range = if ratio > SHALLOW_SAG_LIMIT {
-        " The maximum sag is beyond d/l = 1/20, the range of `shallow-dynamic`: its cable resonances are approximate there."
+        " The maximum sag is beyond d/l = 1/20, the range of `shallow-dynamic`: its cable resonances are approximate."
     } else {
         ""
     };

@@ -18,15 +18,15 @@ use crate::robot::{Damping, PlatformMotion, Robot};
 use crate::statics::{CableState, Equilibrium};
 use thiserror::Error;
 
-/// Relative distance of ω² to a pole of a catenary-dynamic cable below which the pole's mode is a separate unknown of the
-/// matrices. Counts and modes are the same at 1e-2 and at 1e-6.
+/// Relative distance of ω² to a pole of a catenary-dynamic cable below which the pole's mode is a separate unknown of
+/// the matrices. Counts and modes are the same at 1e-2 and at 1e-6.
 const NEAR_POLE_FRACTION: f64 = 1e-3;
 
 /// Choice of the terms of the tangent stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Assembly {
-    /// All terms: the cables' end stiffness and the geometric stiffness of static forces on their lever arms. Symmetric at
-    /// an equilibrium.
+    /// All terms: the cables' end stiffness and the geometric stiffness of static forces on their lever arms. Symmetric
+    /// at an equilibrium.
     #[default]
     Consistent,
     /// Only the cables' end stiffness, as the paper's equation (11) prints it.
@@ -81,8 +81,8 @@ pub enum DynamicsError {
     },
     /// An equilibrium with ideal cables has no tangent stiffness.
     #[error(
-        "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use the \
-         static model `catenary` or `spring`"
+        "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use \
+         the static model `catenary` or `spring`"
     )]
     Rigid,
 }
@@ -140,7 +140,8 @@ impl DynamicCableAt {
         &self.form
     }
 
-    /// Scaled 6-vectors of its axes (e, n, b). Their products with the platform's motion x are the displacement of the end.
+    /// Scaled 6-vectors of its axes (e, n, b). Their products with the platform's motion x are the displacement of the
+    /// end.
     pub(crate) fn axes(&self) -> [&Vec6; 3] {
         [&self.along, &self.normal, &self.out]
     }
@@ -244,7 +245,8 @@ impl Dynamics {
         &self.terms
     }
 
-    /// Scaled stiffness that does not depend on frequency [N/m]: static forces on their lever arms, cables without mass.
+    /// Scaled stiffness that does not depend on frequency [N/m]: static forces on their lever arms, cables without
+    /// mass.
     pub(crate) fn constant_stiffness(&self) -> &Mat6 {
         &self.constant
     }
@@ -259,8 +261,8 @@ impl Dynamics {
         &self.platform_damping
     }
 
-    /// Complex 6×6 stiffness with all damping at ω [rad/s], about the platform origin, world axes [N/m, N, N·m]. It is zero
-    /// for motions that the platform does not have.
+    /// Complex 6×6 stiffness with all damping at ω [rad/s], about the platform origin, world axes [N/m, N, N·m]. It is
+    /// zero for motions that the platform does not have.
     pub fn stiffness(&self, omega: f64) -> CMat6 {
         self.unscaled(&self.scaled_stiffness(omega))
     }
@@ -324,7 +326,8 @@ impl Dynamics {
         total
     }
 
-    /// Scaled moving mass of the platform, and of each cable (`−dK/dω²`), for the scaled motion `x` of the platform [kg].
+    /// Scaled moving mass of the platform, and of each cable (`−dK/dω²`), for the scaled motion `x` of the platform
+    /// [kg].
     pub(crate) fn effective_masses(&self, omega: f64, x: &Vec6) -> (f64, Vec<f64>) {
         let platform = x.dot(&(self.mass * x));
         let mut cables = vec![0.0; self.cable_count()];
@@ -366,8 +369,8 @@ impl Dynamics {
         if self.terms.iter().any(|term| term.cable == i) { self.damping[i].1 } else { 0.0 }
     }
 
-    /// True if every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies
-    /// of at most 1e-9. Also true for the models that are not discretised.
+    /// True if every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped
+    /// frequencies of at most 1e-9. Also true for the models that are not discretised.
     pub fn resolves(&self, omega: f64) -> bool {
         self.terms.iter().all(|term| match &term.form {
             DynamicCable::ShallowDynamic(_) => true,

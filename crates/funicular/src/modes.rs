@@ -1,8 +1,8 @@
 //! All natural modes below a frequency, none missed.
 //!
-//! Between two neighbouring clamped frequencies of the cables (the poles of D) the eigenvalues of D(ω) fall with ω. So the
-//! count J gives the number of natural frequencies there, and bisection on J separates them. An increase of J at a pole
-//! itself means vibrations of cables with the platform at rest, which a search between the poles cannot find.
+//! Between two neighbouring clamped frequencies of the cables (the poles of D) the eigenvalues of D(ω) fall with ω. So
+//! the count J gives the number of natural frequencies there, and bisection on J separates them. An increase of J at a
+//! pole itself means vibrations of cables with the platform at rest, which a search between the poles cannot find.
 
 mod certificate;
 pub mod damped;
@@ -75,8 +75,8 @@ pub struct Mode {
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
-    /// Modal mass of `shape` [kg], platform and cables: `Σ ∫ |u|² dm`. If the platform is at rest, the motion of the cables
-    /// is scaled to 1 kg.
+    /// Modal mass of `shape` [kg], platform and cables: `Σ ∫ |u|² dm`. If the platform is at rest, the motion of the
+    /// cables is scaled to 1 kg.
     pub modal_mass: f64,
     /// Residual |xᵀ D x| over ω² times the moving mass, dimensionless: twice the relative change of the frequency by
     /// another Newton step on the Rayleigh quotient.
@@ -101,13 +101,13 @@ pub struct Modes {
     pub certified: bool,
 }
 
-/// Relative half width of the neighbourhood of a pole that counts as the pole. Modes inside are listed at the pole, so this
-/// width bounds their error. Rounding moves a pole by up to 1e-15.
+/// Relative half width of the neighbourhood of a pole that counts as the pole. Modes inside are listed at the pole, so
+/// this width bounds their error. Rounding moves a pole by up to 1e-15.
 const POLE_WIDTH: f64 = 1e-12;
 /// Relative width of an interval in which several modes are one multiple mode.
 const MULTIPLE_WIDTH: f64 = 2e-13;
-/// Residual above which a zero of the determinant is replaced by a search with the count. True zeros have residuals up to
-/// 1e-13; false zeros that rounding makes near a pole have 1e-2.
+/// Residual above which a zero of the determinant is replaced by a search with the count. True zeros have residuals up
+/// to 1e-13; false zeros that rounding makes near a pole have 1e-2.
 const ZERO_RESIDUAL: f64 = 1e-11;
 /// Maximum residual of a certified mode.
 pub const RESIDUAL_LIMIT: f64 = 1e-8;
@@ -232,8 +232,8 @@ impl List<'_> {
     /// Determinant of the undamped dynamic stiffness at ω.
     fn determinant(&self, omega: f64) -> f64 {
         let d = self.dynamics.dynamic_stiffness(omega);
-        // By elimination: in the expansion of a 3×3 determinant the squares of a pole's large term cancel, which loses the
-        // sign.
+        // By elimination: in the expansion of a 3×3 determinant the squares of a pole's large term cancel, which loses
+        // the sign.
         if self.dynamics.dof() == 6 {
             d.determinant()
         } else {

@@ -9,8 +9,8 @@ use crate::statics::{self, Equilibrium, StaticModel, StaticsError};
 pub struct PoseErrorPoint {
     /// Platform mass [kg].
     pub mass: f64,
-    /// Equilibrium with ideal cables, whose pose does not depend on the mass. It is an error if rigid cables of the given
-    /// lengths do not close, as with more cables than degrees of freedom, or if a cable would push.
+    /// Equilibrium with ideal cables, whose pose does not depend on the mass. It is an error if rigid cables of the
+    /// given lengths do not close, as with more cables than degrees of freedom, or if a cable would push.
     pub ideal: Result<Equilibrium, StaticsError>,
     /// Equilibrium with springs.
     pub spring: Result<Equilibrium, StaticsError>,

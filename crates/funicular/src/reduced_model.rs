@@ -1,9 +1,10 @@
 //! Small second-order model of the robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
 //!
 //! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. They represent
-//! catenary-dynamic cables without approximation: K is block diagonal, M couples the platform to each amplitude. The model
-//! has two approximations. Three modes of each cable replace all modes above the limit, and a constant damping ratio is
-//! replaced by viscous damping. Both errors are measured against the full model. Derivation: docs/theory.md, section 13.
+//! catenary-dynamic cables without approximation: K is block diagonal, M couples the platform to each amplitude. The
+//! model has two approximations. Three modes of each cable replace all modes above the limit, and a constant damping
+//! ratio is replaced by viscous damping. Both errors are measured against the full model. Derivation: docs/theory.md,
+//! section 13.
 
 use crate::cable::DynamicCable;
 use crate::cable_motion::CableMotionError;
@@ -74,11 +75,11 @@ pub struct SecondOrder {
     pub below_hz: f64,
     /// Maximum relative error of the natural frequencies below the limit.
     pub frequency_error: f64,
-    /// Maximum error of the responses up to the limit by modes left out, at each frequency relative to the largest entry
-    /// there. `None` if an undamped robot has no finite response.
+    /// Maximum error of the responses up to the limit by modes left out, at each frequency relative to the largest
+    /// entry there. `None` if an undamped robot has no finite response.
     pub truncation_error: Option<f64>,
-    /// Maximum error of the responses by the viscous replacement of constant damping ratios, at natural frequencies, each
-    /// relative to the largest entry there; zero for viscous damping.
+    /// Maximum error of the responses by the viscous replacement of constant damping ratios, at natural frequencies,
+    /// each relative to the largest entry there; zero for viscous damping.
     pub damping_error: Option<f64>,
 }
 
@@ -100,8 +101,8 @@ pub struct StateSpace {
 pub enum ReductionError {
     /// A cable is in the shallow-dynamic model.
     #[error(
-        "the reduced model consists of the modes of catenary-dynamic cables: choose the cable model `catenary-dynamic`, or \
-         a model without vibration"
+        "the reduced model consists of the modes of catenary-dynamic cables: choose the cable model \
+         `catenary-dynamic`, or a model without vibration"
     )]
     Model,
     /// The motion of a point on a cable is not known.
@@ -411,8 +412,8 @@ fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result
 
 /// Maximum relative error of the responses by the viscous replacement of constant ratios, at natural frequencies.
 fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, natural: &[f64]) -> Option<f64> {
-    // Maximum number of frequencies, spread over all natural frequencies, where the effect of damping is largest. Each needs
-    // a full elimination.
+    // Maximum number of frequencies, spread over all natural frequencies, where the effect of damping is largest. Each
+    // needs a full elimination.
     const MAX_FREQUENCIES: f64 = 48.0;
     // Maximum number of operations of all eliminations.
     const MAX_OPERATIONS: f64 = 2e9;
@@ -443,7 +444,8 @@ impl SecondOrder {
         Some(complex(&self.output) * d.lu().solve(&complex(&self.input))?)
     }
 
-    /// State space of the model, with outputs of displacement, velocity or acceleration as in [`quantities`](Self::quantities).
+    /// State space of the model, with outputs of displacement, velocity or acceleration as in
+    /// [`quantities`](Self::quantities).
     pub fn state_space(&self) -> StateSpace {
         let (n, inputs, outputs) = (self.mass.nrows(), self.input.ncols(), self.output.nrows());
 

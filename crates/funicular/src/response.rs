@@ -1,7 +1,8 @@
 //! Frequency responses (receptance, mobility, accelerance) and their peaks.
 //!
-//! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are computed side by side in vector registers (the kernel).
-//! The plain version, [`receptance`], is the oracle of the kernel and replaces it where the kernel is not accurate.
+//! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are computed side by side in vector registers (the
+//! kernel). The plain version, [`receptance`], is the oracle of the kernel and replaces it where the kernel is not
+//! accurate.
 
 mod kernel;
 mod peaks;
@@ -67,8 +68,8 @@ pub fn frf(
     finished(kernel::one_entry(dynamics, frequencies_hz, input, output), frequencies_hz, quantity)
 }
 
-/// Response between any two ports at each frequency [Hz]: `v_outᵀ X v_in`, with vectors that depend on frequency if a port
-/// is on a cable.
+/// Response between any two ports at each frequency [Hz]: `v_outᵀ X v_in`, with vectors that depend on frequency if a
+/// port is on a cable.
 ///
 /// # Errors
 /// [`ResponseError`]; a force and a motion on the same cable must be stations of one

@@ -1,4 +1,5 @@
-//! Warnings about results outside the range of a model or a limit: each names the cable, the value, the limit and a remedy.
+//! Warnings about results outside the range of a model or a limit: each names the cable, the value, the limit and a
+//! remedy.
 
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
@@ -97,7 +98,8 @@ pub struct DeepSag {
     /// Ratio of sag to chord.
     pub ratio: f64,
     /// Relative error of the model at this cable: of the first clamped frequency in plane against the catenary-dynamic
-    /// model, or of the static stiffness along the chord against the catenary. `None` if the comparison is not possible.
+    /// model, or of the static stiffness along the chord against the catenary. `None` if the comparison is not
+    /// possible.
     pub error: Option<f64>,
 }
 
@@ -132,17 +134,17 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
     Some(first / catenary.in_plane.poles.first()?.sqrt() - 1.0)
 }
 
-/// Tension per unit wrench above which a pose counts as nearly singular: ten times the largest value at the poses of the
-/// library's robots, which have 0.9 to 3.1.
+/// Tension per unit wrench above which a pose counts as nearly singular: ten times the largest value at the poses of
+/// the library's robots, which have 0.9 to 3.1.
 pub const SINGULAR_GAIN: f64 = 30.0;
 
 /// Relative change of static displacements above which the turning drag causes a warning; a drag coefficient is hardly
 /// known to one per cent.
 pub const DRAG_TURN_LIMIT: f64 = 0.01;
 
-/// Fraction of the first axial frequency above which axial inertia causes a warning. The axial stiffness of a taut cable is
-/// `φ cot φ` times the static one. At this frequency φ = π/3, so that the static one is two thirds too stiff; at a third of
-/// it the error is 4 %.
+/// Fraction of the first axial frequency above which axial inertia causes a warning. The axial stiffness of a taut
+/// cable is `φ cot φ` times the static one. At this frequency φ = π/3, so that the static one is two thirds too stiff;
+/// at a third of it the error is 4 %.
 pub const AXIAL_FRACTION: f64 = 1.0 / 3.0;
 
 impl fmt::Display for Warning {
@@ -165,33 +167,33 @@ impl fmt::Display for Warning {
                 };
                 write!(
                     f,
-                    "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: choose \
-                     another pose, load or lengths, or another limit"
+                    "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: \
+                     choose another pose, load or lengths, or another limit"
                 )
             }
             Self::NoDrag { ropes } => {
                 let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
                 write!(
                     f,
-                    "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope has \
-                     1.0 to 1.2), or 0 for none",
+                    "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope \
+                     has 1.0 to 1.2), or 0 for none",
                     ropes.join(", ")
                 )
             }
             Self::NearlySingular { gain } if gain.is_infinite() => write!(
                 f,
-                "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which the \
-                 cables pull in more directions"
+                "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which \
+                 the cables pull in more directions"
             ),
             Self::NearlySingular { gain } => write!(
                 f,
-                "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension (limit \
-                 {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
+                "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension \
+                 (limit {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
             ),
             Self::Unstable { directions, min_stiffness: 0.0 } => write!(
                 f,
-                "the equilibrium is indifferent: in {} nothing holds the platform, and its natural frequency there is zero; \
-                 add a cable, or another attachment point",
+                "the equilibrium is indifferent: in {} nothing holds the platform, and its natural frequency there is \
+                 zero; add a cable, or another attachment point",
                 crate::counted(*directions, "direction")
             ),
             Self::Unstable { directions, min_stiffness } => write!(
@@ -202,8 +204,8 @@ impl fmt::Display for Warning {
             ),
             Self::Elsewhere { cables, dof, translation, turn_deg, distance } => write!(
                 f,
-                "{} for {dof} degrees of freedom cannot hold the requested pose with any lengths: this is the nearest pose \
-                 that they can hold, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
+                "{} for {dof} degrees of freedom cannot hold the requested pose with any lengths: this is the nearest \
+                 pose that they can hold, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
                 crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
@@ -224,16 +226,16 @@ impl fmt::Display for Warning {
             }
             Self::DragTurns { effect } => write!(
                 f,
-                "the drag of the wind turns with the cables and changes the static displacement under a small load by up \
-                 to {:.1} % (rotations times the platform's size); the symmetric stiffness used here leaves this out: take \
-                 static displacements from `stiffness` at 0 Hz without a cable model, which includes it",
+                "the drag of the wind turns with the cables and changes the static displacement under a small load by \
+                 up to {:.1} % (rotations times the platform's size); the symmetric stiffness used here leaves this \
+                 out: take static displacements from `stiffness` at 0 Hz without a cable model, which includes it",
                 100.0 * effect
             ),
             Self::AxialWaves { cable, axial_hz, below_hz } => write!(
                 f,
-                "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \"{cable}\": \
-                 axial waves, which this model leaves out, matter there; lower the limit, or use the cable model \
-                 `catenary-dynamic`"
+                "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \
+                 \"{cable}\": axial waves, which this model leaves out, matter there; lower the limit, or use the \
+                 cable model `catenary-dynamic`"
             ),
         }
     }
@@ -254,8 +256,8 @@ fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning
     Some(Warning::BeyondLimit { cable: name, tension: margin.min, limit: Limit::Minimum, value })
 }
 
-/// Maximum distance from the requested pose, over the size of the platform, at which the pose counts as reached; the error
-/// of forward statics is smaller.
+/// Maximum distance from the requested pose, over the size of the platform, at which the pose counts as reached; the
+/// error of forward statics is smaller.
 const HELD: f64 = 1e-7;
 
 /// Warning that an equilibrium is not at the requested pose, but at the nearest pose that the cables can hold

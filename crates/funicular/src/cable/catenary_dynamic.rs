@@ -10,8 +10,8 @@
 //! K(ω) = K_s − ω_c² M_s − Σ_k ω_c⁴ g_k g_kᵀ/(ω_k² − ω_c²)
 //! ```
 //!
-//! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per pole.
-//! Derivation: docs/theory.md, section 9.
+//! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
+//! pole. Derivation: docs/theory.md, section 9.
 
 mod internal_motion;
 mod mesh;
@@ -179,8 +179,8 @@ impl CatenaryDynamicEnd {
         (stiffness, self.near_poles(in_plane, out_of_plane))
     }
 
-    /// Damped stiffness at the complex x = ω_c² without the poles in the relative distance `width` of the real part of x,
-    /// minus its derivative by x [kg], and those poles.
+    /// Damped stiffness at the complex x = ω_c² without the poles in the relative distance `width` of the real part of
+    /// x, minus its derivative by x [kg], and those poles.
     pub(crate) fn complex_beside_poles(
         &self,
         x: Complex,
@@ -266,8 +266,8 @@ impl CatenaryDynamic {
         Ok(Self::with_stations(catenary, mass_per_length, limit, Vec::new(), false)?.0)
     }
 
-    /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc lengths
-    /// from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element.
+    /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc
+    /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
@@ -331,6 +331,6 @@ fn local<T>([axial, coupling, normal]: [T; 3], [out_of_plane]: [T; 1]) -> LocalS
     LocalStiffness { axial, coupling, normal, out_of_plane }
 }
 
-/// Number of refinements after which the discretisation is accepted with its estimated error. Each refinement adds a sixth
-/// of the degree plus eight.
+/// Number of refinements after which the discretisation is accepted with its estimated error. Each refinement adds a
+/// sixth of the degree plus eight.
 const MAX_REFINEMENTS: usize = 4;

@@ -1,6 +1,6 @@
 //! Damping of a rope as a complex frequency of its cable, motion e^{+iωt}: `ω_c² = ω²(1 − 2iξ)` with a constant ratio,
-//! `ω_c² = ω² − iωc/m` with a viscous coefficient (docs/theory.md, section 4). A cable without mass has no frequency of its
-//! own, so it has no damping either.
+//! `ω_c² = ω² − iωc/m` with a viscous coefficient (docs/theory.md, section 4). A cable without mass has no frequency of
+//! its own, so it has no damping either.
 
 use crate::math::Complex;
 use crate::robot::Damping;
@@ -31,7 +31,8 @@ impl Damping {
         }
     }
 
-    /// Complex ω [rad/s] at which `ω_c²` is the square of an undamped frequency; its real or imaginary part is positive.
+    /// Complex ω [rad/s] at which `ω_c²` is the square of an undamped frequency; its real or imaginary part is
+    /// positive.
     pub(crate) fn zero(self, undamped: f64, mass_per_length: f64) -> Complex {
         match self {
             Self::Ratio(xi) => undamped / Complex::new(1.0, -2.0 * xi).sqrt(),

@@ -185,8 +185,8 @@ impl ShallowDynamic {
         (k, mass)
     }
 
-    /// Minus the derivative of the undamped stiffness by ω² [kg]: the moving mass of the cable per unit motion of its end.
-    /// As a 3×3 matrix it is positive semidefinite.
+    /// Minus the derivative of the undamped stiffness by ω² [kg]: the moving mass of the cable per unit motion of its
+    /// end. As a 3×3 matrix it is positive semidefinite.
     pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let of = Entire::real(omega * omega * self.gamma_by_square);
         let mut mass = self.mass_of(of, of.q_slope());
@@ -196,8 +196,8 @@ impl ShallowDynamic {
         mass
     }
 
-    /// Derivatives of the quotients at the head of this file, with c' = −σ/2, σ' = −q/2 and q' given. Like the quotients
-    /// they are homogeneous of degree zero in (c, σ, q, q').
+    /// Derivatives of the quotients at the head of this file, with c' = −σ/2, σ' = −q/2 and q' given. Like the
+    /// quotients they are homogeneous of degree zero in (c, σ, q, q').
     fn mass_of<T: Number>(&self, of: Entire<T>, q_by: T) -> LocalStiffness<T> {
         let Entire { gamma, c, sigma, q } = of;
         let (c_by, sigma_by) = (sigma * -0.5, q * -0.5);
@@ -218,8 +218,8 @@ impl ShallowDynamic {
 
     /// Number of clamped-clamped frequencies below ω [rad/s]: J0 of Wittrick and Williams.
     ///
-    /// The number out of plane is ⌊Ω/π⌋. In plane it is one less while ω has passed the string value of a symmetric root,
-    /// but not the root itself, which sag has raised (k_a < 0).
+    /// The number out of plane is ⌊Ω/π⌋. In plane it is one less while ω has passed the string value of a symmetric
+    /// root, but not the root itself, which sag has raised (k_a < 0).
     pub fn clamped_modes_below(&self, omega: f64) -> usize {
         let string = (self.dimensionless(omega) / PI).floor();
         let of = Entire::real(omega * omega * self.gamma_by_square);
@@ -256,8 +256,8 @@ impl ShallowDynamic {
         frequencies
     }
 
-    /// Symmetric root in plane, h = Ω/2, that belongs to the string's root `string` = (j − ½)π: the solution of Δ = 0 in
-    /// (string, string + π), `tan h = h − (4/λ²) h³` (Irvine and Caughey 1974).
+    /// Symmetric root in plane, h = Ω/2, that belongs to the string's root `string` = (j − ½)π: the solution of Δ = 0
+    /// in (string, string + π), `tan h = h − (4/λ²) h³` (Irvine and Caughey 1974).
     fn symmetric_root(&self, string: f64) -> f64 {
         let weight = 0.25 * self.sag.lambda2;
         if weight == 0.0 {

@@ -11,8 +11,8 @@ use crate::statics::Equilibrium;
 /// Number of stations along a cable: more than the number of half waves in the modes of interest.
 const STATIONS: usize = 32;
 
-/// Modes of a robot as vectors whose inner products are those of the kinetic energy. Vectors of robots that differ only in
-/// values of parameters are comparable.
+/// Modes of a robot as vectors whose inner products are those of the kinetic energy. Vectors of robots that differ only
+/// in values of parameters are comparable.
 #[derive(Debug)]
 pub struct WeightedMotions<'a> {
     dynamics: &'a Dynamics,
@@ -50,8 +50,8 @@ impl<'a> WeightedMotions<'a> {
 
     /// Weighted motion of a mode of these dynamics, for [`crate::modes::tracking`].
     ///
-    /// It has the platform's coordinates and three coordinates per station of each cable. For models that describe only the
-    /// cables' ends it has one coordinate per cable, the square root of the cable's energy fraction.
+    /// It has the platform's coordinates and three coordinates per station of each cable. For models that describe only
+    /// the cables' ends it has one coordinate per cable, the square root of the cable's energy fraction.
     pub fn of(&self, mode: &Mode) -> Tracked {
         let n = self.dynamics.dof();
         let mut motion: Vec<f64> =

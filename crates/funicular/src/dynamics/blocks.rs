@@ -14,7 +14,8 @@ use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::math::{DMat, Mat6, Vec6};
 use crate::robot::Damping;
 
-/// Matrices of the platform over its coordinates [m, rad]; they include all stiffness that does not depend on frequency.
+/// Matrices of the platform over its coordinates [m, rad]; they include all stiffness that does not depend on
+/// frequency.
 pub(crate) struct PlatformBlocks {
     pub(crate) mass: DMat,
     pub(crate) damping: DMat,
@@ -105,8 +106,8 @@ impl Dynamics {
 }
 
 impl DynamicCableAt {
-    /// Transforms a form of the end's displacement to the platform's scaled coordinates. The form is given by a matrix in
-    /// plane over both ends, of which the start's block counts, and one number out of plane.
+    /// Transforms a form of the end's displacement to the platform's scaled coordinates. The form is given by a matrix
+    /// in plane over both ends, of which the start's block counts, and one number out of plane.
     fn congruent(&self, in_plane: &[[f64; 4]; 4], out_of_plane: f64) -> Mat6 {
         let plane = [&self.along, &self.normal];
         Mat6::from_fn(|i, j| {

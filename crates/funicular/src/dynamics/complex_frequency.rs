@@ -1,6 +1,7 @@
 //! Dynamic stiffness D at a complex frequency, for the damped natural frequencies.
 //!
-//! As in [`null_vectors`](super::null_vectors), poles near the frequency are separate unknowns, so that no entry is large:
+//! As in [`null_vectors`](super::null_vectors), poles near the frequency are separate unknowns, so that no entry is
+//! large:
 //!
 //! ```text
 //! B(ω) = [ D_regular   −s g_k  ]

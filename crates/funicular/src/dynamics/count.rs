@@ -19,9 +19,9 @@ impl Dynamics {
 
     /// Number s{D(ω)} of negative eigenvalues of D.
     ///
-    /// Near a pole of a cable D has a very large rank-one term κ w wᵀ. It becomes a bordering row, `[[D, w], [wᵀ, −1/κ]]`,
-    /// whose last entry passes through zero at the pole of κ. So no term overflows and no digits are lost:
-    /// s{D + κ w wᵀ} = s{bordered} − [κ > 0].
+    /// Near a pole of a cable D has a very large rank-one term κ w wᵀ. It becomes a bordering row,
+    /// `[[D, w], [wᵀ, −1/κ]]`, whose last entry passes through zero at the pole of κ. So no term overflows and no
+    /// digits are lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
     fn negative_eigenvalues(&self, omega: f64) -> usize {
         let mut matrix = self.constant - self.mass * (omega * omega);
 
@@ -50,7 +50,8 @@ impl Dynamics {
             return symmetric::negative_eigenvalues(&matrix, self.dof());
         }
 
-        // The bordered matrix. The stiffness is divided by its size, so that platform and borders are of similar magnitude.
+        // The bordered matrix. The stiffness is divided by its size, so that platform and borders are of similar
+        // magnitude.
         let (m, n) = (self.dof(), self.dof() + borders.len());
         let size = matrix.amax().max(f64::MIN_POSITIVE);
         let mut a = vec![0.0; n * n];
@@ -72,8 +73,8 @@ impl Dynamics {
     }
 }
 
-/// Quotient above which a cable is near a pole. The counts are the same from 1e1 (every second evaluation is bordered) to
-/// 1e6 (the sum loses six digits of the soft directions).
+/// Quotient above which a cable is near a pole. The counts are the same from 1e1 (every second evaluation is bordered)
+/// to 1e6 (the sum loses six digits of the soft directions).
 const NEAR_POLE: f64 = 1e3;
 
 /// True if no quotient of the shallow-dynamic model is near a pole.

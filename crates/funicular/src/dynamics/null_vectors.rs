@@ -1,7 +1,8 @@
 //! Modes at a known natural frequency: null vectors of D, with near poles as separate unknowns.
 //!
-//! A mode at or very near a cable's clamped frequency is almost only a vibration of that cable, and the pole dominates D
-//! there. So a pole ω_k² near x = ω² is not summed; the amplitude q_k of its clamped mode (unit modal mass) is an unknown:
+//! A mode at or very near a cable's clamped frequency is almost only a vibration of that cable, and the pole dominates
+//! D there. So a pole ω_k² near x = ω² is not summed; the amplitude q_k of its clamped mode (unit modal mass) is an
+//! unknown:
 //!
 //! ```text
 //! A(x) = [ D_regular   −x g_k  ]      −dA/dx = [ M_regular   g_k ]

@@ -70,8 +70,8 @@ pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedM
     let count = undamped.modes.len();
     if count > MAX_DAMPED {
         let caveat = format!(
-            "damping ratios are of first order: complex frequencies are computed for at most {MAX_DAMPED} modes, the list \
-             has {count}; lower the limit"
+            "damping ratios are of first order: complex frequencies are computed for at most {MAX_DAMPED} modes, the \
+             list has {count}; lower the limit"
         );
         return (None, Some(caveat));
     }

@@ -49,8 +49,8 @@ impl DampedMode {
 pub struct DampedModes {
     /// Damped mode per undamped mode, in the same order.
     pub modes: Vec<DampedMode>,
-    /// Number of modes so strongly damped that they do not vibrate. Their ω is one of their two decay rates, and no count
-    /// confirms them.
+    /// Number of modes so strongly damped that they do not vibrate. Their ω is one of their two decay rates, and no
+    /// count confirms them.
     pub overdamped: usize,
     /// True if the undamped list is certified, every search has converged, and the region holds as many zeros as are
     /// listed.
@@ -245,8 +245,8 @@ impl ZeroSearch<'_> {
         }
     }
 
-    /// Searches again for zeros that have left their region: from their own start, and from the starts of the zeros that
-    /// have moved farthest, because one of these may have taken the zero of another. All others stay divided out.
+    /// Searches again for zeros that have left their region: from their own start, and from the starts of the zeros
+    /// that have moved farthest, because one of these may have taken the zero of another. All others stay divided out.
     fn bring_back(&self, zeros: &mut [Zero], modes: &[Mode]) {
         let start = |zero: &Zero| {
             let mode = &modes[zero.members[0]];
@@ -278,8 +278,8 @@ impl ZeroSearch<'_> {
         }
     }
 
-    /// True if all modes that share a zero really have one multiple zero. The logarithmic slope on a small circle around it
-    /// gives the number of zeros inside and the moments of their places.
+    /// True if all modes that share a zero really have one multiple zero. The logarithmic slope on a small circle
+    /// around it gives the number of zeros inside and the moments of their places.
     fn is_one(&self, zero: &Zero) -> bool {
         const POINTS: usize = 8;
         let radius = 1e-4 * zero.omega.norm();
@@ -341,7 +341,8 @@ impl ZeroSearch<'_> {
         let mut turned = 0.0;
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
             let mut last = (*from, phase(*from));
-            // The phase changes over distances like those to the zeros; a longer piece might miss a full turn at a cluster.
+            // The phase changes over distances like those to the zeros; a longer piece might miss a full turn at a
+            // cluster.
             let pieces = ((to - from).norm() / (0.5 * margin)).ceil() as usize;
             for piece in 1..=pieces {
                 let point = from + (to - from) * (piece as f64 / pieces as f64);

@@ -1,8 +1,8 @@
 //! Derivative of a natural frequency by a parameter of the robot.
 //!
-//! The quadratic form `W = xᵀ D x` of the dynamic stiffness D(ω) is stationary in the mode x and in the motion along every
-//! cable. So its derivative needs neither the derivative of the mode nor that of the cables' motion. Only the changes of
-//! forces, lever arms, masses and ropes at constant motion count: `dω = dW/(2ω · modal mass)`.
+//! The quadratic form `W = xᵀ D x` of the dynamic stiffness D(ω) is stationary in the mode x and in the motion along
+//! every cable. So its derivative needs neither the derivative of the mode nor that of the cables' motion. Only the
+//! changes of forces, lever arms, masses and ropes at constant motion count: `dω = dW/(2ω · modal mass)`.
 
 use super::Mode;
 use crate::cable::catenary_dynamic::{CatenaryDynamic, InternalMotion};
@@ -51,8 +51,9 @@ pub enum FrequencyDerivativeError {
 
 /// Derivative of a natural frequency by the parameter of a change [Hz per unit of the parameter].
 ///
-/// `by` is the derivative of the equilibrium by this parameter, from [`crate::statics::derivatives::at_held_lengths`] or
-/// `at_held_pose`: the lengths or the pose held there are held here. Mode, dynamics and equilibrium belong to the robot.
+/// `by` is the derivative of the equilibrium by this parameter, from [`crate::statics::derivatives::at_held_lengths`]
+/// or `at_held_pose`: the lengths or the pose held there are held here. Mode, dynamics and equilibrium belong to the
+/// robot.
 ///
 /// # Errors
 /// [`FrequencyDerivativeError`].
@@ -217,7 +218,8 @@ impl CableMotion {
         };
         let DynamicCable::CatenaryDynamic(end) = term.form() else { unreachable!("other models were refused") };
 
-        // Displacement at the nodes: slow shape and clamped modes. Modes with near poles have their amplitudes in the mode.
+        // Displacement at the nodes: slow shape and clamped modes. Modes with near poles have their amplitudes in the
+        // mode.
         let arc_lengths = nodes.iter().map(|(s, _)| *s).collect();
         let (_, stations) = CatenaryDynamic::with_stations(
             &hanging.catenary,
@@ -248,7 +250,8 @@ impl CableMotion {
         let factor = -omega * omega * robot.cables[i].material.mass_per_length;
         let gathered = gathered(&rule, step, &displacement_w);
 
-        // The anchor is held: the strains of δN along the cable add up to −a, where a is the motion of the platform end.
+        // The anchor is held: the strains of δN along the cable add up to −a, where a is the motion of the platform
+        // end.
         let mut beyond = Vec3::zeros();
         for ((s, weight), gathered) in nodes.iter().zip(&gathered) {
             beyond += compliance(&TensionVector::at(state, *s), hanging.catenary.rope().axial_stiffness)
@@ -320,7 +323,8 @@ fn compliance(tension: &TensionVector, axial_stiffness: f64) -> Mat3 {
     Mat3::identity() / axial_stiffness + (Mat3::identity() - along) / tension.size
 }
 
-/// Integrals of a vector from the start of the cable to every node, from the polynomial through the nodes of each piece.
+/// Integrals of a vector from the start of the cable to every node, from the polynomial through the nodes of each
+/// piece.
 fn gathered(rule: &[(f64, f64)], step: f64, values: &[Vec3]) -> Vec<Vec3> {
     let count = rule.len();
     // Orthonormal polynomials at the nodes, and their integrals from −1: of P_k it is (P_{k+1} − P_{k−1})/(2k + 1).

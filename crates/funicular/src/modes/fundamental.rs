@@ -1,16 +1,16 @@
-//! First natural frequency alone, with catenary-dynamic cables, for sweeps over many poses. Only [`first`] with its result
-//! is visible outside, and [`lowest_by_count`], the slow method to which it falls back.
+//! First natural frequency alone, with catenary-dynamic cables, for sweeps over many poses. Only [`first`] with its
+//! result is visible outside, and [`lowest_by_count`], the slow method to which it falls back.
 //!
 //! **Problem.** Platform and cables together are a symmetric pencil `K − ω² M` with M positive definite. Its lowest
 //! eigenvalue lies between a shift at which the pencil is positive definite and any Rayleigh quotient (docs/theory.md,
 //! section 9, equations (35a) to (35c)). The search narrows that interval to a relative width of 1e-9 and proves the
 //! result by the inertia of the pencil just below it.
 //!
-//! **Speed.** The first frequency of a robot is not above the first clamped frequency of any of its cables. So one element
-//! of modest degree is enough for a taut cable, and a few elements for a slack one. No clamped mode is needed. One
-//! factorisation per shift condenses a cable onto its platform end and one more unknown. Eight cables are computed side by
-//! side, one in each lane of a vector register. A few shifts are enough, because inverse iteration at one shift gives the
-//! next one. The first shifts use matrices condensed at ω = 0, which cost little.
+//! **Speed.** The first frequency of a robot is not above the first clamped frequency of any of its cables. So one
+//! element of modest degree is enough for a taut cable, and a few elements for a slack one. No clamped mode is needed.
+//! One factorisation per shift condenses a cable onto its platform end and one more unknown. Eight cables are computed
+//! side by side, one in each lane of a vector register. A few shifts are enough, because inverse iteration at one shift
+//! gives the next one. The first shifts use matrices condensed at ω = 0, which cost little.
 //!
 //! | File | Step |
 //! |---|---|
@@ -26,12 +26,13 @@
 //! | `pencil` | the robot as a pencil; rough search, then search with all unknowns |
 //!
 //! **Oracle.** [`below`](super::below) counts and separates all natural frequencies below a limit by the poles of the
-//! cables; it shares neither mesh nor search with this module. tests/suite/modes/first.rs compares both over the library,
-//! random robots and slack cables to 1e-9 of the frequency. The tests of `batched_cable` compare its stiffness with the
-//! stiffness by poles.
+//! cables; it shares neither mesh nor search with this module. tests/suite/modes/first.rs compares both over the
+//! library, random robots and slack cables to 1e-9 of the frequency. The tests of `batched_cable` compare its stiffness
+//! with the stiffness by poles.
 //!
-//! **Cost.** Tens of microseconds per pose for taut cables, more for slack ones; the list of all modes takes twenty times
-//! as long. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, use that list.
+//! **Cost.** Tens of microseconds per pose for taut cables, more for slack ones; the list of all modes takes twenty
+//! times as long. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, use
+//! that list.
 
 mod batched_cable;
 mod condensed_cables;
@@ -51,9 +52,9 @@ use thiserror::Error;
 
 /// First natural mode of a robot.
 ///
-/// Energies and shape belong to a motion whose Rayleigh quotient has a relative error of at most 5e-10 and that may contain
-/// other modes. If the next frequency is higher by the relative distance d, their contribution is at most `√(5e-10/d)`, and
-/// the energies are wrong by at most twice that, usually by less than 1e-6.
+/// Energies and shape belong to a motion whose Rayleigh quotient has a relative error of at most 5e-10 and that may
+/// contain other modes. If the next frequency is higher by the relative distance d, their contribution is at most
+/// `√(5e-10/d)`, and the energies are wrong by at most twice that, usually by less than 1e-6.
 #[derive(Debug, Clone, PartialEq)]
 pub struct First {
     /// Natural frequency, undamped [Hz].
@@ -69,7 +70,8 @@ pub struct First {
     pub shape: [f64; 6],
     /// Number of unstable directions of the equilibrium; they have no frequency.
     pub unstable_directions: usize,
-    /// True if it is proved that the first natural frequency is at most this frequency and lower by at most 5e-10 of it.
+    /// True if it is proved that the first natural frequency is at most this frequency and lower by at most 5e-10 of
+    /// it.
     pub certified: bool,
 }
 
@@ -91,9 +93,9 @@ pub enum FirstError {
 
 /// Lowest natural frequency of a robot with catenary-dynamic cables, undamped, and its mode.
 ///
-/// It equals the first mode of [`below`](super::below) with [`Linearisation::default`], but is about twenty times faster,
-/// and more with slack cables. Robots whose stiffness is not positive definite, and searches that rounding keeps from
-/// ending, use [`lowest_by_count`].
+/// It equals the first mode of [`below`](super::below) with [`Linearisation::default`], but is about twenty times
+/// faster, and more with slack cables. Robots whose stiffness is not positive definite, and searches that rounding
+/// keeps from ending, use [`lowest_by_count`].
 ///
 /// # Errors
 /// [`FirstError`]: a cable has no tension or does not hang, or nothing vibrates.

@@ -28,10 +28,11 @@ pub enum LowestError {
     },
 }
 
-/// All natural modes below a limit that the search chooses: as low as possible, with at least `count` modes below it, and
-/// at most `highest_hz`.
+/// All natural modes below a limit that the search chooses: as low as possible, with at least `count` modes below it,
+/// and at most `highest_hz`.
 ///
-/// The first limit lies near the expected first frequency. It is doubled until the count confirms enough modes below it.
+/// The first limit lies near the expected first frequency. It is doubled until the count confirms enough modes below
+/// it.
 ///
 /// # Errors
 /// [`LowestError`]: a cable has no stiffness in the model, or there are fewer modes than requested below `highest_hz`.
@@ -74,8 +75,8 @@ pub fn lowest(
     }
 }
 
-/// First limit of the search [Hz]: slightly above the lowest frequency of a cable between fixed ends, which is above the
-/// first frequency of the robot.
+/// First limit of the search [Hz]: slightly above the lowest frequency of a cable between fixed ends, which is above
+/// the first frequency of the robot.
 fn first_limit(robot: &Robot, equilibrium: &Equilibrium, model: CableModel) -> f64 {
     /// Factor on the string frequency, which is the cable's first frequency out of plane to second order of the sag.
     const ABOVE: f64 = 1.05;

@@ -1,8 +1,8 @@
 //! Tracking of modes while the robot changes: branches by the MAC of motions.
 //!
-//! Modes sorted by frequency exchange their order where curves cross. Where curves veer instead, they come near, exchange
-//! their motions and separate. A list by frequency does not distinguish the two. Here each mode is paired with the mode of
-//! the next step that has the most similar motion, for all modes together.
+//! Modes sorted by frequency exchange their order where curves cross. Where curves veer instead, they come near,
+//! exchange their motions and separate. A list by frequency does not distinguish the two. Here each mode is paired with
+//! the mode of the next step that has the most similar motion, for all modes together.
 
 use super::mac::mac;
 use pathfinding::kuhn_munkres::kuhn_munkres;
@@ -13,17 +13,18 @@ use pathfinding::matrix::Matrix;
 pub struct Tracked {
     /// Natural frequency [Hz].
     pub frequency_hz: f64,
-    /// Motion in coordinates weighted by the square roots of their masses: the square of its length is twice the kinetic
-    /// energy over the square of the frequency [1/s]. Size (not zero) and sign are arbitrary. All modes have the same
-    /// number of coordinates.
+    /// Motion in coordinates weighted by the square roots of their masses: the square of its length is twice the
+    /// kinetic energy over the square of the frequency [1/s]. Size (not zero) and sign are arbitrary. All modes have
+    /// the same number of coordinates.
     pub motion: Vec<f64>,
 }
 
-/// Minimum MAC for which a mode continues the branch of a mode of the previous step. If two modes exchange their motions,
-/// only one pairing can be above it.
+/// Minimum MAC for which a mode continues the branch of a mode of the previous step. If two modes exchange their
+/// motions, only one pairing can be above it.
 pub const MIN_MAC: f64 = 0.5;
 
-/// Relative distance of frequencies below which the motions of modes may be arbitrary mixtures, as for a symmetric robot.
+/// Relative distance of frequencies below which the motions of modes may be arbitrary mixtures, as for a symmetric
+/// robot.
 const TOGETHER: f64 = 1e-6;
 
 /// Modal assurance criterion of two motions in coordinates weighted by mass.
@@ -82,8 +83,8 @@ pub fn track(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
     found
 }
 
-/// MAC of every mode before with every mode after. Modes at one frequency span a space of motions, and the listed motions
-/// are an arbitrary basis of it. For them the value is the fraction of a motion that lies in this space.
+/// MAC of every mode before with every mode after. Modes at one frequency span a space of motions, and the listed
+/// motions are an arbitrary basis of it. For them the value is the fraction of a motion that lies in this space.
 fn all_macs(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
     let plain: Vec<Vec<f64>> =
         before.iter().map(|a| after.iter().map(|b| mac_of_motions(&a.motion, &b.motion)).collect()).collect();
@@ -131,8 +132,8 @@ fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
 mod tests {
     use super::*;
 
-    /// Two oscillators of unit mass with stiffnesses 10 ± p and a coupling c. The squares of the frequencies are
-    /// 10 ± √(p² + c²). The motion of the upper mode is (cos φ, sin φ) with tan 2φ = c/p, that of the lower is orthogonal.
+    /// Two oscillators of unit mass with stiffnesses 10 ± p and a coupling c. The squares of the frequencies are 10 ±
+    /// √(p² + c²). The motion of the upper mode is (cos φ, sin φ) with tan 2φ = c/p, that of the lower is orthogonal.
     fn veering(p: f64, c: f64) -> Vec<Tracked> {
         let (root, phi) = (p.hypot(c), 0.5 * c.atan2(p));
         let hz = |square: f64| square.sqrt() / std::f64::consts::TAU;

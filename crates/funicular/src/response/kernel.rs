@@ -173,8 +173,8 @@ fn entire_by_lane(gamma: Complexes) -> Entire<Complexes> {
     of
 }
 
-/// Factors `L D Lᵀ` in place: L below the diagonal, inverse pivots on it. The result per lane is true if every pivot was
-/// large enough.
+/// Factors `L D Lᵀ` in place: L below the diagonal, inverse pivots on it. The result per lane is true if every pivot
+/// was large enough.
 #[inline(always)]
 fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
     let mut largest = [0.0_f64; LANES];

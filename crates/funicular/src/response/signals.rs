@@ -35,8 +35,9 @@ pub enum Signal {
 }
 
 impl Signal {
-    /// Vector u (6 components) of a signal on the platform at a pose: a force f there is the wrench `u f` about the platform
-    /// origin, and the motion there is `uᵀ x`. `None` for a signal on a cable, whose vector depends on frequency.
+    /// Vector u (6 components) of a signal on the platform at a pose: a force f there is the wrench `u f` about the
+    /// platform origin, and the motion there is `uᵀ x`. `None` for a signal on a cable, whose vector depends on
+    /// frequency.
     pub fn platform_vector(&self, pose: &Pose) -> Option<Vec6> {
         match self {
             Self::Along { direction_w, point_p } => Some(along(direction_w, point_p, pose)),
@@ -46,8 +47,8 @@ impl Signal {
     }
 }
 
-/// Vector u (6 components) of a platform point along a direction at a pose, for [`Signal::Along`]: a force f there is the
-/// wrench `u f` about the platform origin, and the motion there is `uᵀ x`.
+/// Vector u (6 components) of a platform point along a direction at a pose, for [`Signal::Along`]: a force f there is
+/// the wrench `u f` about the platform origin, and the motion there is `uᵀ x`.
 pub fn along(direction_w: &Vec3, point_p: &Vec3, pose: &Pose) -> Vec6 {
     let u = direction_w.normalize();
     let moment = (pose.rot_wp * point_p).cross(&u);
@@ -128,8 +129,8 @@ impl Port {
         }
     }
 
-    /// Motion of the port in a mode, in the scale of `Mode::shape` [m]. By reciprocity it is also the modal force per unit
-    /// force at the port. The residue of a mode is the product of the motions of two ports over the modal mass.
+    /// Motion of the port in a mode, in the scale of `Mode::shape` [m]. By reciprocity it is also the modal force per
+    /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass.
     pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
         match self {
             Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),

@@ -115,8 +115,8 @@ impl Stations {
         [horizontal, up, out_of_plane]
     }
 
-    /// Displacement of station `at` along `out` per force along `force` at station `loaded`, both (horizontal, up, out of
-    /// plane), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
+    /// Displacement of station `at` along `out` per force along `force` at station `loaded`, both (horizontal, up, out
+    /// of plane), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
     pub(crate) fn receptance(
         &self,
         cable: &CatenaryDynamic,

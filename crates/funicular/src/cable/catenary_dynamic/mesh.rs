@@ -48,8 +48,8 @@ impl Table {
 const BEYOND: usize = 2;
 
 impl<'a> Mesh<'a> {
-    /// Mesh for frequencies up to ω = `limit`, with nodes at the arc lengths `cuts`, where the motion has a kink under a
-    /// force.
+    /// Mesh for frequencies up to ω = `limit`, with nodes at the arc lengths `cuts`, where the motion has a kink under
+    /// a force.
     pub(super) fn new(
         catenary: &'a Catenary,
         mass_per_length: f64,
@@ -243,9 +243,9 @@ impl Element {
     }
 }
 
-/// Minimum size of the Bernstein ellipse of an element, the sum of its semi-axes: the coefficients of C fall by at least
-/// this factor per degree. Nearer to 1 the degree grows without bound; with a larger value cables with little sag would be
-/// divided.
+/// Minimum size of the Bernstein ellipse of an element, the sum of its semi-axes: the coefficients of C fall by at
+/// least this factor per degree. Nearer to 1 the degree grows without bound; with a larger value cables with little sag
+/// would be divided.
 const SMOOTH_ENOUGH: f64 = 1.5;
 
 /// True if every point of the cable has tension.
@@ -259,8 +259,8 @@ pub(crate) fn has_tension(catenary: &Catenary) -> bool {
     minimum > 1e-9 * end.max(start)
 }
 
-/// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C: the sum of its semi-axes
-/// over half. The coefficients of C fall like the powers of this size.
+/// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C: the sum of its
+/// semi-axes over half. The coefficients of C fall like the powers of this size.
 pub(crate) fn ellipse(catenary: &Catenary, center: f64, half: f64) -> f64 {
     let w = catenary.rope().weight_per_length;
     if w == 0.0 {

@@ -1,8 +1,8 @@
 //! Stiffness and mass of a cable in the blocks that its condensation needs, and the condensation.
 //!
 //! The functions of a mesh are of three kinds: inner functions i (nodes between elements, bubbles), the two ends b, and
-//! the functions beyond the degree, which serve the error estimate. The clamped modes solve `M_ii φ = μ K_ii φ`. The ends
-//! need only the products of a mode with the columns K_ib and M_ib, so that no eigenvector is formed
+//! the functions beyond the degree, which serve the error estimate. The clamped modes solve `M_ii φ = μ K_ii φ`. The
+//! ends need only the products of a mode with the columns K_ib and M_ib, so that no eigenvector is formed
 //! ([`generalized_eigen`]).
 
 use super::internal_motion::Displacements;
@@ -24,7 +24,8 @@ impl Functions {
     }
 }
 
-/// Stiffness and mass of a cable by kinds of functions, with D components per function and N = 2D components of its ends.
+/// Stiffness and mass of a cable by kinds of functions, with D components per function and N = 2D components of its
+/// ends.
 pub(super) struct Partition<const D: usize, const N: usize> {
     /// Number of inner unknowns.
     unknowns: usize,
@@ -68,8 +69,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Adds an element's contribution to K_ii and M_ii. `stiffness` has one matrix for each sum of two components' numbers
-    /// (hh, hv, vv in plane, one out of plane); all components have the same mass.
+    /// Adds an element's contribution to K_ii and M_ii. `stiffness` has one matrix for each sum of two components'
+    /// numbers (hh, hv, vv in plane, one out of plane); all components have the same mass.
     pub(super) fn add_inner(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for &(b, column) in &functions.inner {
             for &(a, row) in &functions.inner {
@@ -129,8 +130,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Poles and residues of the ends, whose static stiffness is `still`. All poles are found; the error is estimated for
-    /// those below ω = `limit`.
+    /// Poles and residues of the ends, whose static stiffness is `still`. All poles are found; the error is estimated
+    /// for those below ω = `limit`.
     pub(super) fn reduce<const E: usize>(
         self,
         still: [[f64; N]; N],
@@ -198,8 +199,8 @@ impl<'a> ModeProducts<'a> {
         std::array::from_fn(|i| (self.heavy[i] - self.mu * self.stiff[i]) / self.mu.sqrt())
     }
 
-    /// Estimated relative error of the clamped frequency: half the relative decrease of ω² that the functions beyond the
-    /// degree would cause, to first order in each. They are numbered from `first` among the outer functions.
+    /// Estimated relative error of the clamped frequency: half the relative decrease of ω² that the functions beyond
+    /// the degree would cause, to first order in each. They are numbered from `first` among the outer functions.
     fn error(&self, beyond: &[(f64, f64)], first: usize) -> f64 {
         let lost = |(e, (stiffness, mass)): (usize, &(f64, f64))| {
             let answer = self.stiff[first + e] - self.heavy[first + e] / self.mu;

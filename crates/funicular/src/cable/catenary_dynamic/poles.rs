@@ -5,8 +5,8 @@ use crate::math::{Complex, DMat};
 use std::array::from_fn;
 use std::ops::Range;
 
-/// Symmetric end stiffness by poles and residues. It has N components of both ends, those of the start before those of the
-/// end. The stiffness of the start with the end held has E independent entries.
+/// Symmetric end stiffness by poles and residues. It has N components of both ends, those of the start before those of
+/// the end. The stiffness of the start with the end held has E independent entries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoleResidue<const N: usize, const E: usize> {
     /// Static stiffness K_s, symmetric [N/m].
@@ -159,8 +159,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     /// Keeps the first `count` poles and replaces all others by a few.
     ///
     /// The modes beyond `count` may move only in the shapes W = P⁻¹ G of their response to slow motion of the first
-    /// `moving` end components (Rayleigh and Ritz). So `Gᵀ (P − x)⁻¹ G` keeps its value and its slope at x = 0. The second
-    /// result has the weights of the modes beyond `count` in each new mode, by columns of unit modal mass.
+    /// `moving` end components (Rayleigh and Ritz). So `Gᵀ (P − x)⁻¹ G` keeps its value and its slope at x = 0. The
+    /// second result has the weights of the modes beyond `count` in each new mode, by columns of unit modal mass.
     pub(crate) fn compressed(&self, count: usize, moving: usize) -> (Self, DMat) {
         let beyond = self.poles.len() - count;
         let g = DMat::from_fn(beyond, N, |k, i| self.participation[count + k][i]);

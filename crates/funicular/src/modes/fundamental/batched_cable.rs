@@ -3,9 +3,9 @@
 //! The first natural frequency of a robot is not above the first clamped frequency of any of its cables. So a mesh of
 //! modest degree resolves every cable, and one factorisation per frequency costs less than the clamped modes.
 //!
-//! The unknowns are those of `mesh`: one element, or, if a cable hangs nearly without tension, several elements that grow
-//! with the distance from its lowest point. Elements are computed side by side: cables of one element in one group, the
-//! elements of all other cables in another.
+//! The unknowns are those of `mesh`: one element, or, if a cable hangs nearly without tension, several elements that
+//! grow with the distance from its lowest point. Elements are computed side by side: cables of one element in one
+//! group, the elements of all other cables in another.
 //!
 //! Unknowns are eliminated from the highest bubble down. Besides the platform end one function is kept in plane and one
 //! out of plane: the lowest bubble, or the node at the lowest point. These functions carry the first clamped modes, so
@@ -76,12 +76,12 @@ impl Default for Kept {
 pub(super) struct FunctionMotion(Vec<[Lanes; 2]>);
 
 impl Abreast {
-    /// Groups of all cables, each given with its mass m per unstrained length [kg/m]. `None` if a point of a cable has no
-    /// tension.
+    /// Groups of all cables, each given with its mass m per unstrained length [kg/m]. `None` if a point of a cable has
+    /// no tension.
     pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
         let meshes = cables.iter().map(|(catenary, _)| GradedMesh::of(catenary)).collect::<Option<Vec<_>>>()?;
-        let (whole, cut): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
-        let groups = whole.chunks(LANES).chain(cut.chunks(LANES));
+        let (single, divided): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
+        let groups = single.chunks(LANES).chain(divided.chunks(LANES));
         Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
     }
 
@@ -126,7 +126,7 @@ impl Abreast {
     }
 
     /// True if the cables have several elements.
-    pub(super) fn is_cut(&self) -> bool {
+    pub(super) fn is_divided(&self) -> bool {
         !self.chains.is_empty()
     }
 
@@ -320,8 +320,8 @@ mod tests {
                     k.out_of_plane,
                 ];
                 let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
-                // The stiffness of a cable that hangs in a loop is a millionth of the elastic stiffness, whose rounding errors
-                // remain.
+                // The stiffness of a cable that hangs in a loop is a millionth of the elastic stiffness, whose rounding
+                // errors remain.
                 let rope = cables[i].rope();
                 let elastic = rope.axial_stiffness / rope.unstrained_length;
                 for (ours, theirs) in ours.into_iter().zip(theirs) {

@@ -9,8 +9,8 @@ pub(super) trait Cables {
     /// Matrices K − xM of the kept unknowns of each group.
     fn kept(&mut self, x: f64, into: &mut Vec<Kept>);
 
-    /// Products `aᵀ M b` per cable of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at the
-    /// x of the last call of `kept`.
+    /// Products `aᵀ M b` per cable of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at
+    /// the x of the last call of `kept`.
     fn mass(&self, group: usize, motions: &[KeptMotion]) -> Vec<Lane>;
 
     /// Refines the discretisation; called when the search comes near its result.
@@ -27,17 +27,17 @@ pub(super) struct Reduced {
     pub(super) mass: Vec<Kept>,
 }
 
-/// Cables with all unknowns. The degrees rise when the search comes near its result, so that its last step also checks the
-/// discretisation.
-pub(super) struct Whole<'a> {
+/// Cables with all unknowns. The degrees rise when the search comes near its result, so that its last step also checks
+/// the discretisation.
+pub(super) struct AllUnknowns<'a> {
     pub(super) groups: &'a mut [Abreast],
     pub(super) degrees: Vec<usize>,
 }
 
-/// Degree at the start of a search. It gives two digits for half a wave, and more degrees are needed where C varies; three
-/// additional degrees give nine digits. If a cable is divided, an element has only a fraction of the wave.
+/// Degree at the start of a search. It gives two digits for half a wave, and more degrees are needed where C varies;
+/// three additional degrees give nine digits. If a cable is divided, an element has only a fraction of the wave.
 pub(super) fn degree_of_start(group: &Abreast) -> usize {
-    if group.is_cut() { 5 } else { 4 + group.terms() / 8 }
+    if group.is_divided() { 5 } else { 4 + group.terms() / 8 }
 }
 
 impl Reduced {
@@ -50,8 +50,8 @@ impl Reduced {
     /// Condenses the groups of divided cables at x. If x is above a natural frequency of their eliminated unknowns, the
     /// matrices stay as they were and the result is false.
     pub(super) fn follow(&mut self, groups: &mut [Abreast], x: f64) -> bool {
-        let cut = groups.iter_mut().enumerate().filter(|(_, group)| group.is_cut());
-        let tangents: Vec<_> = cut.map(|(i, group)| (i, tangent(group, x))).collect();
+        let divided = groups.iter_mut().enumerate().filter(|(_, group)| group.is_divided());
+        let tangents: Vec<_> = divided.map(|(i, group)| (i, tangent(group, x))).collect();
         let below = tangents.iter().all(|(_, (stiffness, _))| stiffness.min_pivot.iter().all(|pivot| *pivot > 0.0));
         if below {
             for (i, (stiffness, mass)) in tangents {
@@ -136,7 +136,7 @@ fn pairs<T>(all: &[T], form: impl Fn(&T, &T) -> Lane) -> Vec<Lane> {
     (0..all.len()).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| form(&all[i], &all[j])).collect()
 }
 
-impl Cables for Whole<'_> {
+impl Cables for AllUnknowns<'_> {
     fn kept(&mut self, x: f64, into: &mut Vec<Kept>) {
         into.clear();
         into.extend(self.groups.iter_mut().zip(&self.degrees).map(|(group, degree)| group.kept(x, *degree)));

@@ -12,8 +12,8 @@ pub(super) struct Factor {
     /// L below the diagonal, inverse pivots on it.
     platform: Mat6,
     bubbles: Vec<Bubbles>,
-    /// Number of pivots that are not positive. It is the number of eigenvalues below the shift, provided that no eigenvalue
-    /// of the eliminated unknowns lies below.
+    /// Number of pivots that are not positive. It is the number of eigenvalues below the shift, provided that no
+    /// eigenvalue of the eliminated unknowns lies below.
     pub(super) negative: usize,
 }
 
@@ -117,8 +117,8 @@ fn not_positive(pivot: f64) -> bool {
 }
 
 impl Factor {
-    /// Factors a pencil at a shift, without pivoting: a positive definite pencil needs none, and for an indefinite one an
-    /// approximate direction is enough.
+    /// Factors a pencil at a shift, without pivoting: a positive definite pencil needs none, and for an indefinite one
+    /// an approximate direction is enough.
     pub(super) fn of(pencil: &RobotPencil, kept: &[Kept], x: f64) -> Self {
         pulp::Arch::new().dispatch(FactorisePencil { pencil, kept, x })
     }

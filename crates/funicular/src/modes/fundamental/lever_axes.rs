@@ -5,8 +5,8 @@ use crate::math::Vec6;
 use crate::math::simd::{LANES, Lane, Lanes, Line, Part, sum};
 use pulp::Simd;
 
-/// Axes of a group's cables as scaled vectors in the platform's coordinates. Each coordinate has the cables side by side,
-/// with zeros in lanes without a cable.
+/// Axes of a group's cables as scaled vectors in the platform's coordinates. Each coordinate has the cables side by
+/// side, with zeros in lanes without a cable.
 #[derive(Debug, Default)]
 pub(super) struct Arms {
     pub(super) normal: [Lane; 6],
@@ -45,7 +45,8 @@ impl Arms {
     }
 }
 
-/// Motion of the platform and of the lowest bubbles of each group's cables, in plane and out of plane; or forces on them.
+/// Motion of the platform and of the lowest bubbles of each group's cables, in plane and out of plane; or forces on
+/// them.
 #[derive(Debug)]
 pub(super) struct RobotMotion(Lanes);
 

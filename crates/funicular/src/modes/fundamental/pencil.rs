@@ -1,7 +1,7 @@
 //! Robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
 use super::batched_cable::{Abreast, Kept};
-use super::condensed_cables::{Reduced, Whole, degree_of_start};
+use super::condensed_cables::{AllUnknowns, Reduced, degree_of_start};
 use super::lever_axes::{Arms, RobotMotion};
 use super::search::{FINAL, LowestPair, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
@@ -86,30 +86,30 @@ impl RobotPencil {
     /// First mode; `None` if the equilibrium is unstable or the search does not end.
     pub(super) fn first(&mut self) -> Option<First> {
         let mut groups = std::mem::take(&mut self.groups);
-        let cut = groups.iter().any(Abreast::is_cut);
+        let divided = groups.iter().any(Abreast::is_divided);
 
         // A rough search with matrices condensed at x = 0.
         let mut start = Reduced::of(&mut groups);
         let metric = start.mass.clone();
         let motion = self.any_motion(&metric, 0);
-        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if cut { &ROUGH } else { &NEAR })?;
-        if cut {
+        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if divided { &ROUGH } else { &NEAR })?;
+        if divided {
             near = self.nearer(near, &mut start, &mut groups)?;
         }
 
         // The final search, with all unknowns.
         let degrees = groups.iter().map(|group| degree_of_start(group) + 1).collect();
-        let mut whole = Whole { groups: &mut groups, degrees };
+        let mut whole = AllUnknowns { groups: &mut groups, degrees };
 
         // Start below the first result: above, another motion may be the nearest.
-        let x = if cut { 0.95 * near.square } else { near.square };
+        let x = if divided { 0.95 * near.square } else { near.square };
         near.motions.truncate(1);
         let found = lowest(self, &mut whole, &start.mass, x, near.motions, &FINAL)?;
         Some(self.report(&found))
     }
 
-    /// Better start for divided cables. At x = 0 their eliminated unknowns move very differently than at the frequency, so
-    /// that the first result is far too high.
+    /// Better start for divided cables. At x = 0 their eliminated unknowns move very differently than at the frequency,
+    /// so that the first result is far too high.
     fn nearer(&self, mut near: LowestPair, start: &mut Reduced, groups: &mut [Abreast]) -> Option<LowestPair> {
         let mut x = 0.7 * near.square;
         for _ in 0..MAX_TANGENTS {
@@ -128,7 +128,8 @@ impl RobotPencil {
         Some(near)
     }
 
-    /// Start vector number `number`. Its fixed quasi-random entries make orthogonality to a mode practically impossible.
+    /// Start vector number `number`. Its fixed quasi-random entries make orthogonality to a mode practically
+    /// impossible.
     pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> RobotMotion {
         // Entries evenly distributed over their range, with both signs except for number 0.
         let entry = |i: usize| {

@@ -1,5 +1,5 @@
-//! Search for the lowest eigenvalue of a pencil, between a shift at which the pencil is positive definite and a Rayleigh
-//! quotient.
+//! Search for the lowest eigenvalue of a pencil, between a shift at which the pencil is positive definite and a
+//! Rayleigh quotient.
 
 use super::batched_cable::{Kept, place};
 use super::condensed_cables::{Cables, KeptMotion};
@@ -27,8 +27,8 @@ pub(super) const FINAL: Aim = Aim { width: 1e-9, steps: 6, checked: true };
 /// First search for cables of one element, whose steps cost little.
 pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
 
-/// First search for divided cables: one shift, zero or well below the result. More accuracy is useless while the eliminated
-/// unknowns follow as at another frequency.
+/// First search for divided cables: one shift, zero or well below the result. More accuracy is useless while the
+/// eliminated unknowns follow as at another frequency.
 pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
 
 /// Maximum number of evaluations; beyond it the slow method is faster.
@@ -60,8 +60,8 @@ struct Bracket {
 }
 
 impl Bracket {
-    /// Uses the inertia of the pencil at a shift, with `negative` eigenvalues below. The result is false if there are any
-    /// below a shift of zero: then the stiffness is not positive definite.
+    /// Uses the inertia of the pencil at a shift, with `negative` eigenvalues below. The result is false if there are
+    /// any below a shift of zero: then the stiffness is not positive definite.
     fn narrow(&mut self, x: f64, negative: usize) -> bool {
         if negative == 0 {
             self.low = x;
@@ -91,9 +91,9 @@ impl Bracket {
     }
 }
 
-/// Fraction of the upper bound that becomes the lower bound if a coarse discretisation has given a lower bound above it.
-/// The coarsest discretisation has two digits (see [`degree_of_start`](super::condensed_cables::degree_of_start)), so 0.9
-/// is safe; a much smaller value would lose information.
+/// Fraction of the upper bound that becomes the lower bound if a coarse discretisation has given a lower bound above
+/// it. The coarsest discretisation has two digits (see [`degree_of_start`](super::condensed_cables::degree_of_start)),
+/// so 0.9 is safe; a much smaller value would lose information.
 const WITHIN_COARSE: f64 = 0.9;
 
 /// Result of an evaluation that the next one may prove.
@@ -103,12 +103,12 @@ struct UnprovenPair {
     provable: bool,
 }
 
-/// Lowest eigenvalue within the aim's width, from a shift x and motions near it; `None` if the stiffness is not positive
-/// definite, or the search does not end.
+/// Lowest eigenvalue within the aim's width, from a shift x and motions near it; `None` if the stiffness is not
+/// positive definite, or the search does not end.
 ///
-/// Each shift has an inverse iteration. The next shift is half the width below the quotient, so that the search ends at the
-/// first shift at which the pencil is positive definite. If the iteration leads to a higher mode, or several modes lie
-/// below, more motions are iterated together, and the next shift lies inside the known interval.
+/// Each shift has an inverse iteration. The next shift is half the width below the quotient, so that the search ends at
+/// the first shift at which the pencil is positive definite. If the iteration leads to a higher mode, or several modes
+/// lie below, more motions are iterated together, and the next shift lies inside the known interval.
 pub(super) fn lowest(
     pencil: &RobotPencil,
     cables: &mut impl Cables,
@@ -150,8 +150,8 @@ pub(super) fn lowest(
             return Some(found);
         }
 
-        // Next shift: just below the quotient, or inside the interval. If the quotient is near its shift, the discretisation
-        // is refined, and the next shift can prove the result.
+        // Next shift: just below the quotient, or inside the interval. If the quotient is near its shift, the
+        // discretisation is refined, and the next shift can prove the result.
         let leads = bracket.lower_to(quotient);
         let close = leads && (quotient - x).abs() < CLOSE * quotient;
         if close {

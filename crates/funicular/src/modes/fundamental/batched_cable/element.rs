@@ -57,8 +57,8 @@ pub(super) struct ForceShapes {
 }
 
 impl ForceShapes {
-    /// Sets lane `i` to the element between two arc lengths [m] of a cable with mass m per length [kg/m]. The components of
-    /// e along the horizontal and up are `axis`.
+    /// Sets lane `i` to the element between two arc lengths [m] of a cable with mass m per length [kg/m]. The
+    /// components of e along the horizontal and up are `axis`.
     pub(super) fn set(&mut self, i: usize, (catenary, mass): (&Catenary, f64), axis: [f64; 2], from: f64, to: f64) {
         let rope = catenary.rope();
         let w = rope.weight_per_length;
@@ -116,8 +116,8 @@ impl ElementBatch {
         }
     }
 
-    /// Adds rows of the stiffness up to a degree: `∫ C N_a′ N_b′` over products of slopes. There are H hats; the slope of
-    /// the second hat is minus that of the first.
+    /// Adds rows of the stiffness up to a degree: `∫ C N_a′ N_b′` over products of slopes. There are H hats; the slope
+    /// of the second hat is minus that of the first.
     #[inline(always)]
     fn refine<S: Simd, const H: usize>(&mut self, simd: S, degree: usize) {
         let Self { coefficients, in_plane, out_of_plane, .. } = self;
@@ -243,8 +243,8 @@ impl ForceShapes {
     }
 }
 
-/// Eliminates the unknowns from number `kept` on of K − xM with D components per function. Their rows keep the values that
-/// [`substitute`] needs.
+/// Eliminates the unknowns from number `kept` on of K − xM with D components per function. Their rows keep the values
+/// that [`substitute`] needs.
 #[inline(always)]
 fn factor<S: Simd, const D: usize, const H: usize>(
     part: Part<S>,

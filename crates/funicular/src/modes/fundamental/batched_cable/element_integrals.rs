@@ -49,8 +49,8 @@ impl Masses {
 /// Mass integrals of elements with one hat and with two.
 pub(super) static MASSES: LazyLock<[Masses; 2]> = LazyLock::new(|| [1, 2].map(Masses::with_hats));
 
-/// Integrals `∫ P_l s_j s_k dξ` of the slopes s of two functions and Legendre's P_l, for l = |k − j|, |k − j| + 2, … k + j;
-/// for other l they are zero.
+/// Integrals `∫ P_l s_j s_k dξ` of the slopes s of two functions and Legendre's P_l, for l = |k − j|, |k − j| + 2, … k
+/// + j; for other l they are zero.
 pub(super) struct Triples {
     /// Start of each pair (k, j ≤ k).
     starts: Vec<usize>,
@@ -66,8 +66,9 @@ impl Triples {
     }
 }
 
-/// Integrals of products of slopes, by Adams's product: `P_k P_j = Σ_r a_r a_{k−r} a_{j−r}/a_{k+j−r} (2l + 1)/(2l + 2r + 1) P_l`, l = k + j − 2r,
-/// a_r = (2r − 1)!!/r!; a sum of positive terms.
+/// Integrals of products of slopes, by Adams's product:
+/// `P_k P_j = Σ_r a_r a_{k−r} a_{j−r}/a_{k+j−r} (2l + 1)/(2l + 2r + 1) P_l`, l = k + j − 2r, a_r = (2r − 1)!!/r!; a sum
+/// of positive terms.
 pub(super) static TRIPLES: LazyLock<Triples> = LazyLock::new(|| {
     let mut a = vec![1.0_f64; 2 * MAX_DEGREES];
     for r in 1..a.len() {

@@ -15,7 +15,8 @@ const GROWTH: f64 = 2.5;
 pub(super) struct GradedMesh {
     /// Ends of the elements from start to end [m].
     pub(super) nodes: Vec<f64>,
-    /// Components of the cable's axis e along the horizontal and up: along the chord, or vertical with several elements.
+    /// Components of the cable's axis e along the horizontal and up: along the chord, or vertical with several
+    /// elements.
     pub(super) axis: [f64; 2],
     /// Number of the node with the lowest tension; 0 with one element.
     pub(super) kept: usize,
@@ -34,7 +35,7 @@ impl GradedMesh {
         if size >= SMOOTH_ENOUGH {
             return Some(Self { nodes: vec![0.0, length], axis: catenary.chord_direction(), kept: 0, size });
         }
-        let (nodes, kept) = cut(catenary);
+        let (nodes, kept) = graded_nodes(catenary);
         let of_element = |pair: &[f64]| ellipse(catenary, 0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
         let size = nodes.windows(2).map(of_element).fold(f64::INFINITY, f64::min);
         // The lowest point of a slack cable moves horizontally.
@@ -42,9 +43,9 @@ impl GradedMesh {
     }
 }
 
-/// Elements that grow to both sides of the point of lowest tension: all nodes from start to end [m], and the number of the
-/// node at that point.
-fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
+/// Elements that grow to both sides of the point of lowest tension: all nodes from start to end [m], and the number of
+/// the node at that point.
+fn graded_nodes(catenary: &Catenary) -> (Vec<f64>, usize) {
     let rope = catenary.rope();
     let (length, w) = (rope.unstrained_length, rope.weight_per_length);
     // C is singular at lowest ± i depth.
@@ -52,8 +53,8 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
 
     let distance = |s: f64| (s - lowest).hypot(depth);
 
-    // An element much shorter than this distance would only add stiffness, so the lowest point may lie inside the outermost
-    // element.
+    // An element much shorter than this distance would only add stiffness, so the lowest point may lie inside the
+    // outermost element.
     let outermost = |end: f64| if (0.0..length).contains(&lowest) { 2.0 * depth } else { GROWTH * distance(end) };
     let middle = if lowest < depth {
         outermost(0.0).min(0.5 * length)
