@@ -161,7 +161,7 @@ fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
         for chunk in &chunks[job.next()..][..more] {
             job.add(chunk).unwrap();
         }
-        assert!(job.interrupt().unwrap().ends_with("a.parquet has them, marked as incomplete"));
+        assert!(job.interrupt().unwrap().ends_with("a.parquet, marked as incomplete"));
     }
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
     assert_eq!(reader.metadata().file_metadata().num_rows(), 16 * 3);
@@ -171,7 +171,7 @@ fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
     let mut job = open(&path, &record, Begin::Discard).unwrap();
     job.add(&chunks[0]).unwrap();
     assert!(job.interrupt().unwrap().ends_with("a.parquet.partial"));
-    assert!(fs::read(&path).unwrap() == expected, "a whole file stays");
+    assert!(fs::read(&path).unwrap() == expected, "a complete file stays");
 }
 
 #[test]
@@ -332,7 +332,7 @@ fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_tak
         SweepFile::open(&path).err().expect("refused").to_string()
     };
     let said = rewritten(&|_| true);
-    assert!(said.contains("is damaged, or another program has written it anew: its checksum is not that"), "{said}");
+    assert!(said.contains("is damaged, or another program has rewritten it: its checksum does not match"), "{said}");
     let said = rewritten(&|pair| pair.key != "funicular.checksum");
     assert!(said.contains("lack the checksum: another program or an older version wrote it"), "{said}");
     assert!(rewritten(&|_| false).contains("was not written by a sweep of funicular"));

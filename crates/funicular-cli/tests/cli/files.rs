@@ -43,7 +43,7 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         ),
         ("modes ROBOT --below-hz 1", "parquet", "would hold text, and .parquet means a Parquet file"),
         ("modes ROBOT --below-hz 1", "PDF", "would hold text, and .pdf means printed pages"),
-        ("statics ROBOT", "parquet.partial", "would hold text, and .partial means rows of a sweep on their way"),
+        ("statics ROBOT", "parquet.partial", "would hold text, and .partial means rows of an unfinished sweep"),
         (
             "statics ROBOT --format json",
             "csv",

@@ -185,7 +185,7 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
     let discarded = [&slow(&path)[..], &["--discard".to_owned()]].concat();
     assert!(started(&discarded).wait().unwrap().success());
     assert!(!journal.exists());
-    assert!(stderr(&again).contains("go on with --resume, or begin anew with --discard"), "{}", stderr(&again));
+    assert!(stderr(&again).contains("continue with --resume, or start again with --discard"), "{}", stderr(&again));
 }
 
 #[test]
