@@ -61,7 +61,7 @@ fn options_of_state_model_and_response_reach_the_page() {
         "straight elastic cables",
         "below 12 Hz",
         "as in Yuan et al. 2014",
-        "in their planes only",
+        "cables with in-plane stiffness only",
         "the velocity along x of the platform&#39;s point (0.000, 0.000, −0.200) m to a moment about z",
         "(m/s)/(N·m)",
     ] {

@@ -117,7 +117,7 @@ fn a_page_of_a_large_grid_is_thinned_and_says_so() {
     let (header, status, _) = slices(&page);
     assert!(status.len() > 50_000 && status.len() < 281_101, "{}", status.len());
     assert_eq!(header["quantities"][0]["count"], 281_101);
-    assert!(page.contains("which is what the page has room for"));
+    assert!(page.contains("to limit the size of the page"));
     // One axis of positions alone has no view in space.
     assert!(header["space"].is_null() && !page.contains("figure-space-plot"));
 }
@@ -152,7 +152,7 @@ fn a_trajectory_is_drawn_over_its_path_and_infeasible_rows_are_shaded() {
     succeed(&["map", "ROBOT", "--poses", &text(&poses), "--quantity", "tensions,first-kind", "-o", &file]);
     let output = command(&["plot", "path.parquet"]).current_dir(folder.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).contains("wrote path.html (") && stderr(&output).contains("no picture for first_kind"));
+    assert!(stderr(&output).contains("wrote path.html (") && stderr(&output).contains("no figure for first_kind"));
     let page = fs::read_to_string(folder.path().join("path.html")).unwrap();
     let figure = figure(&page, "figure-1");
     assert_eq!(figure["layout"]["xaxis"]["title"]["text"], "length of the path [m]");
