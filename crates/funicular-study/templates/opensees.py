@@ -68,7 +68,8 @@ def bar(start, end, length, stiffness, mass):
     """Adds a bar between two nodes, with unstrained length [m], EA [N] and evenly distributed mass [kg]."""
     tag = len(ops.getEleTags()) + 1
     distance = math.dist(ops.nodeCoord(start), ops.nodeCoord(end))
-    # The element measures strain from this distance. With these two materials its tension is EA (distance - length) / length.
+    # The element measures strain from this distance. With these two materials its tension is EA (distance - length) /
+    # length.
     ops.uniaxialMaterial("Elastic", 2 * tag, stiffness * distance / length)
     ops.uniaxialMaterial("InitStrainMaterial", 2 * tag + 1, 2 * tag, 1.0 - length / distance)
     ops.element("corotTruss", tag, start, end, 1.0, 2 * tag + 1, "-rho", mass / distance, "-cMass", 1)
@@ -119,7 +120,8 @@ for cable, first in zip(CABLES, held):
     half = [0.5 * force for force in heavy]
     bars = []
     for start, end in zip(tags, tags[1:]):
-        # Consistent mass makes waves too fast, lumped mass makes them too slow by the same amount: half of each is used.
+        # Consistent mass makes waves too fast, lumped mass makes them too slow by the same amount: half of each is
+        # used.
         bars.append(bar(start, end, cable["bar_length"], cable["axial_stiffness"], 0.5 * mass))
         for tag in (start, end):
             forces[tag] = [a + b for a, b in zip(forces.get(tag, (0.0, 0.0, 0.0)), half)]
@@ -163,8 +165,8 @@ def motion():
     """Motion from funicular's pose to OpenSees': displacement of the platform's origin [m] and rotation vector [rad], both small."""
     turn = [0.0, 0.0, 0.0]
     for minus, plus in zip(frame[1::2], frame[2::2]):
-        # Each of three axes gives two components, so each component is found twice: take half the sum. In the planar case two
-        # axes give the component about the normal.
+        # Each of three axes gives two components, so each component is found twice: take half the sum. In the planar
+        # case two axes give the component about the normal.
         part = cross(direction(place(minus), place(plus)), direction(moved(minus), moved(plus)))
         turn = [a + 0.5 * b for a, b in zip(turn, part)]
     arm = [a - b for a, b in zip(POSITION, place(frame[0]))]

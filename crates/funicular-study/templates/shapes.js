@@ -1,8 +1,9 @@
 (function () {
   "use strict";
   const PERIOD_MS = 1600;
-  // Initial amplitude: largest displacement relative to the diagonal of the scene (REACH). It is reduced if waves would be
-  // steeper than SLOPE, or if the platform would rotate by more than TURN [rad], where linear rotation visibly distorts it.
+  // Initial amplitude: largest displacement relative to the diagonal of the scene (REACH). It is reduced if waves would
+  // be steeper than SLOPE, or if the platform would rotate by more than TURN [rad], where linear rotation visibly
+  // distorts it.
   const REACH = 0.06, SLOPE = 0.9, TURN = 0.3;
   // Part of matplotlib's colour map plasma, gold to blue: uniform in lightness, distinguishable with any colour vision.
   const COLOURS = ["#fdc527", "#fca636", "#f2844b", "#e16462", "#cc4778", "#b12a90", "#8f0da4", "#6a00a8", "#41049d", "#0d0887"];
@@ -98,7 +99,8 @@
   function projection() {
     const width = canvas.clientWidth, height = canvas.clientHeight, eye = camera();
     const whole = plus(robot.low, plus(robot.high, robot.low, -1), 0.5), middle = close ? robot.platform.mass_centre : whole;
-    // The scale does not change while the scene rotates. It fits the scene in the initial direction, with room for numbers.
+    // The scale does not change while the scene rotates. It fits the scene in the initial direction, with room for
+    // numbers.
     const first = { turn: turn, tilt: tilt };
     facing();
     const start = camera();
@@ -401,7 +403,8 @@
     if (button("near")) { button("near").addEventListener("click", function () { approach(!close); }); }
     place.addEventListener("keydown", key);
     window.addEventListener("hashchange", asked);
-    // For printing the view shows the largest motion in high resolution. This runs after the page has got its printed width.
+    // For printing the view shows the largest motion in high resolution. This runs after the page has got its printed
+    // width.
     window.addEventListener("beforeprint", function () { phase = 0; show(); });
     window.addEventListener("afterprint", show);
     new ResizeObserver(show).observe(canvas);
