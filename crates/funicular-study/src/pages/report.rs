@@ -199,7 +199,7 @@ fn state_text(equilibrium: &Equilibrium) -> String {
             format!("stable (minimum eigenvalue of the scaled stiffness: {} N/m)", significant(min_stiffness, 3))
         }
         Stability::Unstable { directions, min_stiffness: 0.0 } => {
-            format!("neutral in {directions} of its directions")
+            format!("indifferent in {directions} of its directions")
         }
         Stability::Unstable { directions, .. } => format!("unstable in {directions} of its directions"),
         Stability::Rigid => "rigid".to_owned(),

@@ -39,7 +39,7 @@ pub(crate) const MOORPY: [[MoorPyEquilibrium; 2]; 2] = [
 
 /// K11 of the cable of Fig. 2, without damping: frequency [Hz], upper end, lower end [N/m].
 ///
-/// Lumped-mass finite elements of the exact catenary: MoorPy 1.3.0 line matrices, 200 and 400 segments, Richardson
+/// Lumped-mass finite elements of the catenary: MoorPy 1.3.0 line matrices, 200 and 400 segments, Richardson
 /// extrapolated. E = 20 GPa, A = 1.2566e-5 m², chord 6.848 m, tension 77.6 N parallel to the chord, 36°, 0.067 kg/m,
 /// g = 9.81 m/s²; the other end held; x horizontal in the cable's plane.
 pub(crate) const FINITE_ELEMENTS: [[f64; 3]; 18] = [

@@ -25,7 +25,7 @@ const POINTS: u32 = 2000;
 /// Upper limit of the frequencies [Hz].
 const BELOW_HZ: f64 = 10.0;
 
-/// MovedEnd of the cable that moves.
+/// End of the cable that moves.
 #[derive(Clone, Copy, PartialEq)]
 enum MovedEnd {
     Lower,

@@ -102,7 +102,7 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(f64::MIN_POSITIVE) };
     let layout = json!({
         "bargap": 0.45, "showlegend": false, "shapes": shapes, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
-        "yaxis": axis("sag / chord d/l", json!({"range": [0, top], "exponentformat": "power"})),
+        "yaxis": axis("sag ratio d/l", json!({"range": [0, top], "exponentformat": "power"})),
     });
     let caption = if near {
         "Sag divided by chord; dashed: 1/20, the limit of the models shallow-static and shallow-dynamic."
