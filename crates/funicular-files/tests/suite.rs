@@ -197,7 +197,7 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
     };
     assert!(refused(&["1-3", "3-3"]).contains("part 2/3 is missing: give all 3 parts"));
     assert!(refused(&["1-3", "2-3", "1-3", "3-3"]).contains("part 1/3 is given twice"));
-    assert!(refused(&["1-3", "2-100"]).contains("is part 2/100, others are parts of 3"));
+    assert!(refused(&["1-3", "2-100"]).contains("is part 2/100, but other files are parts of 3"));
     assert!(refused(&["1-3", "whole"]).contains("is no part"));
     let mut other = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
     other.plan.insert("mass_kg".to_owned(), json!(9));

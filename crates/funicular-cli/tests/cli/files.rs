@@ -73,8 +73,8 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         ("export ROBOT --to moordyn", "py", "would hold an input file of MoorDyn, and .py means a Python script"),
         ("export ROBOT --to vtk", "vtk", "and .vtk means another format of VTK; choose a name that ends in .vtp"),
         ("validate", "xlsx", "means a spreadsheet"),
-        ("map ROBOT --grid x=0:1:2", "xlsx", "names no format: .parquet, .csv or .vti"),
-        ("merge ROWS", "xlsx", "names no format: .parquet, .csv or .vti"),
+        ("map ROBOT --grid x=0:1:2", "xlsx", "names no format: choose .parquet, .csv or .vti"),
+        ("merge ROWS", "xlsx", "names no format: choose .parquet, .csv or .vti"),
     ] {
         let path = at(&format!("out.{ending}"));
         let words = arguments.split(' ').map(|word| match word {

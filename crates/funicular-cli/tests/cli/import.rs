@@ -276,8 +276,8 @@ fn tension_limits_are_kept_if_they_have_the_same_meaning() {
     // Limits that no tension satisfies, and limits that a hanging cable cannot reach.
     let limits = "<force_min>10</force_min>\n        <force_max>2000</force_max>";
     for (other, says) in [
-        (limits.replace("10<", "0.1<"), "not slack"),
-        (limits.replace("10<", "-1<"), "not slack"),
+        (limits.replace("10<", "0.1<"), "from being slack"),
+        (limits.replace("10<", "-1<"), "from being slack"),
         (limits.replace("10<", "2000<"), "minimum, which is not below the maximum"),
         (limits.replace("2000<", "0<"), "maximum, which is not positive"),
     ] {
