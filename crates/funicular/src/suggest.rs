@@ -10,14 +10,14 @@ const MAX_LENGTH: usize = 100;
 /// Names of earlier states of the program, with the names that they have now. A name that is gone is answered with the
 /// new one, also where no letters are alike.
 const RENAMED: &[(&str, &str)] = &[
-    ("catenary-dynamic", "catenary-dynamic"),
-    ("shallow-dynamic", "shallow-dynamic"),
-    ("catenary-static", "catenary-static"),
-    ("shallow-static", "shallow-static"),
+    ("exact", "catenary-dynamic"),
+    ("closed-form", "shallow-dynamic"),
+    ("catenary-tangent", "catenary-static"),
+    ("static-sag", "shallow-static"),
     ("paper", "without-geometric-stiffness"),
-    ("motion", "motion"),
-    ("target_tension_n", "target_tension_n"),
-    ("target-tension-n", "target-tension-n"),
+    ("freedoms", "motion"),
+    ("wanted_tension_n", "target_tension_n"),
+    ("wanted-tension-n", "target-tension-n"),
 ];
 
 /// The name that an earlier name has now.
@@ -26,7 +26,7 @@ const RENAMED: &[(&str, &str)] = &[
 /// ```
 /// use funicular::suggest::renamed;
 ///
-/// assert_eq!(renamed("shallow-static"), Some("shallow-static"));
+/// assert_eq!(renamed("static-sag"), Some("shallow-static"));
 /// assert_eq!(renamed("spring"), None);
 /// ```
 pub fn renamed(word: &str) -> Option<&'static str> {
@@ -69,11 +69,11 @@ mod tests {
 
     #[test]
     fn an_earlier_name_is_answered_with_the_name_of_today() {
-        assert_eq!(nearest("catenary-dynamic", ["spring", "catenary-dynamic"]), Some("catenary-dynamic"));
-        assert_eq!(nearest("Degrees of freedom", ["mass_kg", "motion"]), Some("motion"));
+        assert_eq!(nearest("exact", ["spring", "catenary-dynamic"]), Some("catenary-dynamic"));
+        assert_eq!(nearest("Freedoms", ["mass_kg", "motion"]), Some("motion"));
         // Where the new name is none of the known ones, likeness decides.
-        assert_eq!(nearest("catenary-dynamic", ["spring", "exact_length"]), Some("exact_length"));
-        assert_eq!(nearest("catenary-dynamic", ["spring"]), None);
+        assert_eq!(nearest("exact", ["spring", "exact_length"]), Some("exact_length"));
+        assert_eq!(nearest("exact", ["spring"]), None);
     }
 
     #[test]
