@@ -111,7 +111,10 @@ pub enum FilesError {
         rows: usize,
     },
     /// The file at the journal's path is no journal.
-    #[error("{} is no journal of funicular that this version can read: move it away, or start again with ⟪discard⟫", .path.display())]
+    #[error(
+        "{} is no journal of funicular that this version can read: move it away, or start again with ⟪discard⟫",
+        .path.display()
+    )]
     NoJournal {
         /// The file.
         path: PathBuf,
@@ -151,7 +154,10 @@ pub enum FilesError {
         reason: String,
     },
     /// The format of a file keeps the rows only, without robot and plan.
-    #[error("{} holds only rows, without robot and plan: write the sweep to a .parquet file and use that file", .path.display())]
+    #[error(
+        "{} holds only rows, without robot and plan: write the sweep to a .parquet file and use that file",
+        .path.display()
+    )]
     NotParquet {
         /// The file.
         path: PathBuf,

@@ -95,7 +95,8 @@ impl<'a> Sources<'a> {
                 self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
             }
             other => bail!(
-                "{}: the outermost element is <{other}>; CASPR files have <bodies_system> or <cables>, WireX files <models>",
+                "{}: the outermost element is <{other}>; CASPR files have <bodies_system> or <cables>, WireX files \
+                 <models>",
                 xml.place(xml.root())
             ),
         }

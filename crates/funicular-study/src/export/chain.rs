@@ -42,7 +42,8 @@ impl Chain {
         let weight_w = robot.line_load(i, &state.chord_w()).vector_w() * state.unstrained_length;
         if mass == 0.0 && weight_w != Vec3::zeros() {
             bail!(
-                "cable \"{}\" has a load but no mass: the joints of its bars need mass, so give its material a `mass_kg_per_m`",
+                "cable \"{}\" has a load but no mass: the joints of its bars need mass, so give its material a \
+                 `mass_kg_per_m`",
                 cable.name
             );
         }
@@ -56,8 +57,8 @@ impl Chain {
         match cable_data.chain(state.attachment_w, count) {
             Some(chain) if !state.is_slack() => Ok(chain),
             _ => bail!(
-                "cable \"{}\" is slack or hangs as a loop, and a chain of {count} bars cannot replace it: shorten it, or \
-                 give another pose",
+                "cable \"{}\" is slack or hangs as a loop, and a chain of {count} bars cannot replace it: shorten it, \
+                 or give another pose",
                 cable.name
             ),
         }

@@ -147,8 +147,8 @@ fn refuse(robot: &Robot) -> Result<()> {
     }
     if robot.load.force_w != Vec3::zeros() || robot.load.moment_w != Vec3::zeros() {
         bail!(
-            "a load acts on the platform: MoorDyn's input has no forces but weight and water (only its Fortran edition reads \
-             EXTERNAL LOADS); leave out [loads], ⟪force_n⟫ and ⟪moment_n_m⟫, or export to OpenSees"
+            "a load acts on the platform: MoorDyn's input has no forces but weight and water (only its Fortran edition \
+             reads EXTERNAL LOADS); leave out [loads], ⟪force_n⟫ and ⟪moment_n_m⟫, or export to OpenSees"
         );
     }
     let along = robot.cables.iter().any(|cable| cable.load_per_length_w != Vec3::zeros());

@@ -94,9 +94,9 @@ pub(crate) fn script(
     let lost = frequencies.first().map_or(0.0, |first_hz| rounding(&body, frame_stiffness, *first_hz));
     if lost > ROUNDING {
         warnings.push(format!(
-            "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of the \
-             stiff bars between the masses that represent the platform. These masses are {size:.3} m from its centre of \
-             mass, the attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
+            "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of \
+             the stiff bars between the masses that represent the platform. These masses are {size:.3} m from its \
+             centre of mass, the attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
             robot.platform_length()
         ));
     }

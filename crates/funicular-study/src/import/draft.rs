@@ -143,7 +143,8 @@ impl Draft {
         let has_stiffness = self.cables.iter().any(|cable| cable.rope.axial_stiffness.is_some());
         if ropes.diameter_m.is_some() && ropes.youngs_modulus_pa.is_none() && has_stiffness {
             bail!(
-                "the source gives EA of the ropes, which ⟪diameter_m⟫ does not change: leave it out, or add ⟪youngs_modulus_pa⟫"
+                "the source gives EA of the ropes, which ⟪diameter_m⟫ does not change: leave it out, or add \
+                 ⟪youngs_modulus_pa⟫"
             );
         }
         Ok(())
@@ -163,7 +164,8 @@ impl Draft {
             ("maximum, which is above the breaking load", Vec::new()),
             ("minimum, which is not below the maximum", Vec::new()),
             (
-                "minimum, which is below the default minimum of analyses: in the source it only keeps straight cables from being slack",
+                "minimum, which is below the default minimum of analyses: in the source it only keeps straight cables \
+                 from being slack",
                 Vec::new(),
             ),
         ];

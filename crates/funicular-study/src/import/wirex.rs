@@ -128,8 +128,8 @@ fn platform(xml: &Xml, robot: Node, motion: DraftMotion, assumed: &mut Vec<Strin
     if motion != DraftMotion::PointMass {
         if center == Some(DEFAULT_CENTER) {
             assumed.push(
-                "the centre of gravity (0, 1, 0.2) m: it is in the file, but WireX writes it for robots whose centre is \
-                 unknown; ⟪center_of_mass_m⟫ X,Y,Z gives another"
+                "the centre of gravity (0, 1, 0.2) m: it is in the file, but WireX writes it for robots whose centre \
+                 is unknown; ⟪center_of_mass_m⟫ X,Y,Z gives another"
                     .to_owned(),
             );
         }
@@ -195,8 +195,8 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
         let density = mass / (std::f64::consts::FRAC_PI_4 * diameter * diameter);
         if !DENSITIES.contains(&density) {
             assumed.push(format!(
-                "that `radius` is the radius: with `weight` it gives a density of {density:.0} kg/m³, which no rope has; if \
-                 it is the diameter, give ⟪diameter_m⟫ {}",
+                "that `radius` is the radius: with `weight` it gives a density of {density:.0} kg/m³, which no rope \
+                 has; if it is the diameter, give ⟪diameter_m⟫ {}",
                 diameter / 2.0
             ));
         }

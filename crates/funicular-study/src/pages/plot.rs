@@ -83,7 +83,8 @@ fn refuse_no_rows(file: &dyn SweepRows, label: &str) -> anyhow::Result<()> {
     }
     match file.record().part.filter(|_| file.is_complete()) {
         Some(part) => bail!(
-            "{label} is part {part} of {} and holds none of them: merge all parts with `funicular merge` and plot the result",
+            "{label} is part {part} of {} and holds none of them: merge all parts with `funicular merge` and plot the \
+             result",
             counted(file.record().rows, "row")
         ),
         None => bail!("{label} has no rows yet: continue the sweep with ⟪resume⟫"),
@@ -149,15 +150,16 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
         .collect();
     if !thinned.is_empty() {
         notes.push(format!(
-            "the slices and the points in space show {} ({} of {} rows) to limit the size of the page; histograms, counts, \
-             minima and maxima are those of all rows",
+            "the slices and the points in space show {} ({} of {} rows) to limit the size of the page; histograms, \
+             counts, minima and maxima are those of all rows",
             thinned.join(", "),
             rows.shown(),
             rows.planned
         ));
     } else if rows.axes.len() < 2 && rows.shown() < rows.rows {
         notes.push(format!(
-            "the curves show {} of {} rows to limit the size of the page; counts, minima and maxima are those of all rows",
+            "the curves show {} of {} rows to limit the size of the page; counts, minima and maxima are those of all \
+             rows",
             rows.shown(),
             rows.rows
         ));

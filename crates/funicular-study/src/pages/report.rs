@@ -224,7 +224,8 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
         )
     } else {
         format!(
-            "The Wittrick–Williams count gives {} natural frequencies below {} Hz, but {} are listed: the list is not certified",
+            "The Wittrick–Williams count gives {} natural frequencies below {} Hz, but {} are listed: the list is not \
+             certified",
             found.count_below,
             found.below_hz,
             found.modes.len()
@@ -306,9 +307,9 @@ fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> PageTable {
     let mut table = PageTable::new(
         "table-peaks",
         format!(
-            "Peaks of the response with a prominence of at least {PEAK_PROMINENCE_DB} dB. There are fewer peaks than natural \
-             frequencies: a mode gives a peak only if force and sensor act on it and damping does not merge it with its \
-             neighbours.",
+            "Peaks of the response with a prominence of at least {PEAK_PROMINENCE_DB} dB. There are fewer peaks than \
+             natural frequencies: a mode gives a peak only if force and sensor act on it and damping does not merge it \
+             with its neighbours.",
         ),
         &[
             "frequency|Hz",

@@ -166,7 +166,8 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
     if node.attribute("actuated").is_some_and(|text| text.trim() == "true") {
         bail!(xml.error(
             node,
-            "the joint is actuated: other forces than those of cables hold the platform, which a robot file cannot describe"
+            "the joint is actuated: other forces than those of cables hold the platform, which a robot file cannot \
+             describe"
         ));
     }
     let text = node.attribute("q_initial").map(str::trim).filter(|text| !text.is_empty());
@@ -210,8 +211,8 @@ fn inertia(
     }
     if [xy, xz, yz].iter().any(|product| *product != 0.0) {
         assumed.push(
-            "Ixy, Ixz and Iyz are entries of the tensor, as in CASPR; if they are products of inertia, the integrals of \
-             xy dm, xz dm and yz dm, change their signs"
+            "Ixy, Ixz and Iyz are entries of the tensor, as in CASPR; if they are products of inertia, the integrals \
+             of xy dm, xz dm and yz dm, change their signs"
                 .to_owned(),
         );
     }

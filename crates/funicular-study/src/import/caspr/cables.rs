@@ -162,7 +162,8 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> 
         let why = if count < 2 {
             "it needs two"
         } else {
-            "a cable of a robot file runs straight from its anchor to the platform and cannot be led over further points"
+            "a cable of a robot file runs straight from its anchor to the platform and cannot be led over further \
+             points"
         };
         bail!(xml.error(attachments, format!("cable \"{cable}\" has {count} attachments; {why}")));
     };

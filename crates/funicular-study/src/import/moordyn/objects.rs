@@ -208,7 +208,8 @@ impl<'a> MoorDynModel<'a> {
         let water = water.unwrap_or(DEFAULT_WATER);
         if water != 0.0 {
             self.lost.push(format!(
-                "the water of {water} kg/m³ below z = 0, its buoyancy and its drag: everything is in air in the robot file"
+                "the water of {water} kg/m³ below z = 0, its buoyancy and its drag: everything is in air in the robot \
+                 file"
             ));
             self.lost.extend(losses.volumes);
         }

@@ -254,8 +254,8 @@ pub(crate) fn strip(modes: &Modes) -> Figure {
         "figure-modes",
         300,
         format!(
-            "Natural frequencies below {} Hz. Height: the platform's share of the mode's kinetic energy, which is at least \
-             75 % for platform modes and at most 25 % for cable modes.",
+            "Natural frequencies below {} Hz. Height: the platform's share of the mode's kinetic energy, which is at \
+             least 75 % for platform modes and at most 25 % for cable modes.",
             modes.below_hz
         ),
         &data,

@@ -44,9 +44,9 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     Figure::new(
         "figure-robot",
         400,
-        "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the cables' \
-         names; dark body: the platform, spanned by the attachments. Drag to rotate, scroll to zoom, point at a cable for \
-         its length and tension.",
+        "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
+         cables' names; dark body: the platform, spanned by the attachments. Drag to rotate, scroll to zoom, point at \
+         a cable for its length and tension.",
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )

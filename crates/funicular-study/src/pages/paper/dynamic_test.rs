@@ -139,10 +139,10 @@ impl Outcome {
     /// Figure 7 of the paper with this set.
     pub(crate) fn figure(&self) -> Figure {
         let caption = format!(
-            "Fig. 7 with parameter set {} (identified by us, not published): |x| + |y| + |z| of the acceleration at the \
-             attachment of cable 3 per vertical force there. Ticks: all natural frequencies with the cable model \
-             shallow-dynamic; numbers: peaks of its response with at least {PROMINENCE_DB} dB [Hz]; dashed grey: the paper's \
-             peaks with dynamic stiffness.",
+            "Fig. 7 with parameter set {} (identified by us, not published): |x| + |y| + |z| of the acceleration at \
+             the attachment of cable 3 per vertical force there. Ticks: all natural frequencies with the cable model \
+             shallow-dynamic; numbers: peaks of its response with at least {PROMINENCE_DB} dB [Hz]; dashed grey: the \
+             paper's peaks with dynamic stiffness.",
             self.set.name
         );
         let marks = Marks {
@@ -162,7 +162,8 @@ pub(crate) fn sag_text(outcomes: &[Outcome]) -> String {
     let range = if maximum <= SHALLOW_SAG_LIMIT {
         "within the limit 1/20 of the model shallow-dynamic"
     } else {
-        "partly beyond the limit 1/20 of the model shallow-dynamic: there its lists follow from the formula, but not from a real cable"
+        "partly beyond the limit 1/20 of the model shallow-dynamic: there its lists follow from the formula, but not \
+         from a real cable"
     };
     format!("With these 4 mm sets d/l is {} to {}, {range}.", fixed(minimum, 3), fixed(maximum, 3))
 }
@@ -171,8 +172,9 @@ pub(crate) fn sag_text(outcomes: &[Outcome]) -> String {
 pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
     let mut table = PageTable::new(
         "table-identified",
-        "Parameters of the dynamic test, identified by us and not published. Inertia: principal moments about the centre of \
-         mass along the platform axes; centre of mass relative to the platform origin; sag divided by chord at the resulting equilibrium.",
+        "Parameters of the dynamic test, identified by us and not published. Inertia: principal moments about the \
+         centre of mass along the platform axes; centre of mass relative to the platform origin; sag divided by chord \
+         at the resulting equilibrium.",
         &[
             "<set",
             "<cables",
@@ -246,8 +248,8 @@ fn side_by_side(
     columns.extend(["missing", "extra", "<<extra frequencies|Hz", "rms|Hz", "largest|Hz"].map(str::to_owned));
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     let caption = format!(
-        "Table III, {what}; below {BELOW_HZ} Hz. Header: the published list. Frequencies are paired in order if they are closer \
-         than {MAX_DIFFERENCE} Hz; rms and largest difference are those of the pairs.",
+        "Table III, {what}; below {BELOW_HZ} Hz. Header: the published list. Frequencies are paired in order if they \
+         are closer than {MAX_DIFFERENCE} Hz; rms and largest difference are those of the pairs.",
     );
     let mut table = PageTable::new(id, caption, &columns);
     for outcome in outcomes {

@@ -65,7 +65,8 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
     let mut table = PageTable::new(
         "table-ideal",
         "Ideal pose (inextensible straight cables): computed here, and from an independent solution of the six length \
-         equations |B − (p + R A)| = L0. Six lengths determine six coordinates, so this checks the solution, not the data.",
+         equations |B − (p + R A)| = L0. Six lengths determine six coordinates, so this checks the solution, not the \
+         data.",
         &["<cable set", "<", "x|m", "y|m", "z|m", "largest error of a length|m"],
     );
     for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(IDEAL_POSITION) {
@@ -155,7 +156,8 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
 pub(crate) fn thresholds(sweeps: &[Sweep; 2]) -> PageTable {
     let mut table = PageTable::new(
         "table-thresholds",
-        "Minimum platform mass from which the spring model's position stays within a tolerance of the catenary's, up to 86.35 kg.",
+        "Minimum platform mass from which the spring model's position stays within a tolerance of the catenary's, up \
+         to 86.35 kg.",
         &["tolerance|mm", "4 mm cables|kg", "8 mm cables|kg"],
     );
     for tolerance in TOLERANCES {

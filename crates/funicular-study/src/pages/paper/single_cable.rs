@@ -77,10 +77,11 @@ pub(crate) fn figure() -> Figure {
     Figure::new(
         "figure-cable-stiffness",
         470,
-        "The paper's Fig. 2: magnitude of the horizontal end stiffness K11 of one cable (E = 20 GPa, A = 1.2566·10⁻⁵ m², \
-         chord 6.848 m, τ = 77.6 N, 36°, ξ = 0.003). Lines: cable model shallow-dynamic (closed form for small sag) at either \
-         end; the dashed line has the mass per length that gives the printed λ². Symbols: lumped-mass finite elements of \
-         the catenary, 0.067 kg/m, undamped (MoorPy 1.3.0 line matrices, 200 and 400 segments, Richardson extrapolated).",
+        "The paper's Fig. 2: magnitude of the horizontal end stiffness K11 of one cable (E = 20 GPa, A = 1.2566·10⁻⁵ \
+         m², chord 6.848 m, τ = 77.6 N, 36°, ξ = 0.003). Lines: cable model shallow-dynamic (closed form for small \
+         sag) at either end; the dashed line has the mass per length that gives the printed λ². Symbols: lumped-mass \
+         finite elements of the catenary, 0.067 kg/m, undamped (MoorPy 1.3.0 line matrices, 200 and 400 segments, \
+         Richardson extrapolated).",
         &data,
         json!({
             "xaxis": axis("frequency [Hz]", json!({"range": [0, BELOW_HZ]})),
@@ -94,8 +95,8 @@ pub(crate) fn figure() -> Figure {
 pub(crate) fn numbers() -> PageTable {
     let mut table = PageTable::new(
         "table-cable-numbers",
-        "The cable of Fig. 2: values printed in the paper, and values computed from its data with the mass per length of its \
-         Table II and with the mass per length that reproduces the printed λ² and ε.",
+        "The cable of Fig. 2: values printed in the paper, and values computed from its data with the mass per length \
+         of its Table II and with the mass per length that reproduces the printed λ² and ε.",
         &["<", "mass per length|kg/m", "λ²", "ε", "Le/l", "held cable, in plane: first resonance|Hz", "second|Hz"],
     );
     let (lambda2, epsilon) = FIG2_PRINTED;
@@ -130,9 +131,10 @@ pub(crate) fn numbers() -> PageTable {
 pub(crate) fn against_elements() -> PageTable {
     let mut table = PageTable::new(
         "table-elements",
-        "K11 without damping, 0.067 kg/m: model shallow-dynamic compared with finite elements of the catenary. Relative \
-         differences mean little where K11 passes through zero (near 2.45 Hz) and beside its pole (3.12 Hz). Towards 10 Hz \
-         the model is too stiff, because it leaves out the axial inertia: by about (ω l √(m/EA))²/3, 1.5 % at 9.5 Hz.",
+        "K11 without damping, 0.067 kg/m: model shallow-dynamic compared with finite elements of the catenary. \
+         Relative differences mean little where K11 passes through zero (near 2.45 Hz) and beside its pole (3.12 Hz). \
+         Towards 10 Hz the model is too stiff, because it leaves out the axial inertia: by about (ω l √(m/EA))²/3, 1.5 \
+         % at 9.5 Hz.",
         &[
             "frequency|Hz",
             "lower end, elements|N/m",

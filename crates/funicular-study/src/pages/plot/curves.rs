@@ -279,10 +279,10 @@ fn campbell(rows: &Rows, along: &Along, tracking: &Tracking) -> Figure {
         },
     }));
     let caption = format!(
-        "The lowest {count} natural frequencies. A line joins modes with the most similar motion from one value to the next (MAC \
-         of the complete robot, weighted by mass, at least 0.5). Colour: the platform's share of the kinetic energy. Where \
-         two lines cross, each mode keeps its motion. Where two lines bend away from each other, the modes exchange their \
-         motions, and the colours change along the lines.{}",
+        "The lowest {count} natural frequencies. A line joins modes with the most similar motion from one value to the \
+         next (MAC of the complete robot, weighted by mass, at least 0.5). Colour: the platform's share of the kinetic \
+         energy. Where two lines cross, each mode keeps its motion. Where two lines bend away from each other, the \
+         modes exchange their motions, and the colours change along the lines.{}",
         shading(rows, along)
     );
     Figure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))

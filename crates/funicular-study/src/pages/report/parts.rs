@@ -24,9 +24,9 @@ fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
 pub(crate) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> PageTable {
     let mut table = PageTable::new(
         "table-tensions",
-        "Cables at equilibrium. d/l: sag divided by chord; the shallow models hold up to 0.05, tinted rows are beyond. λ²: \
-         Irvine's parameter, which compares the stiffness of the sag with that of the rope. String frequency: √(τ/m)/(2l), \
-         the first natural frequency of the taut cable alone.",
+        "Cables at equilibrium. d/l: sag divided by chord; the shallow models hold up to 0.05, tinted rows are beyond. \
+         λ²: Irvine's parameter, which compares the stiffness of the sag with that of the rope. String frequency: \
+         √(τ/m)/(2l), the first natural frequency of the taut cable alone.",
         &[
             "<cable",
             "<rope",
@@ -132,8 +132,8 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
     let mut table = PageTable::new(
         "table-stiffness",
         format!(
-            "Static stiffness: wrench needed to hold a small motion, about the platform origin, world axes.{units} Tangent \
-             stiffness of the elastic catenaries, with geometric stiffness.{drag}"
+            "Static stiffness: wrench needed to hold a small motion, about the platform origin, world axes.{units} \
+             Tangent stiffness of the elastic catenaries, with geometric stiffness.{drag}"
         ),
         &columns,
     );
@@ -153,8 +153,8 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
     let mut table = PageTable::new(
         "table-modes",
         format!(
-            "All natural frequencies below {} Hz (undamped, multiple ones repeated), damping ratios to first order, and \
-             motion of the platform origin in world axes{}. A dash means that the platform does not move.",
+            "All natural frequencies below {} Hz (undamped, multiple ones repeated), damping ratios to first order, \
+             and motion of the platform origin in world axes{}. A dash means that the platform does not move.",
             found.below_hz,
             if turns {
                 ", scaled so that the largest component of translation and ℓ · rotation is 1"
@@ -229,8 +229,8 @@ fn models_table(comparison: &Comparison) -> PageTable {
     let mut table = PageTable::new(
         "table-models",
         format!(
-            "Natural frequencies of each cable model below {} Hz. Missed: modes of the model {} without a counterpart. First \
-             wrong: the lowest natural frequency that is missing or wrong by more than {} %.",
+            "Natural frequencies of each cable model below {} Hz. Missed: modes of the model {} without a counterpart. \
+             First wrong: the lowest natural frequency that is missing or wrong by more than {} %.",
             comparison.below_hz,
             comparison.reference.name(),
             100.0 * compare::TOLERANCE
@@ -283,9 +283,9 @@ fn side_by_side(comparison: &Comparison) -> PageTable {
     let mut table = PageTable::new(
         "table-side-by-side",
         "Modes that move the platform, compared between the models. In a model of constant stiffness (spring, \
-         shallow-static, catenary-static) the counterpart is the mode whose platform motion correlates with at least 0.5, \
-         in the other models the nearest in frequency. Vibrations of cables alone, which models of constant stiffness do \
-         not have, are left out.",
+         shallow-static, catenary-static) the counterpart is the mode whose platform motion correlates with at least \
+         0.5, in the other models the nearest in frequency. Vibrations of cables alone, which models of constant \
+         stiffness do not have, are left out.",
         &columns.iter().map(String::as_str).collect::<Vec<_>>(),
     );
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
