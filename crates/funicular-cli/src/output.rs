@@ -3,7 +3,7 @@
 use crate::args::{Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_files::Guard;
-use funicular_files::atomic_file::{Temporary, is_regular_or_new};
+use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use funicular_study::analyses::Found;
 use funicular_study::{NoSolution, json};
@@ -68,7 +68,7 @@ impl Target {
             if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
                 bail!("cannot write to {shown}: it is read-only");
             }
-            Temporary::beside(&target).with_context(|| format!("cannot write to {shown}"))?;
+            TemporaryFile::beside(&target).with_context(|| format!("cannot write to {shown}"))?;
         }
         Ok(Self { file: Some(target) })
     }
@@ -154,16 +154,6 @@ fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSoluti
     })
 }
 
-/// Gives a folder the permissions of a new folder. A temporary folder can be read by its owner only.
-pub(crate) fn open_to_all(folder: &Path) -> io::Result<()> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(folder, fs::Permissions::from_mode(0o755))?;
-    }
-    Ok(())
-}
-
 fn to_stdout(bytes: &[u8]) -> Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(bytes).and_then(|()| out.flush()).map_err(of_stdout)
@@ -182,7 +172,7 @@ fn to_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if !is_regular_or_new(path) {
         return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
     }
-    let mut file = Temporary::beside(path)?;
+    let mut file = TemporaryFile::beside(path)?;
     file.as_file_mut().write_all(bytes)?;
     file.persist(path)
 }

@@ -189,7 +189,7 @@ fn plans_that_cannot_be_are_refused_with_what_is_wrong() {
     assert!(matches!(refused(&[("x", one()), ("x", one())], &robot), SweepError::RepeatedAxis { .. }));
     let camera = Robot::from_toml(funicular_robots::STADIUM_CAMERA).unwrap();
     let message = refused(&[("yaw", one())], &camera).to_string();
-    assert!(message.contains("along the axis `yaw`") && message.contains("which has x, y, z"), "{message}");
+    assert!(message.contains("along the axis `yaw`") && message.contains("with the axes x, y, z"), "{message}");
 
     let plan = |points: &Poses, names: &str, options: &Options| {
         Plan::new(points, &robot, &quantities(names), options).map(|_| ()).unwrap_err()

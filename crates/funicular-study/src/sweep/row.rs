@@ -218,7 +218,7 @@ impl PointEvaluation<'_> {
             let requested = Linearisation { cable_model, ..self.options.linearisation };
             let dynamics = Dynamics::about(self.robot, self.rest, requested, 0.0)
                 .map_err(|error| Status::new("no-comparison", &error))?;
-            Ok::<f64, Status>(dynamics.least_static_stiffness())
+            Ok::<f64, Status>(dynamics.min_static_stiffness())
         };
         let exact = min_stiffness(CableModel::CatenaryStatic)?;
         if exact <= 0.0 {
