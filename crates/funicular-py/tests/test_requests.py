@@ -260,7 +260,7 @@ def test_parts_of_a_map_are_one_file(folder: Path) -> None:
         assert part.complete and 0 < len(part) < 400 and seen[-1] == (len(part), len(part))
     assert len(funicular.merge([f"{k}.parquet" for k in (1, 2, 3)], "merged.parquet")) == 400
     assert Path("merged.parquet").read_bytes() == Path("whole.parquet").read_bytes()
-    for keywords, told in [({"part": "4/3", "file": "x.parquet"}, "`part`: `4/3` is no part"), ({"part": "1/3"}, "`part` goes with")]:
+    for keywords, told in [({"part": "4/3", "file": "x.parquet"}, "`part`: `4/3` is not a part"), ({"part": "1/3"}, "`part` goes with")]:
         with pytest.raises(funicular.InputError, match=told):
             robot.map(grid, **keywords)  # type: ignore[arg-type]
     with pytest.raises(funicular.FileError, match="written without `part`"):

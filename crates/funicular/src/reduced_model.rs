@@ -28,7 +28,7 @@ pub enum DampingAt {
 
 /// Requirements for a reduced model.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub struct RequestedModel {
     /// Highest frequency [Hz].
     pub below_hz: f64,
     /// Maximum relative error of the responses by modes left out.
@@ -137,7 +137,7 @@ pub fn reduce(
     dynamics: &Dynamics,
     inputs: &[Signal],
     outputs: &[(Signal, Quantity)],
-    wanted: Wanted,
+    requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
     if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
         return Err(ReductionError::Model);
@@ -148,29 +148,29 @@ pub fn reduce(
     let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
 
     // Natural frequencies and responses of the full model, for comparison.
-    let listed = modes::below(dynamics, wanted.below_hz);
+    let listed = modes::below(dynamics, requested.below_hz);
     let natural: Vec<f64> = listed.modes.iter().map(|mode| mode.frequency_hz).collect();
     let mut frequencies: Vec<f64> =
-        (1..=GRID).map(|i| wanted.below_hz * i as f64 / GRID as f64).chain(natural.iter().copied()).collect();
+        (1..=GRID).map(|i| requested.below_hz * i as f64 / GRID as f64).chain(natural.iter().copied()).collect();
     frequencies.sort_by(f64::total_cmp);
     let reference = full.responses(dynamics, &frequencies).ok();
 
     // As few clamped modes as the tolerance allows.
     for ratio in KEPT {
-        let cut = dynamics.with_poles_below(ratio * wanted.below_hz * TAU);
+        let cut = dynamics.with_poles_below(ratio * requested.below_hz * TAU);
         let truncation_error = reference.as_ref().and_then(|reference| {
             let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
             Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?))
         });
 
-        let reduced = modes::below(&cut, wanted.below_hz * (1.0 + 1e-9));
+        let reduced = modes::below(&cut, requested.below_hz * (1.0 + 1e-9));
         let frequency_error = relative_error(&natural, &reduced.modes);
 
-        if truncation_error.unwrap_or(frequency_error) <= wanted.tolerance || ratio.is_infinite() {
+        if truncation_error.unwrap_or(frequency_error) <= requested.tolerance || ratio.is_infinite() {
             let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
-            let mut model = assembled(&cut, &channels, outputs, wanted)?;
+            let mut model = assembled(&cut, &channels, outputs, requested)?;
             (model.frequency_error, model.truncation_error) = (frequency_error, truncation_error);
-            model.damping_error = match wanted.damping_at {
+            model.damping_error = match requested.damping_at {
                 _ if !cut.has_damping_ratios() => Some(0.0),
                 _ => damping_error(&model, &cut, &channels, &natural),
             };
@@ -348,7 +348,7 @@ fn assembled(
     dynamics: &Dynamics,
     channels: &Channels,
     outputs: &[(Signal, Quantity)],
-    wanted: Wanted,
+    requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
     let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
     let layout = Layout::new(dynamics.dof(), &cables);
@@ -359,7 +359,7 @@ fn assembled(
         matrices.add_cable(cable, *from);
     }
     if dynamics.has_damping_ratios() {
-        matrices.damping = matrices.all_damping(wanted.damping_at)?;
+        matrices.damping = matrices.all_damping(requested.damping_at)?;
     }
 
     let rows = |ports: &[Port]| {
@@ -380,7 +380,7 @@ fn assembled(
         output,
         quantities: outputs.iter().map(|(_, quantity)| *quantity).collect(),
         coordinates: layout.coordinates,
-        below_hz: wanted.below_hz,
+        below_hz: requested.below_hz,
         frequency_error: 0.0,
         truncation_error: None,
         damping_error: None,

@@ -196,7 +196,8 @@ fn an_earlier_name_is_answered_with_the_present_name() {
         assert!(suggested || message.contains(&format!("did you mean `{new}`?")), "{line}: {message}");
     }
     // Other commands never had `--model`, and have more than one option that ends so.
-    let message = stderr(&run(&["statics", "ROBOT", "--model", "spring"]));
+    let output = run(&["statics", "ROBOT", "--model", "spring"]);
+    let message = stderr(&output);
     assert!(!message.contains("--matrices"), "{message}");
 
     // Keys of a robot file.

@@ -263,7 +263,7 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("map ROBOT --grid x=0:1:5 -o /dev/null", "names no format"),
         ("map ROBOT --grid x=0:1:5 -o -", "--format csv and without -o"),
         ("map ROBOT --grid x=0:1:5 --resume", "--output-file"),
-        ("map ROBOT --grid x=0:1:5 --part 3/2 -o a.parquet", "is no part"),
+        ("map ROBOT --grid x=0:1:5 --part 3/2 -o a.parquet", "is not a part"),
         ("map ROBOT --grid x=0:1:5 --threads 0", "is not a number of threads"),
         ("map ROBOT --poses no-such-file.csv", "cannot read the poses no-such-file.csv"),
         ("sweep ROBOT", "--vary"),

@@ -9,7 +9,7 @@ use crate::text::significant;
 use anyhow::Result;
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::reduced_model::{Coordinate, DampingAt, SecondOrder, Wanted, reduce};
+use funicular::reduced_model::{Coordinate, DampingAt, RequestedModel, SecondOrder, reduce};
 use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
@@ -95,10 +95,10 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
     let damping_at = request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
 
-    let wanted = Wanted { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
+    let requested = RequestedModel { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
     let from: Vec<Signal> = inputs.iter().map(|(_, signal)| *signal).collect();
     let to: Vec<(Signal, Quantity)> = outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect();
-    let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, wanted)?;
+    let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested)?;
 
     let mut reduced = Reduced {
         robot: at_rest.robot.name.clone(),

@@ -3,7 +3,7 @@
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, Vec3};
 use funicular::modes;
-use funicular::reduced_model::{Coordinate, DampingAt, ReductionError, SecondOrder, Wanted, reduce};
+use funicular::reduced_model::{Coordinate, DampingAt, ReductionError, RequestedModel, SecondOrder, reduce};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::{Damping, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
@@ -24,9 +24,10 @@ fn on_platform(direction_w: Vec3) -> Signal {
     Signal::Along { direction_w, point_p: Vec3::new(0.1, 0.0, 0.0) }
 }
 
-const WANTED: Wanted = Wanted { below_hz: 5.0, tolerance: 1e-3, damping_at: DampingAt::NaturalFrequencies };
+const REQUESTED: RequestedModel =
+    RequestedModel { below_hz: 5.0, tolerance: 1e-3, damping_at: DampingAt::NaturalFrequencies };
 
-fn model(damping: Damping, wanted: Wanted) -> (SecondOrder, Equilibrium, Dynamics) {
+fn model(damping: Damping, requested: RequestedModel) -> (SecondOrder, Equilibrium, Dynamics) {
     let (robot, rest, dynamics) = at_rest(damping);
     let inputs = [on_platform(Vec3::z()), on_platform(Vec3::x())];
     let on_cable = Signal::OnCable { cable: 2, fraction: 0.4, direction_w: Vec3::y() };
@@ -35,12 +36,12 @@ fn model(damping: Damping, wanted: Wanted) -> (SecondOrder, Equilibrium, Dynamic
         (on_platform(Vec3::z()), Quantity::Acceleration),
         (on_cable, Quantity::Velocity),
     ];
-    (reduce(&robot, &rest, &dynamics, &inputs, &outputs, wanted).unwrap(), rest, dynamics)
+    (reduce(&robot, &rest, &dynamics, &inputs, &outputs, requested).unwrap(), rest, dynamics)
 }
 
 #[test]
 fn with_viscous_damping_it_has_the_responses_and_the_damped_frequencies_of_the_full_model() {
-    let (found, rest, dynamics) = model(Damping::Viscous(0.02), Wanted { tolerance: 0.0, ..WANTED });
+    let (found, rest, dynamics) = model(Damping::Viscous(0.02), RequestedModel { tolerance: 0.0, ..REQUESTED });
     assert!(found.truncation_error.unwrap() < 1e-12 && found.damping_error == Some(0.0));
     assert!(found.frequency_error < 1e-12);
     // Responses, by elimination of all coordinates.
@@ -68,7 +69,7 @@ fn with_viscous_damping_it_has_the_responses_and_the_damped_frequencies_of_the_f
 #[test]
 fn a_small_model_is_as_good_as_it_says() {
     for damping in [Damping::Ratio(0.003), Damping::Ratio(0.03), Damping::Viscous(0.02)] {
-        let (found, rest, dynamics) = model(damping, WANTED);
+        let (found, rest, dynamics) = model(damping, REQUESTED);
         assert!(found.truncation_error.unwrap() <= 1e-3, "{:?}", found.truncation_error);
         // About a hundred clamped modes of the cables, and three per cable for all the others.
         assert!(found.mass.nrows() < 140, "{}", found.mass.nrows());
@@ -88,7 +89,7 @@ fn a_small_model_is_as_good_as_it_says() {
 
 #[test]
 fn the_state_space_gives_motion_velocity_and_acceleration() {
-    let (found, _, _) = model(Damping::Ratio(0.01), WANTED);
+    let (found, _, _) = model(Damping::Ratio(0.01), REQUESTED);
     let space = found.state_space();
     let n = space.a.nrows();
     for frequency_hz in [0.7, 1.5, 3.3] {
@@ -110,7 +111,7 @@ fn the_state_space_gives_motion_velocity_and_acceleration() {
 #[test]
 fn damping_at_one_frequency_is_right_there_and_grows_wrong_away_from_it() {
     let ratio = 0.01;
-    let at = |damping_at| model(Damping::Ratio(ratio), Wanted { damping_at, ..WANTED }).0;
+    let at = |damping_at| model(Damping::Ratio(ratio), RequestedModel { damping_at, ..REQUESTED }).0;
     let (own, one) = (at(DampingAt::NaturalFrequencies), at(DampingAt::Hz(2.5)));
     assert!(own.damping_error.unwrap() < 0.2 * one.damping_error.unwrap(), "{own:?}");
     // C for one frequency is 2ξω times the cables' mass: 2ξω for the coordinate of a clamped mode.
@@ -131,7 +132,7 @@ fn the_closed_form_has_no_reduced_model_and_springs_have_the_platform_alone() {
         let linearisation = Linearisation { cable_model, ..Linearisation::default() };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, 6.0).unwrap();
         let outputs = [(on_platform(Vec3::z()), Quantity::Displacement)];
-        reduce(&robot, &rest, &dynamics, &[on_platform(Vec3::z())], &outputs, WANTED)
+        reduce(&robot, &rest, &dynamics, &[on_platform(Vec3::z())], &outputs, REQUESTED)
     };
     assert_eq!(with(CableModel::ShallowDynamic).unwrap_err(), ReductionError::Model);
     let spring = with(CableModel::CatenaryStatic).unwrap();
