@@ -99,7 +99,7 @@ pub enum SweepError {
     #[error("there are no points to compute: give at least one")]
     NoPoints,
     /// Too many points.
-    #[error("{count} points are more than the maximum of {MAX_POINTS}: use larger steps or several sweeps")]
+    #[error("{count} points are more than the {MAX_POINTS} of one sweep: use larger steps or several sweeps")]
     TooMany {
         /// Number of points.
         count: String,
