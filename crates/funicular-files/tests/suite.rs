@@ -314,7 +314,7 @@ fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_tak
     let path = folder.path().join("a.parquet");
     let good = complete_file(&path, &record, &chunks);
     let again = folder.path().join("again.parquet");
-    assert!(whole(&again, &record, &chunks) == good, "the same bytes each time");
+    assert!(complete_file(&again, &record, &chunks) == good, "the same bytes each time");
 
     // Read by the Parquet library alone, without checksums, and rewritten with the same metadata or without them.
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
