@@ -1,9 +1,9 @@
-"""How much faster a map is with more threads or workers, as a table for docs/sweeps.md.
+"""Speed-up of a map with more threads or workers, as a table for docs/sweeps.md.
 
     python crates/funicular-py/scaling.py [WORKERS…]
 
-For 1, 2 and so on up to all processors if no numbers are given. Needs dask and distributed for its rows, mpiexec and mpi4py
-for theirs. Workers have started before the clock does. Each figure is the best of three.
+Without numbers: for 1, 2 and so on up to all processors. The rows of Dask need dask and distributed, those of MPI need
+mpiexec and mpi4py. Workers start before the clock. Each figure is the best of three.
 """
 
 import contextlib
@@ -24,7 +24,7 @@ ROWS = 81 * 57 * 25
 
 
 def seconds(executor: Executor | None, count: int) -> float:
-    """The best of three maps."""
+    """Time of a map [s], the best of three."""
     robot = funicular.Robot.from_file(ROBOT)
     if executor is not None:
         wait([executor.submit(time.sleep, 0.2) for _ in range(4 * count)])

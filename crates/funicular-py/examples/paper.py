@@ -1,5 +1,5 @@
-"""The paper again: how far simpler static models put the platform from where it hangs, over its load, and what its cables
-do to a frequency response (Yuan, Courteille and Deblaise 2014)."""
+"""Results of Yuan, Courteille and Deblaise 2014: pose error of simpler static models over the load, and the influence
+of cable dynamics on a frequency response."""
 
 import funicular
 import numpy as np

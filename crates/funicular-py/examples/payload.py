@@ -1,4 +1,4 @@
-"""What a load in the platform's centre of mass does to the lowest frequencies, and when they stay above a limit."""
+"""Lowest natural frequencies over the mass of the platform, and the mass from which on they stay above a limit."""
 
 import funicular
 import numpy as np
@@ -18,7 +18,7 @@ for i in range(4):
 ax.axhline(LIMIT_HZ, color="black", linewidth=0.7, linestyle=":")
 above = np.flatnonzero(first >= LIMIT_HZ)
 if len(above) and above[0] > 0:
-    # Between two rows the frequency is nearly straight.
+    # Between two rows the frequency is nearly linear.
     i = above[0]
     threshold = np.interp(LIMIT_HZ, first[i - 1 : i + 1], mass[i - 1 : i + 1])
     ax.axvline(threshold, color="black", linewidth=0.7, linestyle=":")

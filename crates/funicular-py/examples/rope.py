@@ -1,11 +1,11 @@
-"""Which rope: thicker is stiffer and heavier, and sags more. The same steel from 1 to 12 mm, everything else as it is."""
+"""Choice of a rope: steel ropes from 1 to 12 mm. A thicker rope is stiffer and heavier, and sags more."""
 
 import funicular
 import numpy as np
 from matplotlib import pyplot
 from style import save
 
-KG_PER_M_AND_MM2 = 0.067 / 4**2  # of the robot's rope of 4 mm
+KG_PER_M_AND_MM2 = 0.067 / 4**2  # mass of the 4 mm rope of the robot
 
 diameters = np.linspace(1, 12, 23)
 names = ["first-frequency", "stiffness-min", "sag-max", "model-error:spring"]
@@ -33,7 +33,7 @@ top.plot(diameters, springs, "--", label="massless springs")
 top.set(ylabel="first frequency [Hz]", ylim=(0, None))
 top.legend()
 middle.plot(diameters, 1e-3 * np.array(of("stiffness_min_n_per_m")), color="C2")
-middle.set(ylabel="least stiffness [kN/m]", ylim=(0, None))
+middle.set(ylabel="minimum stiffness [kN/m]", ylim=(0, None))
 bottom.plot(diameters, 100 * np.array(of("sag_ratio_max")), color="C3")
 bottom.set(xlabel="rope diameter [mm]", ylabel="sag over chord [%]", ylim=(0, None))
 save(figure, "rope")

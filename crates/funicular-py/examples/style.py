@@ -1,4 +1,4 @@
-"""How the figures of the gallery look, and where they go: one column of a paper, 3.4 inches."""
+"""Style and folder of the figures of the gallery; one column of a paper is 3.4 inches wide."""
 
 import sys
 from pathlib import Path
@@ -24,7 +24,7 @@ pyplot.rcParams.update(
 
 
 def save(figure: Figure, name: str) -> None:
-    """Into the folder that the command line names, or this one."""
+    """Writes a figure to the folder of the command line, or to the current folder."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     figure.savefig(folder / f"{name}.png")
     print(folder / f"{name}.png")

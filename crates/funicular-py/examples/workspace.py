@@ -1,4 +1,4 @@
-"""The workspace of CoGiRo 1.5 m above the ground: where its cables hold it, how hard they pull, how stiff it is."""
+"""Workspace of CoGiRo 1.5 m above the ground: wrench-feasible poses, maximum tension and minimum stiffness."""
 
 import funicular
 import numpy as np
@@ -15,15 +15,15 @@ figure, axes = pyplot.subplots(1, 2, figsize=(6.9, 2.7), layout="constrained", s
 for ax, (column, scale, label) in zip(
     axes,
     {
-        "tension_max_n": ("tension_max_n", 1e-3, "greatest tension [kN]"),
-        "stiffness_min_n_per_m": ("stiffness_min_n_per_m", 1e-3, "least stiffness [kN/m]"),
+        "tension_max_n": ("tension_max_n", 1e-3, "maximum tension [kN]"),
+        "stiffness_min_n_per_m": ("stiffness_min_n_per_m", 1e-3, "minimum stiffness [kN/m]"),
     }.values(),
     strict=True,
 ):
     values = scale * rows.on_grid(column)
     drawn = ax.contourf(x, y, values, levels=12, cmap="viridis")
     ax.contourf(x, y, infeasible, levels=[0.5, 1.5], colors="none", hatches=["////"])
-    anchors = robot.anchors_m
+    anchors = robot.anchor_m
     ax.plot(anchors[:, 0], anchors[:, 1], "k^", markersize=4, clip_on=False)
     ax.set(xlabel="x [m]", aspect="equal")
     figure.colorbar(drawn, ax=ax, label=label, shrink=0.8)

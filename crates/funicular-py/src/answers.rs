@@ -1,8 +1,8 @@
-//! Results of requests: JSON of the study as Python's dictionaries, pages, and requests as JSON.
+//! Results of requests: dictionaries from the JSON of the study, pages, and files.
 
-use crate::arrays::Keyed;
+use crate::arrays::TextKeyed;
 use crate::errors;
-use crate::interrupt::{interruptible, look};
+use crate::interrupt::{check_signals, interruptible};
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;
@@ -18,21 +18,21 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Ends long work at Ctrl-C.
+/// Watch that ends long work at Ctrl-C.
 pub(crate) struct CtrlC {
-    looked: Instant,
+    checked: Instant,
     raised: Option<PyErr>,
 }
 
 impl CtrlC {
-    /// Time between two looks.
-    const LOOK: Duration = Duration::from_millis(50);
+    /// Time between two checks for Ctrl-C.
+    const INTERVAL: Duration = Duration::from_millis(50);
 
     pub(crate) fn new() -> Self {
-        Self { looked: Instant::now(), raised: None }
+        Self { checked: Instant::now(), raised: None }
     }
 
-    /// The exception that ended the work, or its own error.
+    /// Exception that ended the work, or else the error of the work.
     pub(crate) fn or(self, error: &anyhow::Error) -> PyErr {
         self.raised.unwrap_or_else(|| errors::study(error))
     }
@@ -40,9 +40,9 @@ impl CtrlC {
 
 impl Watch for CtrlC {
     fn progress(&mut self, _done: usize, _total: usize, _what: &'static str) {
-        if self.looked.elapsed() >= Self::LOOK && self.raised.is_none() {
-            self.looked = Instant::now();
-            self.raised = look().err();
+        if self.checked.elapsed() >= Self::INTERVAL && self.raised.is_none() {
+            self.checked = Instant::now();
+            self.raised = check_signals().err();
         }
     }
 
@@ -51,34 +51,34 @@ impl Watch for CtrlC {
     }
 }
 
-/// A dictionary of JSON.
-fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<Keyed<'py>> {
+/// Dictionary from JSON.
+fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<TextKeyed<'py>> {
     let dictionary = py.import("json")?.call_method1("loads", (PyBytes::new(py, bytes),))?;
-    Ok(Keyed(dictionary.cast_into()?))
+    Ok(TextKeyed(dictionary.cast_into()?))
 }
 
 /// Results with the keys of the program's JSON.
-pub(crate) fn plain<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Keyed<'py>> {
+pub(crate) fn plain<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<TextKeyed<'py>> {
     loaded(py, &json::of_results(results, Words::Python).map_err(|error| errors::study(&error.into()))?)
 }
 
-/// [`plain`] results with arrays for lists of numbers.
-pub(crate) fn with_arrays<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Keyed<'py>> {
+/// Results with the keys of the program's JSON, in which lists of numbers are arrays.
+pub(crate) fn with_arrays<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<TextKeyed<'py>> {
     let plain = plain(py, results)?;
-    Ok(Keyed(py.import("funicular._results")?.call_method1("with_arrays", (plain.0,))?.cast_into()?))
+    Ok(TextKeyed(py.import("funicular._results")?.call_method1("with_arrays", (plain.0,))?.cast_into()?))
 }
 
 fn request(text: &str) -> PyResult<Request> {
     Request::from_json(text).map_err(|error| errors::study(&error.into()))
 }
 
-/// A request as JSON with every key that it has, defaults among them.
+/// Adds the defaults to a request; both are JSON.
 #[pyfunction]
 pub(crate) fn complete_request(request: &str) -> PyResult<String> {
     Ok(self::request(request)?.to_value().to_string())
 }
 
-/// Results of a request, both as JSON; of any command that computes them from the request alone.
+/// Computes the results of a request; both are JSON. Commands that make files, pages or rows are refused.
 #[pyfunction]
 pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     let request = self::request(request)?;
@@ -90,7 +90,7 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Text and warnings of a request of `report`, `paper` or `export`; `call` is what writes a page again.
+/// Computes text and caveats of a request of `report`, `paper` or `export`; `call` is the code that makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
     let request = self::request(request)?;
@@ -114,12 +114,12 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
     Ok((worded(&text, Words::Python), in_words(&warnings)))
 }
 
-/// Texts in the words of Python.
+/// Texts with the names of options as Python writes them.
 pub(crate) fn in_words(texts: &[String]) -> Vec<String> {
     texts.iter().map(|text| worded(text, Words::Python)).collect()
 }
 
-/// A file of another program as a request has it: path and text, and the encoding if it had to be guessed, as JSON.
+/// Reads a file of another program for a request: path, text, and the encoding if it had to be guessed, as JSON.
 #[pyfunction]
 pub(crate) fn source_file(path: PathBuf) -> PyResult<String> {
     let name = path.display().to_string();
@@ -129,7 +129,7 @@ pub(crate) fn source_file(path: PathBuf) -> PyResult<String> {
     serde_json::to_string(&file).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Robot file, assumptions and losses of a request of `import`.
+/// Computes robot file, assumptions and losses of a request of `import`.
 #[pyfunction]
 pub(crate) fn imported(request: &str) -> PyResult<(String, Vec<String>, Vec<String>)> {
     let Request::Import(of) = self::request(request)? else {
@@ -140,7 +140,8 @@ pub(crate) fn imported(request: &str) -> PyResult<(String, Vec<String>, Vec<Stri
     Ok((text, assumed, lost))
 }
 
-/// Page and notes of the Parquet file of a map or sweep; `label` says where the rows are, `call` writes the page again.
+/// Makes page and notes of the Parquet file of a map or sweep; `label` names the rows, `call` is the code that makes
+/// the page again.
 #[pyfunction]
 pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: String) -> PyResult<(String, Vec<String>)> {
     let file = SweepFile::open(&path).map_err(|error| errors::files(&error))?;
@@ -151,16 +152,16 @@ pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: Stri
     })
 }
 
-/// Joins the parts of a map or sweep; the number of rows.
+/// Joins the parts of a map or sweep; returns the number of rows.
 #[pyfunction]
 pub(crate) fn merge_parts(py: Python<'_>, parts: Vec<PathBuf>, path: PathBuf) -> PyResult<usize> {
     py.detach(|| merge(&parts, &path)).map_err(|error| errors::files(&error))
 }
 
-/// Writes a file as a whole or not at all.
+/// Writes a text to a file, which is complete or absent.
 #[pyfunction]
 pub(crate) fn write_file(path: PathBuf, text: &str) -> PyResult<()> {
-    // Through a symbolic link to the file it stands for: that one is to be replaced, not the link.
+    // A symbolic link stays: the file that it points to is replaced.
     let target = path.canonicalize().unwrap_or_else(|_| path.clone());
     let write = || {
         if !is_regular_or_new(&target) {

@@ -1,4 +1,4 @@
-//! NumPy arrays in and out, with the types that the `.pyi` names. An array that goes out owns what it was made of.
+//! NumPy arrays as arguments and results, with the types that the `.pyi` names. A returned array owns its numbers.
 
 use crate::errors;
 use funicular_study::values;
@@ -14,39 +14,39 @@ use pyo3::types::{
 use std::convert::Infallible;
 use std::ops::RangeInclusive;
 
-/// An item of NumPy's module of types.
+/// Name in the module `numpy.typing`.
 const fn typing(name: &'static str) -> PyStaticExpr {
     PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "numpy.typing" }, attr: name }
 }
 
-/// Numbers in anything that NumPy makes an array of.
+/// Type of every argument that NumPy can convert to an array.
 pub(crate) const ARRAY_LIKE: PyStaticExpr = typing("ArrayLike");
 
-/// What an element is called in NumPy.
-pub(crate) trait Named: Element {
+/// Elements of arrays, with their names in NumPy.
+pub(crate) trait ElementName: Element {
     const NAME: &'static str;
 }
 
-impl Named for f64 {
+impl ElementName for f64 {
     const NAME: &'static str = "float64";
 }
 
-impl Named for Complex64 {
+impl ElementName for Complex64 {
     const NAME: &'static str = "complex128";
 }
 
-impl Named for bool {
+impl ElementName for bool {
     const NAME: &'static str = "bool_";
 }
 
-impl Named for i64 {
+impl ElementName for i64 {
     const NAME: &'static str = "int64";
 }
 
-/// An array on its way to Python, without a copy.
-pub(crate) struct Out<T, D>(pub(crate) Array<T, D>);
+/// Array that is handed to Python without a copy.
+pub(crate) struct OwnedArray<T, D>(pub(crate) Array<T, D>);
 
-impl<'py, T: Named, D: Dimension> IntoPyObject<'py> for Out<T, D> {
+impl<'py, T: ElementName, D: Dimension> IntoPyObject<'py> for OwnedArray<T, D> {
     type Target = PyArray<T, D>;
     type Output = Bound<'py, Self::Target>;
     type Error = Infallible;
@@ -62,11 +62,11 @@ impl<'py, T: Named, D: Dimension> IntoPyObject<'py> for Out<T, D> {
 }
 
 /// One row.
-pub(crate) type Vector<T = f64> = Out<T, Ix1>;
+pub(crate) type Vector<T = f64> = OwnedArray<T, Ix1>;
 /// Rows of equal length.
-pub(crate) type Matrix<T = f64> = Out<T, Ix2>;
-/// Matrices one after the other.
-pub(crate) type Tensor<T = f64> = Out<T, Ix3>;
+pub(crate) type Matrix<T = f64> = OwnedArray<T, Ix2>;
+/// Matrices in sequence.
+pub(crate) type Tensor<T = f64> = OwnedArray<T, Ix3>;
 
 impl<T> FromIterator<T> for Vector<T> {
     fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
@@ -75,7 +75,7 @@ impl<T> FromIterator<T> for Vector<T> {
 }
 
 impl<T> Matrix<T> {
-    /// Of its rows one after the other, each of `columns` numbers.
+    /// Makes a matrix from its rows in sequence, each with `columns` numbers.
     pub(crate) fn of_rows(flat: Vec<T>, columns: usize) -> Self {
         let rows = flat.len() / columns.max(1);
         Self(Array::from_shape_vec((rows, columns), flat).expect("whole rows"))
@@ -83,7 +83,7 @@ impl<T> Matrix<T> {
 }
 
 impl<T> Tensor<T> {
-    /// Of 6×6 matrices, each column by column, without a copy: the array has the rows and columns where they are.
+    /// Makes an array of 6×6 matrices, each stored by columns, without a copy: its strides name rows and columns.
     pub(crate) fn of_six(matrices: Vec<[[T; 6]; 6]>) -> Self {
         let count = matrices.len();
         let flat = matrices.into_flattened().into_flattened();
@@ -91,20 +91,20 @@ impl<T> Tensor<T> {
         Self(columns.permuted_axes([0, 2, 1]))
     }
 
-    /// Of its matrices one after the other, each row by row.
+    /// Makes an array of matrices in sequence, each stored by rows.
     pub(crate) fn of_rows(flat: Vec<T>, rows: usize, columns: usize) -> Self {
         let count = flat.len() / (rows * columns).max(1);
         Self(Array::from_shape_vec((count, rows, columns), flat).expect("whole matrices"))
     }
 }
 
-/// What a pickle is made of: a function and its arguments.
-pub(crate) type Reduced<'py, T> = (Bound<'py, PyAny>, T);
+/// Content of a pickle: a function and its arguments.
+pub(crate) type PickleParts<'py, T> = (Bound<'py, PyAny>, T);
 
-/// A dictionary with text as keys, in or out.
-pub(crate) struct Keyed<'py>(pub(crate) Bound<'py, PyDict>);
+/// Dictionary with text as keys.
+pub(crate) struct TextKeyed<'py>(pub(crate) Bound<'py, PyDict>);
 
-const KEYED: PyStaticExpr = PyStaticExpr::Subscript {
+const TEXT_KEYED: PyStaticExpr = PyStaticExpr::Subscript {
     value: &PyStaticExpr::Name { id: "dict" },
     slice: &PyStaticExpr::Tuple {
         elts: &[
@@ -114,59 +114,59 @@ const KEYED: PyStaticExpr = PyStaticExpr::Subscript {
     },
 };
 
-impl<'py> IntoPyObject<'py> for Keyed<'py> {
+impl<'py> IntoPyObject<'py> for TextKeyed<'py> {
     type Target = PyDict;
     type Output = Bound<'py, PyDict>;
     type Error = Infallible;
 
-    const OUTPUT_TYPE: PyStaticExpr = KEYED;
+    const OUTPUT_TYPE: PyStaticExpr = TEXT_KEYED;
 
     fn into_pyobject(self, _: Python<'py>) -> Result<Self::Output, Self::Error> {
         Ok(self.0)
     }
 }
 
-impl<'py> FromPyObject<'_, 'py> for Keyed<'py> {
+impl<'py> FromPyObject<'_, 'py> for TextKeyed<'py> {
     type Error = PyErr;
 
-    const INPUT_TYPE: PyStaticExpr = KEYED;
+    const INPUT_TYPE: PyStaticExpr = TEXT_KEYED;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         Ok(Self(object.to_owned().cast_into::<PyDict>()?))
     }
 }
 
-/// Elements that arguments are read as.
-trait Read: Named + Copy {
-    /// An imaginary part is no loss.
+/// Elements of array arguments.
+trait ReadableElement: ElementName + Copy {
+    /// True if an imaginary part is allowed.
     const COMPLEX: bool;
-    /// What to give, for errors.
+    /// Remedy in messages.
     const WANTED: &'static str;
 }
 
-impl Read for f64 {
+impl ReadableElement for f64 {
     const COMPLEX: bool = false;
     const WANTED: &'static str = "give real numbers, int or float";
 }
 
-impl Read for Complex64 {
+impl ReadableElement for Complex64 {
     const COMPLEX: bool = true;
     const WANTED: &'static str = "give real or complex numbers";
 }
 
-/// Depth of nested lists that is refused: no argument has more than two dimensions, and a list may hold itself.
+/// Maximum depth of nested lists: no argument has more than two dimensions, and a list may contain itself.
 const MAX_DEPTH: usize = 16;
 
-/// Number of letters of a value that an error shows.
+/// Maximum number of letters of a value in a message.
 const MAX_SHOWN: usize = 60;
 
-/// Why an argument holds no numbers to compute with. Reading an argument does not know its name; [`Unusable::named`] adds
-/// it.
+/// Reason why an argument contains no usable numbers. The reader of an argument does not know its name;
+/// [`Unusable::named`] adds it.
 #[derive(Debug)]
 enum Unusable {
-    /// A place in the argument, such as `[3][2]`, and what is wrong there.
+    /// Place in the argument, such as `[3][2]`, and the error there.
     Refused { place: String, reason: String },
-    /// An exception that Python raised and that says nothing of the argument, such as Ctrl-C.
+    /// Exception of Python that does not concern the argument, such as Ctrl-C.
     Raised(PyErr),
 }
 
@@ -181,7 +181,7 @@ impl Unusable {
         Self::Refused { place: String::new(), reason }
     }
 
-    /// Refuses a value by its text and its type.
+    /// Error for a value, with its text and its type.
     fn value(object: &Bound<'_, PyAny>, wanted: &str) -> Self {
         let kind = match object.get_type().name() {
             Ok(name) => name.to_string(),
@@ -193,12 +193,12 @@ impl Unusable {
         })
     }
 
-    /// Refuses a number that a mask hides.
+    /// Error for a number that a mask hides.
     fn masked() -> Self {
         Self::here("is masked: give a number in its place, or leave out what is masked".to_owned())
     }
 
-    /// Puts a place before that of the error.
+    /// Puts a place before the place of the error.
     fn at(self, outer: &str) -> Self {
         match self {
             Self::Refused { place, reason } => Self::Refused { place: format!("{outer}{place}"), reason },
@@ -206,7 +206,7 @@ impl Unusable {
         }
     }
 
-    /// Adds a rule to what is wrong.
+    /// Adds a rule to the reason.
     fn with(self, rule: &str) -> Self {
         match self {
             Self::Refused { place, reason } => Self::Refused { place, reason: format!("{reason}; {rule}") },
@@ -226,24 +226,24 @@ impl Unusable {
     }
 }
 
-/// Python's text of a value, if it has a short one.
+/// Python's text of a value; `None` if it is long.
 fn shown(object: &Bound<'_, PyAny>) -> Option<String> {
     let text = object.repr().ok()?.to_string();
     (text.chars().count() <= MAX_SHOWN && !text.contains('\n')).then_some(text)
 }
 
-/// Whether objects of its type have a method.
+/// True if the type of an object has a method.
 fn has_method(object: &Bound<'_, PyAny>, name: &str) -> PyResult<bool> {
     object.get_type().hasattr(name)
 }
 
-/// Refuses what NumPy would turn into numbers without a word although something is lost or no number was meant: masks,
+/// Refuses values that NumPy would convert silently although information is lost or no number was meant: masks,
 /// imaginary parts, booleans, text, times, records, None.
 ///
-/// Numbers are Python's and NumPy's integers and floats, and every other object that says by `__float__` or `__index__`
-/// that it is one: Fraction and Decimal, rounded to the nearest float.
-fn check<T: Read>(object: &Bound<'_, PyAny>, depth: usize) -> Result<(), Unusable> {
-    // Long lists hold little else.
+/// Numbers are the integers and floats of Python and NumPy, and other objects with `__float__` or `__index__`, such as
+/// Fraction and Decimal, which are rounded to the nearest float.
+fn check<T: ReadableElement>(object: &Bound<'_, PyAny>, depth: usize) -> Result<(), Unusable> {
+    // Most elements of long lists.
     if object.is_exact_instance_of::<PyFloat>() || object.is_exact_instance_of::<PyInt>() {
         return Ok(());
     }
@@ -262,7 +262,7 @@ fn check<T: Read>(object: &Bound<'_, PyAny>, depth: usize) -> Result<(), Unusabl
         return Ok(());
     }
 
-    // What holds other objects. NumPy finds one type for all elements of a list, so they are looked at one by one.
+    // Containers. NumPy chooses one type for all elements of a list, so each element is checked here.
     if depth > MAX_DEPTH {
         return Err(Unusable::here(format!("is nested more than {MAX_DEPTH} deep: {}", T::WANTED)));
     }
@@ -282,13 +282,13 @@ fn check<T: Read>(object: &Bound<'_, PyAny>, depth: usize) -> Result<(), Unusabl
     if is_number { Ok(()) } else { Err(Unusable::value(object, T::WANTED)) }
 }
 
-/// Whether an object says that it is a real number.
+/// True if an object declares itself a real number.
 fn is_number_like(object: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(has_method(object, "__float__")? || has_method(object, "__index__")?)
 }
 
-/// [`check`] of an array of NumPy, by the type of its elements.
-fn check_array<T: Read>(array: &Bound<'_, PyAny>, depth: usize) -> Result<(), Unusable> {
+/// Checks an array of NumPy by the type of its elements, as [`check`] does for other objects.
+fn check_array<T: ReadableElement>(array: &Bound<'_, PyAny>, depth: usize) -> Result<(), Unusable> {
     let kind = check_type(array, if T::COMPLEX { "fiuOc" } else { "fiuO" }, T::WANTED)?;
     check_mask(array)?;
     if kind == "O" {
@@ -300,7 +300,7 @@ fn check_array<T: Read>(array: &Bound<'_, PyAny>, depth: usize) -> Result<(), Un
     Ok(())
 }
 
-/// The letter that NumPy has for the elements' kind of type (`dtype.kind`), which has to be one of those given.
+/// Letter of NumPy for the type of the elements (`dtype.kind`), which has to be one of `kinds`.
 fn check_type(array: &Bound<'_, PyAny>, kinds: &str, wanted: &str) -> Result<String, Unusable> {
     let dtype = array.getattr("dtype")?;
     let kind: String = dtype.getattr("kind")?.extract()?;
@@ -323,14 +323,14 @@ fn check_mask(array: &Bound<'_, PyAny>) -> Result<(), Unusable> {
     Err(Unusable::masked().at(&place(&first?)))
 }
 
-/// An index as Python writes it; nothing for an array without dimensions.
+/// Index as Python writes it; empty for an array without dimensions.
 fn place(index: &[Bound<'_, PyAny>]) -> String {
     let index: Vec<String> = index.iter().map(ToString::to_string).collect();
     if index.is_empty() { String::new() } else { format!("[{}]", index.join(", ")) }
 }
 
-/// Reads an argument as an array. Here alone is decided what is a number.
-fn read<T: Read>(object: &Bound<'_, PyAny>) -> Result<ArrayD<T>, Unusable> {
+/// Reads an argument as an array. The decision which values are numbers is made here alone.
+fn read<T: ReadableElement>(object: &Bound<'_, PyAny>) -> Result<ArrayD<T>, Unusable> {
     let py = object.py();
     let is_plain = object.get_type().is(py.get_type::<PyUntypedArray>());
     if !(is_plain && object.cast::<PyArrayDyn<T>>().is_ok()) {
@@ -356,8 +356,8 @@ fn read<T: Read>(object: &Bound<'_, PyAny>) -> Result<ArrayD<T>, Unusable> {
     Ok(array.as_array().to_owned())
 }
 
-/// A value for a robot file as Python's own numbers, booleans, text and lists of them, where it is an array or a number of
-/// another library; None where it is neither.
+/// Converts an array or a number of another library to Python's own numbers, booleans, text and lists of them, for a
+/// robot file; `None` for any other value.
 pub(crate) fn as_python<'py>(
     what: &str,
     object: &Bound<'py, PyAny>,
@@ -381,7 +381,7 @@ pub(crate) fn as_python<'py>(
     read().map_err(|unusable: Unusable| unusable.named_as(what, error))
 }
 
-/// Complex numbers from Python, of any shape.
+/// Complex numbers from Python in an array of any shape.
 pub(crate) struct ComplexNumbers(Result<ArrayD<Complex64>, Unusable>);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for ComplexNumbers {
@@ -399,13 +399,13 @@ impl ComplexNumbers {
         self.0.map_err(|error| error.named(what))
     }
 
-    /// One row of numbers.
+    /// Numbers of one row.
     pub(crate) fn row(self, what: &str) -> PyResult<Vec<Complex64>> {
         one_row(self.array(what)?, what)
     }
 }
 
-/// One number from Python, real. Whatever is wrong with it is said when it is asked for by the argument's name.
+/// One real number from Python. An error is raised when the number is read with the name of its argument.
 pub(crate) struct Number(Result<f64, Unusable>);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Number {
@@ -428,7 +428,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Number {
 }
 
 impl Number {
-    /// A default of our own.
+    /// Default value of an argument.
     pub(crate) const fn of(value: f64) -> Self {
         Self(Ok(value))
     }
@@ -438,22 +438,22 @@ impl Number {
         self.0.map_err(|error| error.named(what))
     }
 
-    /// Refuses what is not positive, by the rule for requests.
+    /// The number if it is positive, by the rule for requests.
     pub(crate) fn positive(self, what: &str) -> PyResult<f64> {
         values::positive(self.value(what)?).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
     }
 
-    /// Checks as [`not_negative`].
+    /// The number if it is not negative, by the rule for requests.
     pub(crate) fn not_negative(self, what: &str) -> PyResult<f64> {
         not_negative(what, self.value(what)?)
     }
 }
 
-/// A whole number from Python: an int, or what has `__index__`; no boolean.
-pub(crate) struct Count(Result<Whole, Unusable>);
+/// Whole number from Python: an int or an object with `__index__`, but no boolean.
+pub(crate) struct Count(Result<Integer, Unusable>);
 
-/// A whole number as it was written, and its value where that is not beyond all limits.
-struct Whole {
+/// Text of a whole number, and its value if that fits.
+struct Integer {
     text: String,
     value: Option<usize>,
 }
@@ -464,7 +464,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
     const INPUT_TYPE: PyStaticExpr = <usize as FromPyObject<'a, 'py>>::INPUT_TYPE;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> Result<Self, Infallible> {
-        let whole = |object: &Bound<'py, PyAny>| {
+        let integer = |object: &Bound<'py, PyAny>| {
             let refused = || Unusable::value(object, "give a whole number");
             if object.is_instance_of::<PyBool>() || !has_method(object, "__index__")? {
                 return Err(refused());
@@ -475,26 +475,26 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
                 return Err(Unusable::masked());
             }
             let index = object.call_method0("__index__").map_err(|_| refused())?;
-            Ok(Whole { text: index.to_string(), value: index.extract().ok() })
+            Ok(Integer { text: index.to_string(), value: index.extract().ok() })
         };
-        Ok(Self(whole(&object)))
+        Ok(Self(integer(&object)))
     }
 }
 
 impl Count {
-    /// A default of our own.
+    /// Default value of an argument.
     pub(crate) fn of(value: usize) -> Self {
-        Self(Ok(Whole { text: value.to_string(), value: Some(value) }))
+        Self(Ok(Integer { text: value.to_string(), value: Some(value) }))
     }
 
-    /// The number, which has to be in a range; `rule` says in an error what to give.
+    /// The number if it lies in a range; `rule` is the remedy in the message.
     pub(crate) fn within(self, what: &str, range: RangeInclusive<usize>, rule: &str) -> PyResult<usize> {
-        let Whole { text, value } = self.0.map_err(|error| error.with(rule).named(what))?;
+        let Integer { text, value } = self.0.map_err(|error| error.with(rule).named(what))?;
         value.filter(|value| range.contains(value)).ok_or_else(|| errors::input(format!("`{what}` is {text}: {rule}")))
     }
 }
 
-/// The numbers of an array that is one row.
+/// Numbers of an array with one dimension.
 fn one_row<T: Copy>(array: ArrayD<T>, what: &str) -> PyResult<Vec<T>> {
     if array.ndim() != 1 {
         return Err(errors::input(format!("`{what}` has {} dimensions: give one row of numbers", array.ndim())));
@@ -502,8 +502,8 @@ fn one_row<T: Copy>(array: ArrayD<T>, what: &str) -> PyResult<Vec<T>> {
     Ok(array.iter().copied().collect())
 }
 
-/// Real numbers from Python, of any shape. Whatever is wrong with them is said when they are asked for by the argument's
-/// name.
+/// Real numbers from Python in an array of any shape. An error is raised when they are read with the name of their
+/// argument.
 pub(crate) struct Numbers(Result<ArrayD<f64>, Unusable>);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
@@ -521,12 +521,12 @@ impl Numbers {
         self.0.map_err(|error| error.named(what))
     }
 
-    /// One row of numbers.
+    /// Numbers of one row.
     pub(crate) fn row(self, what: &str) -> PyResult<Vec<f64>> {
         one_row(self.array(what)?, what)
     }
 
-    /// One number or one row of numbers, and whether it is one number.
+    /// One number or one row of numbers; the flag is true for one number.
     pub(crate) fn one_or_row(self, what: &str) -> PyResult<(Vec<f64>, bool)> {
         let array = self.array(what)?;
         if array.ndim() == 0 {
@@ -544,24 +544,24 @@ impl Numbers {
         Ok([x, y, z])
     }
 
-    /// Rows of numbers, with their length.
+    /// Rows of numbers in sequence, and the length of a row.
     pub(crate) fn rows(self, what: &str) -> PyResult<(Vec<f64>, usize)> {
         let array = self.array(what)?;
         let [_, columns] = *array.shape() else {
             return Err(errors::input(format!(
-                "`{what}` has {} dimensions: give an array of rows, one a state",
+                "`{what}` has {} dimensions: give an array with one row per state",
                 array.ndim()
             )));
         };
         Ok((array.iter().copied().collect(), columns))
     }
 
-    /// Frequencies, one or a row of them.
+    /// Frequencies of the argument `hz`: one or a row; the flag is true for one.
     pub(crate) fn frequencies(self) -> PyResult<(Vec<f64>, bool)> {
         self.frequencies_of("hz")
     }
 
-    /// Frequencies by the name of their argument.
+    /// Frequencies of an argument: one or a row; the flag is true for one.
     pub(crate) fn frequencies_of(self, what: &str) -> PyResult<(Vec<f64>, bool)> {
         let (frequencies, one) = self.one_or_row(what)?;
         for &hz in &frequencies {
@@ -571,19 +571,21 @@ impl Numbers {
     }
 }
 
-/// Real numbers of any shape as an array; `name` is what errors call them. For the package's own functions in Python.
+/// Makes an array of real numbers of any shape; `name` stands in errors. For functions of the package that are written
+/// in Python.
 #[pyfunction]
-pub(crate) fn real_numbers(name: &str, values: Numbers) -> PyResult<Out<f64, IxDyn>> {
-    values.array(name).map(Out)
+pub(crate) fn real_numbers(name: &str, values: Numbers) -> PyResult<OwnedArray<f64, IxDyn>> {
+    values.array(name).map(OwnedArray)
 }
 
-/// Complex numbers of any shape as an array; `name` is what errors call them. For the package's own functions in Python.
+/// Makes an array of complex numbers of any shape; `name` stands in errors. For functions of the package that are
+/// written in Python.
 #[pyfunction]
-pub(crate) fn complex_numbers(name: &str, values: ComplexNumbers) -> PyResult<Out<Complex64, IxDyn>> {
-    values.array(name).map(Out)
+pub(crate) fn complex_numbers(name: &str, values: ComplexNumbers) -> PyResult<OwnedArray<Complex64, IxDyn>> {
+    values.array(name).map(OwnedArray)
 }
 
-/// Refuses negative numbers and what is no number to compute with, by the rule for requests.
+/// The value if it is finite and not negative, by the rule for requests.
 pub(crate) fn not_negative(what: &str, value: f64) -> PyResult<f64> {
     values::not_negative(value).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
 }

@@ -1,9 +1,9 @@
-//! Many states of one robot, side by side.
+//! Equilibria of many states of one robot, computed in parallel.
 
 use crate::arrays::{Matrix, Numbers, Vector};
 use crate::equilibrium::min_stiffness;
 use crate::errors;
-use crate::interrupt::{look, on_threads};
+use crate::interrupt::{check_signals, on_threads};
 use crate::pose;
 use crate::threads::Threads;
 use funicular::cable::Sag;
@@ -11,7 +11,7 @@ use funicular::math::rotation;
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, Solution, Stability, StaticModel, TensionRule};
 use funicular_study::at_rest;
-use funicular_study::request::{State as StateOfAll, Tensions};
+use funicular_study::request::{State as SharedState, Tensions};
 use funicular_study::values;
 use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
@@ -20,8 +20,8 @@ use pyo3::types::PyDict;
 use std::convert::Infallible;
 use std::ops::Range;
 
-/// States of a block, which a thread takes at once: some milliseconds.
-const AT_ONCE: usize = 64;
+/// Number of states that a thread takes at once: some milliseconds.
+const BLOCK: usize = 64;
 
 /// `funicular.Equilibria`.
 pub(crate) struct Equilibria(Py<PyAny>);
@@ -39,7 +39,7 @@ impl<'py> IntoPyObject<'py> for Equilibria {
     }
 }
 
-/// Rows of poses or of lengths.
+/// States to solve: rows of poses or of unstrained lengths.
 pub(crate) struct States {
     poses: bool,
     flat: Vec<f64>,
@@ -71,7 +71,7 @@ impl States {
         self.flat.len() / self.columns.max(1)
     }
 
-    /// The state of a row, or why it is none.
+    /// State of a row, or the reason why the row is no state.
     fn state(&self, robot: &Robot, row: usize) -> Result<State, String> {
         let row = &self.flat[row * self.columns..(row + 1) * self.columns];
         if self.poses {
@@ -87,13 +87,13 @@ impl States {
     }
 }
 
-/// A row: what was found, or a code and a reason.
-type Row = Result<Found, (&'static str, String)>;
+/// Result of one state: its numbers, or a code and a reason.
+type StateResult = Result<StateNumbers, (&'static str, String)>;
 
-/// The numbers of an equilibrium that go into columns.
-struct Found {
+/// Numbers of one equilibrium that go into columns.
+struct StateNumbers {
     pose: [f64; 10],
-    /// Of every cable: length, tensions at platform and anchor, sag ratio.
+    /// Per cable: unstrained length, tensions at platform and anchor, sag ratio.
     cables: Vec<[f64; 4]>,
     residual: f64,
     stable: bool,
@@ -101,7 +101,7 @@ struct Found {
     distance: f64,
 }
 
-impl Found {
+impl StateNumbers {
     fn of(robot: &Robot, rest: &Solution) -> Self {
         let Solution { equilibrium, requested_pose, .. } = rest;
         let (p, rot_wp) = (&equilibrium.pose.position_w, &equilibrium.pose.rot_wp);
@@ -123,27 +123,27 @@ impl Found {
     }
 }
 
-/// What is solved for every state.
-struct Work<'a> {
+/// Problem that is solved for every state.
+struct StateSolver<'a> {
     robot: &'a Robot,
     states: &'a States,
     model: StaticModel,
     rule: Option<TensionRule>,
 }
 
-impl Work<'_> {
-    fn row(&self, robot: &mut Robot, row: usize) -> Row {
+impl StateSolver<'_> {
+    fn row(&self, robot: &mut Robot, row: usize) -> StateResult {
         robot.state = self.states.state(robot, row).map_err(|reason| ("input", reason))?;
         match statics::solve(robot, self.model, self.rule.clone()) {
-            Ok(rest) => Ok(Found::of(robot, &rest)),
+            Ok(rest) => Ok(StateNumbers::of(robot, &rest)),
             Err(error) => Err((error.code(), error.to_string())),
         }
     }
 
-    /// The rows of a block.
-    fn block(&self, index: usize) -> (Range<usize>, Vec<Row>) {
+    /// Results of a block of states.
+    fn block(&self, index: usize) -> (Range<usize>, Vec<StateResult>) {
         let mut robot = self.robot.clone();
-        let rows = index * AT_ONCE..((index + 1) * AT_ONCE).min(self.states.count());
+        let rows = index * BLOCK..((index + 1) * BLOCK).min(self.states.count());
         let found = rows.clone().map(|row| self.row(&mut robot, row)).collect();
         (rows, found)
     }
@@ -153,7 +153,7 @@ pub(crate) fn equilibria(
     py: Python<'_>,
     robot: &Robot,
     states: States,
-    state: &StateOfAll,
+    state: &SharedState,
     tensions: &Tensions,
     threads: Option<Threads>,
 ) -> PyResult<Equilibria> {
@@ -164,17 +164,17 @@ pub(crate) fn equilibria(
     let (robot, rule) = prepared().map_err(|error| errors::study(&error))?;
     let model = state.static_model;
     let mut columns = Columns::new(robot.cables.len(), states.count());
-    let work = Work { robot: &robot, states: &states, model, rule };
-    let blocks = 0..states.count().div_ceil(AT_ONCE);
+    let solver = StateSolver { robot: &robot, states: &states, model, rule };
+    let blocks = 0..states.count().div_ceil(BLOCK);
     let put = |(rows, found)| {
         columns.put(rows, found);
         Ok(())
     };
-    py.detach(|| on_threads(blocks, Threads::of(threads), |index, _| Some(work.block(index)), put, look))?;
+    py.detach(|| on_threads(blocks, Threads::of(threads), |index, _| Some(solver.block(index)), put, check_signals))?;
     columns.into_python(py, model).map(Equilibria)
 }
 
-/// The columns of the result; NaN where a row has nothing.
+/// Columns of the result; NaN in rows without an equilibrium.
 struct Columns {
     cables: usize,
     pose: [Vec<f64>; 3],
@@ -187,7 +187,7 @@ struct Columns {
     reason: Vec<String>,
 }
 
-/// Numbers of a pose in its columns: position, quaternion, angles.
+/// Places of position, quaternion and angles among the numbers of a pose.
 const POSE: [Range<usize>; 3] = [0..3, 3..7, 7..10];
 
 impl Columns {
@@ -195,7 +195,7 @@ impl Columns {
         let nan = |width: usize| vec![f64::NAN; count * width];
         Self {
             cables,
-            pose: POSE.map(|part| nan(part.len())),
+            pose: POSE.map(|places| nan(places.len())),
             of_cables: [(); 4].map(|()| nan(cables)),
             residual: nan(1),
             stable: vec![false; count],
@@ -206,14 +206,14 @@ impl Columns {
         }
     }
 
-    fn put(&mut self, rows: Range<usize>, found: Vec<Row>) {
+    fn put(&mut self, rows: Range<usize>, found: Vec<StateResult>) {
         for (row, found) in rows.zip(found) {
             match found {
                 Err((code, reason)) => (self.status[row], self.reason[row]) = (code, reason),
                 Ok(found) => {
-                    for (column, part) in self.pose.iter_mut().zip(POSE) {
-                        let width = part.len();
-                        column[row * width..(row + 1) * width].copy_from_slice(&found.pose[part]);
+                    for (column, places) in self.pose.iter_mut().zip(POSE) {
+                        let width = places.len();
+                        column[row * width..(row + 1) * width].copy_from_slice(&found.pose[places]);
                     }
                     for (i, column) in self.of_cables.iter_mut().enumerate() {
                         let here = &mut column[row * self.cables..(row + 1) * self.cables];
@@ -237,16 +237,16 @@ impl Columns {
         fields.set_item("position_m", Matrix::of_rows(position, 3))?;
         fields.set_item("quaternion_wxyz", Matrix::of_rows(quaternion, 4))?;
         fields.set_item("roll_pitch_yaw_deg", Matrix::of_rows(angles, 3))?;
-        let [lengths, tensions, anchor_tensions, sag_ratio] = self.of_cables;
-        fields.set_item("lengths", Matrix::of_rows(lengths, self.cables))?;
-        fields.set_item("tensions", Matrix::of_rows(tensions, self.cables))?;
-        fields.set_item("anchor_tensions", Matrix::of_rows(anchor_tensions, self.cables))?;
+        let [unstrained_length, tension_platform, tension_anchor, sag_ratio] = self.of_cables;
+        fields.set_item("unstrained_length_m", Matrix::of_rows(unstrained_length, self.cables))?;
+        fields.set_item("tension_platform_n", Matrix::of_rows(tension_platform, self.cables))?;
+        fields.set_item("tension_anchor_n", Matrix::of_rows(tension_anchor, self.cables))?;
         fields.set_item("sag_ratio", Matrix::of_rows(sag_ratio, self.cables))?;
         fields.set_item("residual", Vector::<f64>::from_iter(self.residual))?;
         fields.set_item("stable", Vector::<bool>::from_iter(self.stable))?;
         fields.set_item("stiffness_min_n_per_m", Vector::<f64>::from_iter(self.min_stiffness))?;
         fields.set_item("nearest_pose_distance_m", Vector::<f64>::from_iter(self.distance))?;
-        fields.set_item("model", model.name())?;
+        fields.set_item("static_model", model.name())?;
         Ok(py.import("funicular._results")?.getattr("Equilibria")?.call((), Some(&fields))?.unbind())
     }
 }

@@ -1,14 +1,14 @@
-//! One hanging cable.
+//! `funicular.Catenary`: one hanging cable.
 
-use crate::arrays::{Matrix, Number, Numbers, Reduced};
+use crate::arrays::{Matrix, Number, Numbers, PickleParts};
 use crate::errors;
 use funicular::catenary::{self, Rope};
 use pyo3::prelude::*;
 
-/// Span, rise, length, weight, stiffness.
-type Five = (f64, f64, f64, f64, f64);
+/// Span, rise, unstrained length, weight per length, axial stiffness.
+type CatenaryArguments = (f64, f64, f64, f64, f64);
 
-/// An elastic cable that hangs in its plane under its own weight; immutable.
+/// Elastic cable that hangs in its plane under its own weight; immutable.
 ///
 /// Parameters
 /// ----------
@@ -17,7 +17,7 @@ type Five = (f64, f64, f64, f64, f64);
 /// unstrained_length_m
 ///     Unstrained length [m].
 /// weight_n_per_m
-///     Weight per unstrained length [N/m]; zero is a straight cable.
+///     Weight per unstrained length [N/m]; a cable without weight is straight.
 /// axial_stiffness_n
 ///     Axial stiffness EA [N].
 #[pyclass(frozen, name = "Catenary", module = "funicular")]
@@ -61,18 +61,21 @@ impl Catenary {
         self.0.tension_at_end()
     }
 
-    /// Static stiffness of the start, end held, in plane: horizontal and vertical, 2×2 [N/m].
+    /// Static stiffness of the start in the plane with a fixed end, 2×2 [N/m]: horizontal, vertical.
     #[getter]
     fn tangent_n_per_m(&self) -> Matrix {
         Matrix::of_rows(self.0.tangent().as_flattened().to_vec(), 2)
     }
 
-    /// Points at unstrained arc lengths from the start [m]: horizontal and vertical distance from it, one row a point.
+    /// Returns the points at unstrained arc lengths from the start [m], one row per point: horizontal and vertical
+    /// distance from the start.
     fn points_m(&self, arc_length_m: Numbers) -> PyResult<Matrix> {
         let length = self.0.rope().unstrained_length;
         let arcs = arc_length_m.row("arc_length_m")?;
         if let Some(bad) = arcs.iter().find(|s| !(0.0..=length).contains(*s)) {
-            return Err(errors::input(format!("the arc length {bad} is not from 0 to {length}, the cable's")));
+            return Err(errors::input(format!(
+                "the arc length {bad} m is not from 0 to {length} m, the unstrained length of the cable"
+            )));
         }
         Ok(Matrix::of_rows(arcs.iter().flat_map(|s| self.0.point_at(*s)).collect(), 2))
     }
@@ -90,7 +93,7 @@ impl Catenary {
         format!("<Catenary: tensions {start:.6} and {end:.6} N>")
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, Five>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, CatenaryArguments>> {
         let py = slf.py();
         let of = &slf.get().0;
         let Rope { unstrained_length, weight_per_length, axial_stiffness } = of.rope();

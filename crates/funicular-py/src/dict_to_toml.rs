@@ -1,4 +1,4 @@
-//! The text of a robot file made and changed from Python, so that every check of the reader holds.
+//! Text of a robot file from a dictionary of Python, so that the checks of the reader apply.
 
 use crate::arrays;
 use crate::errors;
@@ -9,7 +9,7 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use serde_json::Value as Json;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-/// Changes of a robot file: values by their paths.
+/// Changes of a robot file from a dictionary: values by their paths.
 pub(crate) fn changes(of: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
     let change = |(path, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let path: String = path.extract()?;
@@ -19,25 +19,25 @@ pub(crate) fn changes(of: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
     of.iter().map(change).collect()
 }
 
-/// The text of a dictionary with the keys of a robot file.
+/// Text of a robot file from a dictionary with its keys.
 pub(crate) fn of_dict(of: &Bound<'_, PyDict>) -> PyResult<String> {
     let mut document = DocumentMut::new();
     fill(document.as_table_mut(), "", of, 0)?;
     Ok(document.to_string())
 }
 
-/// Refuses what holds itself.
+/// Refuses values that contain themselves.
 fn check_depth(path: &str, depth: usize) -> PyResult<()> {
-    const DEEPEST: usize = 16;
-    if depth > DEEPEST {
-        return Err(errors::change(format!("`{path}` is nested more than {DEEPEST} deep: no robot file is")));
+    const MAX_DEPTH: usize = 16;
+    if depth > MAX_DEPTH {
+        return Err(errors::change(format!("`{path}` is nested more than {MAX_DEPTH} deep: no robot file is")));
     }
     Ok(())
 }
 
 fn fill(table: &mut Table, path: &str, of: &Bound<'_, PyDict>, depth: usize) -> PyResult<()> {
     check_depth(path, depth)?;
-    // Values before tables: what follows a table's head belongs to it.
+    // Values before tables: lines after the head of a table belong to the table.
     for tables in [false, true] {
         for (key, value) in of {
             let key: String =
@@ -67,20 +67,20 @@ fn fill(table: &mut Table, path: &str, of: &Bound<'_, PyDict>, depth: usize) -> 
     Ok(())
 }
 
-/// A list of tables, of which there is at least one.
+/// List of tables with at least one table.
 fn tables_of<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyDict>>> {
     let list = value.cast::<PyList>().ok()?;
     let rows: Option<Vec<_>> = list.iter().map(|row| row.cast_into::<PyDict>().ok()).collect();
     rows.filter(|rows| !rows.is_empty())
 }
 
-/// A value of TOML.
+/// Value in TOML.
 fn value_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     let value = json_of(path, value, depth)?;
     set_values::from_json(&value).map_err(|reason| errors::change(format!("`{path}`: {reason}")))
 }
 
-/// A value of a robot file; arrays of NumPy and their numbers, too.
+/// Value of a robot file in JSON, also from arrays and numbers of NumPy.
 fn json_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Json> {
     check_depth(path, depth)?;
     if let Ok(value) = value.cast::<PyBool>() {
@@ -112,5 +112,5 @@ fn json_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Json>
         return json_of(path, &plain, depth + 1);
     }
     let kind = value.get_type().name()?.to_string();
-    Err(errors::change(format!("`{path}` is of type {kind}: a robot file holds numbers, text, and lists of them")))
+    Err(errors::change(format!("`{path}` is of type {kind}: give numbers, text, or lists of them")))
 }

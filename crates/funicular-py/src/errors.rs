@@ -1,4 +1,4 @@
-//! Errors of the crates below as the exceptions of `funicular`, with their texts in the words of Python.
+//! Exceptions of `funicular` for the errors of the other crates. A message names an option as a keyword of Python.
 
 use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::DynamicsError;
@@ -11,7 +11,7 @@ use funicular_study::wording::{Words, message, worded};
 use funicular_study::{Error, NoSolution};
 use pyo3::PyErr;
 
-/// The exceptions, which are written in Python so that they have types, pickle and can be caught by any base.
+/// Exceptions, which are written in Python: they have types, pickle, and can have several bases.
 mod python {
     pyo3::import_exception!(funicular._errors, DynamicsError);
     pyo3::import_exception!(funicular._errors, FileError);
@@ -22,20 +22,20 @@ mod python {
     pyo3::import_exception!(funicular._errors, StaticsError);
 }
 
-/// Line, column, message and help of one thing that is wrong with a robot file.
+/// Line, column, message and help of one error in a robot file.
 type Issue = (usize, usize, String, Option<String>);
 
-/// An argument that has to change.
+/// Exception for a wrong argument.
 pub(crate) fn input(text: String) -> PyErr {
     python::InputError::new_err(text)
 }
 
-/// A change of a robot file that cannot be made.
+/// Exception for a change of a robot file that cannot be made.
 pub(crate) fn change(text: String) -> PyErr {
     python::RobotFileError::new_err((text, Vec::<Issue>::new()))
 }
 
-/// Any error of the study; its kind and its cause decide the exception.
+/// Exception for an error of the study, chosen by its cause.
 pub(crate) fn study(error: &anyhow::Error) -> PyErr {
     let cause = error.downcast_ref::<Error>().map_or(error, Error::cause);
     let text = || message(cause, Words::Python);
@@ -60,7 +60,7 @@ pub(crate) fn study(error: &anyhow::Error) -> PyErr {
     input(text())
 }
 
-/// A robot file that cannot be used: its lines, and carets under what is wrong.
+/// Exception for a robot file that cannot be used, with its lines and carets under the errors.
 fn robot_file(refused: &Refused) -> PyErr {
     let Refused { name, text, error } = refused;
     let issues: Vec<Issue> = (error.issues().iter())
@@ -69,12 +69,12 @@ fn robot_file(refused: &Refused) -> PyErr {
     python::RobotFileError::new_err((error.render(name, text, false), issues))
 }
 
-/// A file of a sweep that cannot be read or written.
+/// Exception for a file of a sweep that cannot be read or written.
 pub(crate) fn files(error: &FilesError) -> PyErr {
     python::FileError::new_err(worded(&error.to_string(), Words::Python))
 }
 
-/// A file that cannot be written.
+/// Exception for a file that cannot be written.
 pub(crate) fn unwritable(text: String) -> PyErr {
     python::FileError::new_err(text)
 }

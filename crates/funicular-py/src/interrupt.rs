@@ -1,4 +1,4 @@
-//! Long work without Python's lock, given up at Ctrl-C.
+//! Long work without Python's lock, which ends at Ctrl-C.
 
 use funicular_files::threads::in_order;
 use pyo3::prelude::*;
@@ -9,17 +9,18 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Time between two looks for Ctrl-C.
-const LOOK: Duration = Duration::from_millis(50);
+/// Time between two checks for Ctrl-C.
+const INTERVAL: Duration = Duration::from_millis(50);
 
-/// Looks for Ctrl-C, from where Python's lock is not held.
+/// Checks for Ctrl-C in code that does not hold Python's lock.
 #[expect(clippy::redundant_closure_for_method_calls, reason = "the method is of one lifetime, the closure of any")]
-pub(crate) fn look() -> PyResult<()> {
+pub(crate) fn check_signals() -> PyResult<()> {
     Python::attach(|py| py.check_signals())
 }
 
-/// Does work on a thread of its own while this one looks for signals. At Ctrl-C the caller has its lock and its exception
-/// at once; the thread ends when its work is done, and nobody sees the result.
+/// Runs work on a new thread while the calling thread checks for signals.
+///
+/// At Ctrl-C the caller gets the exception at once; the thread ends when its work is done, and its result is dropped.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> T + Send + 'static,
@@ -27,13 +28,13 @@ pub(crate) fn interruptible<T: Send + 'static>(
     py.detach(|| {
         let (sender, receiver) = channel();
         let worker = thread::Builder::new().spawn(move || {
-            // Nobody listens after Ctrl-C.
+            // The receiver is gone after Ctrl-C.
             let _ = sender.send(work());
         })?;
         loop {
-            match receiver.recv_timeout(LOOK) {
+            match receiver.recv_timeout(INTERVAL) {
                 Ok(result) => return Ok(result),
-                Err(RecvTimeoutError::Timeout) => look()?,
+                Err(RecvTimeoutError::Timeout) => check_signals()?,
                 Err(RecvTimeoutError::Disconnected) => match worker.join() {
                     Err(panic) => std::panic::resume_unwind(panic),
                     Ok(()) => unreachable!("a worker that ends has sent its result"),
@@ -43,26 +44,28 @@ pub(crate) fn interruptible<T: Send + 'static>(
     })
 }
 
-/// Results that may wait between the threads and who takes them.
-const WAITING: usize = 8;
+/// Maximum number of results that wait to be taken.
+const MAX_WAITING: usize = 8;
 
-/// Computes items on threads of this call alone, and hands them over in order to this one, which looks for Ctrl-C. An error
-/// of `look` asks for the end, takes what is finished, and is the result.
+/// Computes items on new threads, and passes the results in order to `take` on the calling thread.
+///
+/// `check` runs every [`INTERVAL`]. Its error ends the work: finished results are still taken, and the error is
+/// returned.
 pub(crate) fn on_threads<T: Send>(
     items: Range<usize>,
     threads: NonZeroUsize,
     compute: impl Fn(usize, &dyn Fn() -> bool) -> Option<T> + Sync,
     mut take: impl FnMut(T) -> PyResult<()>,
-    mut look: impl FnMut() -> PyResult<()>,
+    mut check: impl FnMut() -> PyResult<()>,
 ) -> PyResult<()> {
     let cancel = AtomicBool::new(false);
     thread::scope(|scope| {
-        let (sender, receiver) = sync_channel(WAITING);
+        let (sender, receiver) = sync_channel(MAX_WAITING);
         let (cancel, compute) = (&cancel, &compute);
         let runner = scope.spawn(move || in_order(items, threads, cancel, compute, |item| sender.send(item)));
-        let ended = hand_over(&receiver, cancel, &mut take, &mut look);
+        let ended = hand_over(&receiver, cancel, &mut take, &mut check);
 
-        // Nobody takes the rest.
+        // The remaining results are not needed.
         cancel.store(true, Ordering::Relaxed);
         drop(receiver);
         match runner.join() {
@@ -72,28 +75,29 @@ pub(crate) fn on_threads<T: Send>(
     })
 }
 
-/// Hands over results as they come, until there are none or one cannot be taken: then none behind it can, either. An
-/// error of `look` asks with `cancel` for the end, takes what is finished, and is the result.
+/// Passes results to `take` in their order of arrival, until the last one or the first that cannot be taken.
+///
+/// An error of `check` sets `cancel`; finished results are still taken, and the error is returned.
 fn hand_over<T>(
     arriving: &Receiver<T>,
     cancel: &AtomicBool,
     take: &mut impl FnMut(T) -> PyResult<()>,
-    look: &mut impl FnMut() -> PyResult<()>,
+    check: &mut impl FnMut() -> PyResult<()>,
 ) -> PyResult<()> {
-    let mut looked = Instant::now();
+    let mut checked = Instant::now();
     loop {
-        match arriving.recv_timeout(LOOK) {
+        match arriving.recv_timeout(INTERVAL) {
             Ok(result) => take(result)?,
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
             Err(RecvTimeoutError::Timeout) => {}
         }
-        if looked.elapsed() < LOOK {
+        if checked.elapsed() < INTERVAL {
             continue;
         }
-        looked = Instant::now();
-        if let Err(interrupt) = look() {
+        checked = Instant::now();
+        if let Err(interrupt) = check() {
             cancel.store(true, Ordering::Relaxed);
-            // What is finished is not thrown away; if it cannot be taken, the reason to end is known already.
+            // Finished results are kept. An error of `take` is dropped here: the interrupt is reported.
             let _ = arriving.iter().try_for_each(take);
             return Err(interrupt);
         }

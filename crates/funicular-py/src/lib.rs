@@ -1,10 +1,12 @@
-//! The Python package `funicular`: the core's robots, equilibria, modes and responses as Python classes over NumPy arrays.
+//! The Python package `funicular`: the core's robots, equilibria, modes and responses as Python classes over NumPy
+//! arrays.
 //!
-//! Nothing is computed here. A method reads its arguments, calls the core without holding Python's lock, and hands over
-//! arrays that own what the core returned. What needs no core (tables, HTML, plots) is in `python/funicular`.
+//! This crate computes nothing. A method reads its arguments, calls the core without holding Python's lock, and returns
+//! arrays that own the results of the core. Tables, HTML and plots need no core and are in `python/funicular`.
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
+mod analyses;
 mod answers;
 mod arrays;
 mod batch;
@@ -23,9 +25,11 @@ mod written;
 
 use pyo3::prelude::*;
 
-/// The compiled half of `funicular`; import `funicular` instead.
+/// Compiled half of `funicular`; import `funicular` instead.
 #[pymodule]
 mod _funicular {
+    #[pymodule_export]
+    use crate::analyses::PyAnalyses;
     #[pymodule_export]
     use crate::answers::{
         answer, complete_request, imported, merge_parts, plot_page, source_file, text_of, write_file,
@@ -46,6 +50,6 @@ mod _funicular {
     use crate::vibration::peaks;
 
     #[pymodule_export]
-    #[expect(non_upper_case_globals, reason = "the name that Python gives a version")]
+    #[expect(non_upper_case_globals, reason = "Python's name of a version")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -1,6 +1,6 @@
-//! Position and orientation of the platform.
+//! `funicular.Pose`: position and orientation of the platform.
 
-use crate::arrays::{ARRAY_LIKE, Matrix, Numbers, Reduced, Vector};
+use crate::arrays::{ARRAY_LIKE, Matrix, Numbers, PickleParts, Vector};
 use crate::errors;
 use funicular::math::{Rotation, rotation};
 use funicular::robot::Pose;
@@ -14,11 +14,11 @@ use pyo3::type_object::PyTypeCheck;
 /// Parameters
 /// ----------
 /// position_m
-///     Origin of the platform frame in the world [m], three numbers.
+///     Origin of the platform frame in world axes, x, y, z [m].
 /// roll_pitch_yaw_deg
-///     Angles [degrees], R = Rz(yaw) Ry(pitch) Rx(roll); zero if not given.
+///     Roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll); zero if not given.
 /// quaternion_wxyz
-///     Instead of angles: w, x, y, z; normalised.
+///     Quaternion w, x, y, z instead of angles; it is normalised.
 #[pyclass(frozen, name = "Pose", module = "funicular")]
 pub(crate) struct PyPose(pub(crate) Pose);
 
@@ -50,7 +50,7 @@ impl PyPose {
         Ok(Self(Pose { rot_wp: signed(pose.rot_wp), ..pose }))
     }
 
-    /// Origin of the platform frame in the world, x, y, z [m].
+    /// Origin of the platform frame in world axes, x, y, z [m].
     #[getter]
     fn position_m(&self) -> Vector {
         self.0.position_w.iter().copied().collect()
@@ -68,7 +68,7 @@ impl PyPose {
         rotation::to_roll_pitch_yaw_deg(&self.0.rot_wp).into_iter().collect()
     }
 
-    /// Rotation from platform to world axes, 3×3.
+    /// Rotation matrix from platform to world axes, 3×3.
     #[getter]
     fn rotation(&self) -> Matrix {
         let rotation = self.0.rot_wp.to_rotation_matrix();
@@ -86,7 +86,7 @@ impl PyPose {
         Matrix::of_rows(rows, 4)
     }
 
-    /// Position and angles in one row, x, y, z, roll, pitch, yaw [m, degrees]: a row of `poses`.
+    /// Returns x, y, z, roll, pitch, yaw [m, degrees]: a row of `poses`.
     fn to_array(&self) -> Vector {
         self.0.position_w.iter().copied().chain(rotation::to_roll_pitch_yaw_deg(&self.0.rot_wp)).collect()
     }
@@ -96,7 +96,7 @@ impl PyPose {
     }
 
     fn __hash__(&self) -> u64 {
-        // + 0.0: zero has one hash.
+        // `+ 0.0` gives both zeros the same hash.
         self.0.position_w.iter().fold(0, |hash, x| hash.rotate_left(21) ^ (x + 0.0).to_bits())
     }
 
@@ -106,7 +106,7 @@ impl PyPose {
         format!("Pose([{:.6}, {:.6}, {:.6}], [{roll:.4}, {pitch:.4}, {yaw:.4}])", p.x, p.y, p.z)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, (Vector, Vector)>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (Vector, Vector)>> {
         let py = slf.py();
         let rebuild = py.import("funicular._rebuild")?.getattr("pose")?;
         let pose = slf.get();
@@ -124,7 +124,7 @@ impl PyPose {
 }
 
 impl PyPose {
-    /// With the sign of its quaternion that it would be printed with, so that what is printed is equal.
+    /// Makes a pose whose quaternion has w ≥ 0, as it is printed, so that equal texts are equal poses.
     pub(crate) fn of(pose: &Pose) -> Self {
         Self(Pose { rot_wp: signed(pose.rot_wp), ..*pose })
     }
@@ -134,7 +134,7 @@ fn signed(rotation: Rotation) -> Rotation {
     if rotation.quaternion().w < 0.0 { Rotation::new_unchecked(-rotation.into_inner()) } else { rotation }
 }
 
-/// A pose of x, y, z, of these and roll, pitch, yaw [degrees], or of these and a quaternion w, x, y, z.
+/// Pose from x, y, z, from x, y, z, roll, pitch, yaw [degrees], or from x, y, z and a quaternion w, x, y, z.
 pub(crate) fn of_row(row: &[f64]) -> Result<request::Pose, String> {
     match *row {
         [x, y, z] => Ok(request::Pose::Angles([x, y, z, 0.0, 0.0, 0.0])),
@@ -148,7 +148,7 @@ pub(crate) fn of_row(row: &[f64]) -> Result<request::Pose, String> {
     }
 }
 
-/// A pose, or a row of its numbers.
+/// Argument for a pose: a `Pose` or a row of its numbers.
 pub(crate) struct PoseLike(pub(crate) request::Pose);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for PoseLike {

@@ -1,4 +1,4 @@
-//! Keywords of Python as the parts of a request. What they mean together is decided in `funicular_study`.
+//! Conversion of Python's keywords to the parts of a request. `funicular_study` checks their combination.
 
 use crate::arrays::{Number, Numbers};
 use crate::errors;
@@ -7,7 +7,7 @@ use funicular_study::names::Named;
 use funicular_study::request::{Load, Model, Points, State, Tensions, Terms};
 use pyo3::prelude::*;
 
-/// A choice of its name.
+/// Choice by its name.
 pub(crate) fn named<T: Named>(keyword: &str, name: &str) -> PyResult<T> {
     T::from_name(name).map_err(|reason| errors::input(format!("`{keyword}`: {reason}")))
 }
@@ -20,7 +20,7 @@ fn three(value: Option<Numbers>, keyword: &str) -> PyResult<Option<[f64; 3]>> {
     value.map(|numbers| numbers.three(keyword)).transpose()
 }
 
-/// State and loads as Python gives them.
+/// Keywords for state and loads.
 pub(crate) struct StateKeywords<'a> {
     pub(crate) pose: Option<PoseLike>,
     pub(crate) lengths_m: Option<Numbers>,
@@ -51,7 +51,7 @@ impl StateKeywords<'_> {
     }
 }
 
-/// Rule and limits of the tensions as Python gives them.
+/// Keywords for rule and limits of the tensions.
 pub(crate) struct TensionKeywords<'a> {
     pub(crate) tension_rule: Option<&'a str>,
     pub(crate) target_tension_n: Option<Numbers>,
@@ -61,17 +61,17 @@ pub(crate) struct TensionKeywords<'a> {
 
 impl TensionKeywords<'_> {
     pub(crate) fn request(self) -> PyResult<Tensions> {
-        let wanted = self.target_tension_n.map(|wanted| wanted.one_or_row("target_tension_n")).transpose()?;
+        let target = self.target_tension_n.map(|target| target.one_or_row("target_tension_n")).transpose()?;
         Ok(Tensions {
             tension_rule: self.tension_rule.map(|name| named("tension_rule", name)).transpose()?,
-            target_tension_n: wanted.map(|(wanted, _)| wanted),
+            target_tension_n: target.map(|(target, _)| target),
             min_tension_n: number(self.min_tension_n, "min_tension_n")?,
             max_tension_n: number(self.max_tension_n, "max_tension_n")?,
         })
     }
 }
 
-/// How the robot is linearised.
+/// Models of the linearised robot.
 pub(crate) fn model(cable_model: Option<&str>, assembly: &str, in_plane_only: bool) -> PyResult<Model> {
     Ok(Model {
         cable_model: cable_model.map(|name| named("cable_model", name)).transpose()?,
@@ -84,7 +84,7 @@ pub(crate) fn terms(assembly: &str, in_plane_only: bool) -> PyResult<Terms> {
     Ok(Terms { assembly: named("assembly", assembly)?, in_plane_only })
 }
 
-/// Points of the platform where a response begins and ends.
+/// Points of the platform where a force acts and where motion is measured.
 pub(crate) fn points(input_point_m: Option<Numbers>, output_point_m: Option<Numbers>) -> PyResult<Points> {
     Ok(Points {
         input_point_m: three(input_point_m, "input_point_m")?,

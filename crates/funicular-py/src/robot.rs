@@ -1,22 +1,20 @@
-//! The robot: a text, and what the core read in it.
+//! `funicular.Robot`: the text of a robot file and the robot that the core has read from it.
 
+use crate::analyses::PyAnalyses;
 use crate::answers::{self, CtrlC};
-use crate::arrays::{Count, Keyed, Matrix, Number, Numbers, Reduced, Tensor, Vector};
+use crate::arrays::{Count, Matrix, Number, Numbers, PickleParts, TextKeyed, Vector};
 use crate::batch;
-use crate::edit;
+use crate::dict_to_toml;
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::pose::PoseLike;
 use crate::request::{StateKeywords, TensionKeywords, model};
-use crate::sweep::{self, Axes, Makes, PyPlan, Run, SweepObject, Told};
+use crate::sweep::{self, Axes, ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
 use crate::threads::Threads;
-use crate::vibration::{self, ModesKeywords, ModesObject, Pair};
-use crate::written::{self, PageKeywords, ReduceKeywords};
 use funicular::robot::{Robot, State};
 use funicular_study::analyses;
-use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest, Tensions};
+use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest};
 use funicular_study::robot_file::{self, MAX_BYTES, RobotFile};
-use numpy::Complex64;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use std::fs;
@@ -24,7 +22,7 @@ use std::io::{self, Read};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Quantities and options of every point, as Python gives them.
+/// Request for the points of a map or sweep, from the keywords of Python.
 fn each_point(
     quantities: Option<Vec<String>>,
     up_to_hz: Number,
@@ -41,31 +39,27 @@ fn each_point(
     })
 }
 
-/// A cable-driven parallel robot, read from the text of a robot file (TOML); immutable.
+/// Cable-driven parallel robot, read from the text of a robot file (TOML); immutable.
 ///
-/// Make one by `Robot.from_file`, `Robot.from_toml`, `Robot.from_dict` or `Robot.example`.
-#[pyclass(frozen, name = "Robot", module = "funicular")]
+/// Made by `Robot.from_file`, `Robot.from_toml`, `Robot.from_dict` or `Robot.example`.
+#[pyclass(frozen, extends = PyAnalyses, name = "Robot", module = "funicular")]
 pub(crate) struct PyRobot {
-    /// As a request has it.
+    /// Text and changes, as in a request.
     pub(crate) source: RobotText,
-    /// The text with its changes.
+    /// Text with its changes.
     pub(crate) text: String,
     pub(crate) robot: Arc<Robot>,
 }
 
 impl PyRobot {
-    /// In the state of its file.
-    fn at_rest(slf: Py<Self>, py: Python<'_>) -> PyResult<PyEquilibrium> {
-        PyEquilibrium::of(py, slf, requests::State::default(), Tensions::default())
-    }
-
-    fn read(source: RobotText) -> PyResult<Self> {
+    fn read(py: Python<'_>, source: RobotText) -> PyResult<Py<Self>> {
         let RobotFile { robot, text, .. } = source.read().map_err(|error| errors::study(&error))?;
-        Ok(Self { source, text, robot: Arc::new(robot) })
+        let robot = Self { source, text, robot: Arc::new(robot) };
+        Py::new(py, PyClassInitializer::from(PyAnalyses).add_subclass(robot))
     }
 
-    fn of_text(name: &str, text: String) -> PyResult<Self> {
-        Self::read(RobotText { name: name.to_owned(), text, set: Vec::new() })
+    fn of_text(py: Python<'_>, name: &str, text: String) -> PyResult<Py<Self>> {
+        Self::read(py, RobotText { name: name.to_owned(), text, set: Vec::new() })
     }
 }
 
@@ -76,11 +70,11 @@ impl PyRobot {
     /// Raises
     /// ------
     /// RobotFileError
-    ///     The file is no robot; the message shows its lines.
+    ///     The file is not a valid robot file; the message shows its lines.
     /// OSError
     ///     The file cannot be read.
     #[classmethod]
-    fn from_file(_cls: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+    fn from_file(cls: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Py<Self>> {
         let name = path.display().to_string();
         let read = || {
             let mut bytes = Vec::new();
@@ -91,7 +85,7 @@ impl PyRobot {
             io::Error::new(error.kind(), format!("cannot read the robot file {name}: {error}"))
         })?;
         let text = robot_file::decode(&name, bytes).map_err(|error| errors::change(format!("{error:#}")))?;
-        Self::of_text(&name, text)
+        Self::of_text(cls.py(), &name, text)
     }
 
     /// Reads the text of a robot file.
@@ -99,58 +93,58 @@ impl PyRobot {
     /// Raises
     /// ------
     /// RobotFileError
-    ///     The text is no robot; the message shows its lines.
+    ///     The text is not a valid robot file; the message shows its lines.
     #[classmethod]
-    fn from_toml(_cls: &Bound<'_, PyType>, text: String) -> PyResult<Self> {
-        Self::of_text("<text>", text)
+    fn from_toml(cls: &Bound<'_, PyType>, text: String) -> PyResult<Py<Self>> {
+        Self::of_text(cls.py(), "<text>", text)
     }
 
-    /// Reads a dictionary with the keys of a robot file, as `to_dict` gives it.
+    /// Reads a dictionary with the keys of a robot file, such as that of `to_dict`.
     ///
     /// Raises
     /// ------
     /// RobotFileError
-    ///     The dictionary is no robot; the message shows it as a file.
+    ///     The dictionary is not a valid robot; the message shows it as a robot file.
     #[classmethod]
-    fn from_dict(_cls: &Bound<'_, PyType>, robot: Keyed<'_>) -> PyResult<Self> {
-        Self::of_text("<dict>", dict_to_toml::of_dict(&robot.0)?)
+    fn from_dict(cls: &Bound<'_, PyType>, robot: TextKeyed<'_>) -> PyResult<Py<Self>> {
+        Self::of_text(cls.py(), "<dict>", dict_to_toml::of_dict(&robot.0)?)
     }
 
-    /// The robot that the package carries: six cables of 4 mm (Yuan, Courteille and Deblaise 2014).
+    /// Makes the robot that is part of the package: six cables of 4 mm (Yuan, Courteille and Deblaise 2014).
     #[classmethod]
-    fn example(_cls: &Bound<'_, PyType>) -> PyResult<Self> {
-        Self::read(RobotText::embedded())
+    fn example(cls: &Bound<'_, PyType>) -> PyResult<Py<Self>> {
+        Self::read(cls.py(), RobotText::embedded())
     }
 
-    /// The text of the robot file, with all changes that were made.
+    /// Returns the text of the robot file with all changes.
     fn to_toml(&self) -> &str {
         &self.text
     }
 
-    /// The robot file as a dictionary.
-    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Keyed<'py>> {
+    /// Returns the robot file as a dictionary.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         let text = self.text.trim_start_matches('\u{feff}');
-        Ok(Keyed(py.import("tomllib")?.call_method1("loads", (text,))?.cast_into()?))
+        Ok(TextKeyed(py.import("tomllib")?.call_method1("loads", (text,))?.cast_into()?))
     }
 
-    /// This robot with other values.
+    /// Makes a robot with other values; this robot stays as it is.
     ///
     /// Parameters
     /// ----------
     /// changes
-    ///     New values by their paths in the robot file, as of the program's `--set`, cables by their names:
+    ///     New values by their paths in the robot file, as in the program's `--set`; cables by their names:
     ///     `{"materials.rope-4mm.diameter_m": 0.008, "cables.3.unstrained_length_m": 6.7}`.
     /// mass_kg
-    ///     Mass of the platform [kg]; inertia and centre of mass stay.
+    ///     Mass of the platform [kg]; inertia and centre of mass do not change.
     ///
     /// Raises
     /// ------
     /// RobotFileError
-    ///     There is no such place in the file, or the value is not one for it.
+    ///     The file has no such path, or the value is wrong there.
     #[pyo3(signature = (changes=None, *, mass_kg=None))]
-    fn with_(&self, py: Python<'_>, changes: Option<Keyed<'_>>, mass_kg: Option<Number>) -> PyResult<Self> {
+    fn with_(&self, py: Python<'_>, changes: Option<TextKeyed<'_>>, mass_kg: Option<Number>) -> PyResult<Py<Self>> {
         let all = PyDict::new(py);
-        if let Some(Keyed(changes)) = changes {
+        if let Some(TextKeyed(changes)) = changes {
             all.update(changes.as_mapping())?;
         }
         if let Some(mass) = mass_kg {
@@ -158,16 +152,16 @@ impl PyRobot {
         }
         let mut source = self.source.clone();
         source.set.extend(dict_to_toml::changes(&all)?);
-        Self::read(source)
+        Self::read(py, source)
     }
 
-    /// What the robot is called.
+    /// Name of the robot.
     #[getter]
     fn name(&self) -> &str {
         &self.robot.name
     }
 
-    /// Where its numbers come from.
+    /// Source of the robot's numbers.
     #[getter]
     fn source(&self) -> &str {
         &self.robot.source
@@ -179,77 +173,78 @@ impl PyRobot {
         self.robot.platform.mass
     }
 
-    /// Which motions the platform has: `rigid`, `point-mass` or a plane.
+    /// Motion of the platform, as in the robot file: `rigid`, `point-mass`, `planar` and so on.
     #[getter]
     fn motion(&self) -> &'static str {
         self.robot.platform.motion.name()
     }
 
-    /// Names of the cables, in file order: the order of every array with one entry a cable.
+    /// Names of the cables, in the order of the file, which every array with one entry per cable has.
     #[getter]
     fn cable_names(&self) -> Vec<&str> {
         self.robot.cables.iter().map(|cable| cable.name.as_str()).collect()
     }
 
-    /// Anchors in the world [m], one row a cable.
+    /// Anchors in world axes [m], one row per cable.
     #[getter]
-    fn anchors_m(&self) -> Matrix {
+    fn anchor_m(&self) -> Matrix {
         Matrix::of_rows(
             self.robot.cables.iter().flat_map(|cable| <[f64; 3]>::from(cable.anchor.reference_w())).collect(),
             3,
         )
     }
 
-    /// Attachments in the platform frame [m], one row a cable.
+    /// Attachments in the platform frame [m], one row per cable.
     #[getter]
-    fn attachments_m(&self) -> Matrix {
+    fn attachment_m(&self) -> Matrix {
         Matrix::of_rows(self.robot.cables.iter().flat_map(|cable| cable.attachment_p.iter().copied()).collect(), 3)
     }
 
-    /// Unstrained lengths that the file gives [m], one a cable; None where it gives a pose or no state.
+    /// Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
     #[getter]
-    fn lengths(&self) -> Option<Vector> {
+    fn lengths_m(&self) -> Option<Vector> {
         match &self.robot.state {
             State::Lengths(lengths) => Some(lengths.iter().copied().collect()),
             State::Pose(_) | State::Unknown => None,
         }
     }
 
-    /// The robot at rest.
+    /// Computes the static equilibrium for a pose or for unstrained lengths.
+    ///
+    /// Without `pose` and `lengths_m` the state is that of the robot file.
     ///
     /// Parameters
     /// ----------
     /// pose
-    ///     A `Pose`, or x, y, z, or these and roll, pitch, yaw [m, degrees], or these and a quaternion w, x, y, z. The
-    ///     lengths follow; of fewer cables than degrees of freedom the nearest pose that they hold.
+    ///     A `Pose`, or x, y, z [m], or x, y, z, roll, pitch, yaw [m, degrees], or x, y, z and a quaternion w, x, y, z.
+    ///     The lengths follow. With fewer cables than degrees of freedom: the nearest pose that the cables can hold.
     /// lengths_m
-    ///     Unstrained lengths [m], one a cable, in file order. The pose follows.
-    ///     Without pose and lengths: the state of the robot file.
+    ///     Unstrained lengths [m], one per cable in the order of the file; the pose follows.
     /// static_model
-    ///     How cables carry their load: `ideal`, `spring` or `catenary`.
+    ///     How cables carry their static load: `ideal`, `spring` or `catenary`.
     /// tension_rule
-    ///     Which of the tensions that hold a pose, where more cables than degrees of freedom leave a choice: `lowest` (the default),
-    ///     `closest` (to `target_tension_n`), `middle` or `stiffest`.
+    ///     Which of the tensions that hold a pose: more cables than degrees of freedom leave a choice. `lowest` (the
+    ///     default), `closest` (to `target_tension_n`), `middle` or `stiffest`.
     /// target_tension_n
-    ///     Tensions for the rule `closest` [N], one for all or one a cable.
+    ///     Tensions to come close to with the rule `closest` [N], one for all cables or one per cable.
     /// min_tension_n, max_tension_n
-    ///     Limits of the tension anywhere in a cable [N], instead of those of the robot file.
+    ///     Minimum and maximum tension anywhere in a cable [N], instead of the limits of the robot file.
     /// mass_kg
-    ///     Mass of the platform [kg] instead of that of the robot file.
+    ///     Mass of the platform [kg], instead of the mass in the robot file.
     /// force_n, moment_n_m, load_point_m
-    ///     A dead load on the platform instead of that of the robot file: force and moment in world axes [N, N m], and the
-    ///     point where the force acts, in the platform frame [m].
+    ///     Dead load on the platform, instead of the load in the robot file: force and moment in world axes [N, N m],
+    ///     and point where the force acts in the platform frame [m].
     /// wind_m_s
-    ///     Velocity of the wind instead of that of the robot file, world axes [m/s].
+    ///     Velocity of the wind in world axes [m/s], instead of the wind in the robot file.
     /// cable_load_n_per_m
-    ///     Load per metre of every cable besides its weight, world axes [N/m].
+    ///     Load per metre of every cable besides its weight, in world axes [N/m].
     ///
     /// Raises
     /// ------
     /// StaticsError
-    ///     There is no such equilibrium; its `code` says in a word why not.
+    ///     There is no such equilibrium; `code` gives the reason as one word.
     /// InputError
-    ///     An argument means nothing.
+    ///     An argument is wrong; the message says which and what to give.
     #[pyo3(signature = (
         pose=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
@@ -272,7 +267,7 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
-    ) -> PyResult<PyEquilibrium> {
+    ) -> PyResult<Py<PyEquilibrium>> {
         let state = StateKeywords {
             pose,
             lengths_m,
@@ -285,22 +280,22 @@ impl PyRobot {
             cable_load_n_per_m,
         };
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        PyEquilibrium::of(py, slf, state.request()?, tensions.request()?)
+        PyEquilibrium::of(py, slf, state.request()?, tensions.request()?)?.into_object(py)
     }
 
-    /// The robot at rest in many states, computed side by side without Python's lock.
+    /// Computes the equilibria of many states in parallel, without Python's lock.
     ///
-    /// A state without equilibrium is a row with its reason, never an exception. Each row is, bit for bit, what
-    /// `equilibrium` gives.
+    /// A state without equilibrium is a row with its reason, never an exception. Each row has, bit for bit, the numbers
+    /// of `equilibrium`.
     ///
     /// Parameters
     /// ----------
     /// poses
-    ///     (n, 3), (n, 6) or (n, 7): x, y, z [m], roll, pitch, yaw [degrees] or a quaternion w, x, y, z.
+    ///     (n, 3), (n, 6) or (n, 7): x, y, z [m], then roll, pitch, yaw [degrees] or a quaternion w, x, y, z.
     /// lengths_m
     ///     (n, m): unstrained lengths [m] of m cables.
     /// threads
-    ///     How many threads compute; all processors if not given.
+    ///     Number of threads; one per processor if not given.
     ///
     /// The other parameters are those of `equilibrium`.
     #[pyo3(signature = (
@@ -343,52 +338,53 @@ impl PyRobot {
         batch::equilibria(py, &self.robot, states, &state.request()?, &tensions.request()?, threads)
     }
 
-    /// Quantities over poses, one row a pose.
+    /// Computes quantities over poses, one row per pose.
     ///
-    /// The rows are those of the program's `map`, bit for bit, whatever computes them. A pose without equilibrium is a row
-    /// with its reason, never an exception.
+    /// The rows are those of the program's `map`, bit for bit, with any number of threads or workers. A pose without
+    /// equilibrium is a row with its reason, never an exception.
     ///
     /// Parameters
     /// ----------
     /// grid
-    ///     Values along axes x, y, z [m], roll, pitch, yaw [degrees]: `{"x": (-4, 4, 81), "z": [0.5, 1, 2]}`; a tuple is
-    ///     first, last and how many, anything else is values. x runs fastest, then y and so on.
+    ///     Axes of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], as in `{"x": (-4, 4, 81), "z": [0.5, 1,
+    ///     2]}`. A tuple is the first value, the last value and their number; anything else is values. x varies
+    ///     fastest, then y.
     /// quantities
-    ///     What to compute, docs/sweeps.md has the list; tension-min and tension-max if not given.
+    ///     What is computed at every point; docs/sweeps.md has the list; `tension-min` and `tension-max` if not given.
     /// poses
-    ///     Instead of a grid (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+    ///     Poses instead of a grid, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     /// pose, lengths_m
-    ///     Where axes stay that the grid does not have: x, y, z [m] and roll, pitch, yaw [degrees], or unstrained lengths
-    ///     [m]. As the robot file says if not given.
+    ///     Values of the axes that the grid does not have: x, y, z [m], roll, pitch, yaw [degrees], or the pose of
+    ///     unstrained lengths [m]; the state of the robot file if not given.
     /// up_to_hz
-    ///     Where the search for natural frequencies ends [Hz].
+    ///     Limit of the search for natural frequencies [Hz].
     /// file
-    ///     Write the rows to .parquet, .csv or .vti, as a whole; until then they are in FILE.partial and survive whatever
-    ///     ends the program. Of a Parquet file nothing is in memory before it is asked for.
+    ///     File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
+    ///     holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
     /// resume, discard
-    ///     Go on with what FILE.partial holds of the same sweep, or forget it.
+    ///     Continue with the rows of the same sweep in FILE.partial, or delete them.
     /// part
-    ///     The k-th of n parts, as "3/8", each with a Parquet `file` of its own; `funicular.merge` joins them.
+    ///     Part k of n, as in "3/8"; each part has its own Parquet `file`, and `funicular.merge` joins them.
     /// threads
-    ///     How many threads compute here; all processors if not given.
+    ///     Number of threads of this process; one per processor if not given.
     /// executor
-    ///     Compute in the workers of an executor (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
-    ///     `MPIPoolExecutor`), or of a function that makes one, which is called again when it breaks.
+    ///     Executor whose workers compute (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
+    ///     `MPIPoolExecutor`), or a function that makes an executor and is called again when the executor breaks.
     /// chunks_per_task
-    ///     Chunks of rows that a worker gets at once; by default what takes some seconds, as measured on the way.
+    ///     Number of chunks of rows that a worker gets at once; chosen from measured times if not given.
     /// progress
-    ///     Is called now and then with the rows there are and all rows.
+    ///     Function that is called with the number of finished rows and the number of all rows.
     ///
     /// The other parameters are those of `equilibrium` and `modes`.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     An argument means nothing.
+    ///     An argument is wrong; the message says which and what to give.
     /// FileError
     ///     The file cannot be written, or belongs to another sweep.
     /// ExecutorError
-    ///     The executor's workers died; its `resume` goes on.
+    ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
@@ -425,9 +421,9 @@ impl PyRobot {
         discard: bool,
         part: Option<String>,
         threads: Option<Threads>,
-        executor: Option<Makes>,
+        executor: Option<ExecutorArgument>,
         chunks_per_task: Option<Count>,
-        progress: Option<Told>,
+        progress: Option<ProgressArgument>,
     ) -> PyResult<SweepObject> {
         let state = StateKeywords {
             pose,
@@ -446,16 +442,17 @@ impl PyRobot {
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
         let plan = PyPlan::of(py, request, part)?;
-        Run { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
+        RunKeywords { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
 
-    /// Quantities over values of the robot file, one row a combination, as of the program's `sweep`.
+    /// Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
     ///
     /// Parameters
     /// ----------
     /// vary
-    ///     Values by their paths in the robot file, as of `with_`: `{"platform.mass_kg": (10, 90, 81)}`; a tuple is first,
-    ///     last and how many, anything else is values. The first runs fastest.
+    ///     Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
+    ///     tuple is the first value, the last value and their number; anything else is values. The first path varies
+    ///     fastest.
     ///
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
@@ -493,9 +490,9 @@ impl PyRobot {
         discard: bool,
         part: Option<String>,
         threads: Option<Threads>,
-        executor: Option<Makes>,
+        executor: Option<ExecutorArgument>,
         chunks_per_task: Option<Count>,
-        progress: Option<Told>,
+        progress: Option<ProgressArgument>,
     ) -> PyResult<SweepObject> {
         let state = StateKeywords {
             pose,
@@ -512,31 +509,32 @@ impl PyRobot {
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
         let plan = PyPlan::of(py, request, part)?;
-        Run { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
+        RunKeywords { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
 
-    /// The robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
-    fn check<'py>(&self, py: Python<'py>) -> PyResult<Keyed<'py>> {
+    /// Returns the robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         answers::with_arrays(py, &analyses::check::run((*self.robot).clone()))
     }
 
-    /// Every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`, `range`,
-    /// `minimum`, `maximum`, `meaning` and `given`. The paths are those of `Robot.with_` and of `vary=`.
-    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Keyed<'py>> {
+    /// Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
+    /// `range`, `minimum`, `maximum`, `meaning` and `given`. `Robot.with_` and `vary=` use the same paths.
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         answers::plain(py, &analyses::parameters::run(&self.source).map_err(|error| errors::study(&error))?)
     }
 
-    /// How far the poses of spring and catenary cables are from those of ideal ones, over the mass of the platform.
+    /// Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
+    /// mass.
     ///
     /// Parameters
     /// ----------
     /// mass_kg
-    ///     First mass, last mass [kg] and number of masses.
+    ///     First mass [kg], last mass [kg] and number of masses.
     /// lengths_m
-    ///     Unstrained lengths [m], which fix the comparison; those of the robot file if not given.
+    ///     Unstrained lengths of all masses [m], one per cable; those of the robot file if not given.
     /// tolerance_mm
-    ///     Distance between spring and catenary pose from which on the spring is good enough [mm]; `threshold` then says
-    ///     from which mass on.
+    ///     Distance between spring and catenary pose below which the spring is good enough [mm]; `threshold` then gives
+    ///     the mass from which on this holds.
     ///
     /// Returns
     /// -------
@@ -548,16 +546,17 @@ impl PyRobot {
         mass_kg: (Number, Number, Count),
         lengths_m: Option<Numbers>,
         tolerance_mm: Option<Number>,
-    ) -> PyResult<Keyed<'py>> {
+    ) -> PyResult<TextKeyed<'py>> {
         let (from, to, count) = mass_kg;
-        let most = analyses::pose_error::MAX_MASSES;
-        let rule = format!("the third is how many masses there are, from 2 to {most}");
+        let max = analyses::pose_error::MAX_MASSES;
+        let rule = format!("the third is the number of masses, from 2 to {max}");
         let request = requests::PoseErrorRequest {
             robot: self.source.clone(),
-            mass_kg: (from.value("mass_kg[0]")?, to.value("mass_kg[1]")?, count.within("mass_kg[2]", 2..=most, &rule)?),
+            mass_kg: (from.value("mass_kg[0]")?, to.value("mass_kg[1]")?, count.within("mass_kg[2]", 2..=max, &rule)?),
             lengths_m: lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
             tolerance_mm: tolerance_mm.map(|tolerance| tolerance.value("tolerance_mm")).transpose()?,
         };
+
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
             analyses::pose_error::run(&self.robot, &request, &mut watch).map_err(|error| watch.or(&error))
@@ -565,214 +564,27 @@ impl PyRobot {
         answers::with_arrays(py, &found)
     }
 
-    /// The request of a command of the program for this robot: what `funicular COMMAND --print-request` prints, as
-    /// `funicular.run` takes it.
+    /// Makes the request of a command of the program for this robot, as `funicular COMMAND --print-request` prints it.
+    ///
+    /// `funicular.run` runs the request.
     ///
     /// Parameters
     /// ----------
     /// command
-    ///     Name of the command, as `statics`.
+    ///     Name of the command, such as `statics`.
     /// keywords
-    ///     The command's options by their names with _ for -, as `tension_rule="middle"`.
+    ///     Options of the command by their names with _ in place of -, such as `tension_rule="middle"`.
     #[pyo3(signature = (command: "str", **keywords: "object"))]
-    fn request<'py>(&self, py: Python<'py>, command: &str, keywords: Option<Keyed<'py>>) -> PyResult<Keyed<'py>> {
+    fn request<'py>(
+        &self,
+        py: Python<'py>,
+        command: &str,
+        keywords: Option<TextKeyed<'py>>,
+    ) -> PyResult<TextKeyed<'py>> {
         let robot = serde_json::to_string(&self.source).map_err(|error| errors::input(error.to_string()))?;
-        let keywords = keywords.map_or_else(|| PyDict::new(py), |Keyed(keywords)| keywords);
+        let keywords = keywords.map_or_else(|| PyDict::new(py), |TextKeyed(keywords)| keywords);
         let made = py.import("funicular._study")?.call_method1("request", (command, robot, keywords))?;
-        Ok(Keyed(made.cast_into()?))
-    }
-
-    /// `Equilibrium.stiffness` in the state of the robot file.
-    #[pyo3(signature = (at_hz=None, *, cable_model=None, assembly="consistent", in_plane_only=false))]
-    fn stiffness(
-        slf: Py<Self>,
-        py: Python<'_>,
-        at_hz: Option<Numbers>,
-        cable_model: Option<&str>,
-        assembly: &str,
-        in_plane_only: bool,
-    ) -> PyResult<vibration::Stiffness> {
-        vibration::stiffness(py, &Self::at_rest(slf, py)?, at_hz, cable_model, assembly, in_plane_only)
-    }
-
-    /// `Equilibrium.modes` in the state of the robot file.
-    #[pyo3(signature = (
-        below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, damped=true
-    ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    fn modes(
-        slf: Py<Self>,
-        py: Python<'_>,
-        below_hz: Number,
-        input: Option<String>,
-        output: Option<String>,
-        input_point_m: Option<Numbers>,
-        output_point_m: Option<Numbers>,
-        stations: Option<Count>,
-        cable_model: Option<&str>,
-        assembly: &str,
-        in_plane_only: bool,
-        damped: bool,
-    ) -> PyResult<ModesObject> {
-        let keywords = ModesKeywords {
-            below_hz,
-            input,
-            output,
-            input_point_m,
-            output_point_m,
-            stations,
-            cable_model,
-            assembly,
-            in_plane_only,
-            damped,
-        };
-        vibration::modes(py, &Self::at_rest(slf, py)?, keywords)
-    }
-
-    /// `Equilibrium.frf` in the state of the robot file.
-    #[pyo3(signature = (
-        hz, input, output, *, input_point_m=None, output_point_m=None, cable_model=None, assembly="consistent",
-        in_plane_only=false
-    ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    fn frf(
-        slf: Py<Self>,
-        py: Python<'_>,
-        hz: Numbers,
-        input: &str,
-        output: &str,
-        input_point_m: Option<Numbers>,
-        output_point_m: Option<Numbers>,
-        cable_model: Option<&str>,
-        assembly: &str,
-        in_plane_only: bool,
-    ) -> PyResult<Vector<Complex64>> {
-        let pair = Pair { input, output, input_point_m, output_point_m };
-        vibration::frf(py, &Self::at_rest(slf, py)?, hz, pair, cable_model, assembly, in_plane_only)
-    }
-
-    /// `Equilibrium.receptance` in the state of the robot file.
-    #[pyo3(signature = (hz, *, cable_model=None, assembly="consistent", in_plane_only=false))]
-    fn receptance(
-        slf: Py<Self>,
-        py: Python<'_>,
-        hz: Numbers,
-        cable_model: Option<&str>,
-        assembly: &str,
-        in_plane_only: bool,
-    ) -> PyResult<Tensor<Complex64>> {
-        vibration::receptance(py, &Self::at_rest(slf, py)?, hz, cable_model, assembly, in_plane_only)
-    }
-
-    /// `Equilibrium.all_equilibria` in the state of the robot file.
-    fn all_equilibria(slf: Py<Self>, py: Python<'_>) -> PyResult<Keyed<'_>> {
-        Self::at_rest(slf, py)?.all_equilibria(py)
-    }
-
-    /// `Equilibrium.compare` in the state of the robot file.
-    #[pyo3(signature = (below_hz, *, assembly="consistent", in_plane_only=false))]
-    fn compare<'py>(
-        slf: Py<Self>,
-        py: Python<'py>,
-        below_hz: Number,
-        assembly: &str,
-        in_plane_only: bool,
-    ) -> PyResult<Keyed<'py>> {
-        vibration::compare(py, &Self::at_rest(slf, py)?, below_hz, assembly, in_plane_only)
-    }
-
-    /// `Equilibrium.cable` in the state of the robot file.
-    #[pyo3(signature = (name, hz, *, cable_model=None, in_plane_only=false))]
-    fn cable<'py>(
-        slf: Py<Self>,
-        py: Python<'py>,
-        name: &str,
-        hz: Numbers,
-        cable_model: Option<&str>,
-        in_plane_only: bool,
-    ) -> PyResult<Keyed<'py>> {
-        vibration::cable(py, &Self::at_rest(slf, py)?, name, hz, cable_model, in_plane_only)
-    }
-
-    /// `Equilibrium.reduce` in the state of the robot file.
-    #[pyo3(signature = (
-        below_hz, input=None, output=None, *, input_point_m=None, output_point_m=None, tolerance=Number::of(1e-3),
-        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
-    ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    fn reduce(
-        slf: Py<Self>,
-        py: Python<'_>,
-        below_hz: Number,
-        input: Option<Vec<String>>,
-        output: Option<Vec<String>>,
-        input_point_m: Option<Numbers>,
-        output_point_m: Option<Numbers>,
-        tolerance: Number,
-        damping_at_hz: Option<Number>,
-        cable_model: Option<&str>,
-        assembly: &str,
-        in_plane_only: bool,
-    ) -> PyResult<written::ReducedObject> {
-        let keywords = ReduceKeywords {
-            below_hz,
-            input,
-            output,
-            input_point_m,
-            output_point_m,
-            tolerance,
-            damping_at_hz,
-            cable_model,
-            assembly,
-            in_plane_only,
-        };
-        written::reduce(py, &Self::at_rest(slf, py)?, keywords)
-    }
-
-    /// `Equilibrium.export` in the state of the robot file.
-    #[pyo3(signature = (to, path, *, segments=Count::of(20), modes_below_hz=None))]
-    fn export(
-        slf: Py<Self>,
-        py: Python<'_>,
-        to: &str,
-        path: PathBuf,
-        segments: Count,
-        modes_below_hz: Option<Number>,
-    ) -> PyResult<Vec<String>> {
-        written::export(py, &Self::at_rest(slf, py)?, to, path, segments, modes_below_hz)
-    }
-
-    /// `Equilibrium.report` in the state of the robot file.
-    #[pyo3(signature = (
-        path=None, *, below_hz=Number::of(20.0), input=None, output=None, input_point_m=None, output_point_m=None,
-        cable_model=None, assembly="consistent", in_plane_only=false
-    ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    fn report(
-        slf: Py<Self>,
-        py: Python<'_>,
-        path: Option<PathBuf>,
-        below_hz: Number,
-        input: Option<String>,
-        output: Option<String>,
-        input_point_m: Option<Numbers>,
-        output_point_m: Option<Numbers>,
-        cable_model: Option<&str>,
-        assembly: &str,
-        in_plane_only: bool,
-    ) -> PyResult<written::PageObject> {
-        let keywords = PageKeywords {
-            below_hz,
-            input,
-            output,
-            input_point_m,
-            output_point_m,
-            cable_model,
-            assembly,
-            in_plane_only,
-        };
-        written::report(py, &Self::at_rest(slf, py)?, path, keywords)
+        Ok(TextKeyed(made.cast_into()?))
     }
 
     fn __eq__(&self, other: &Self) -> bool {
@@ -790,10 +602,10 @@ impl PyRobot {
     }
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("funicular._html")?.call_method1("robot", (slf,))
+        slf.py().import("funicular._show")?.call_method1("html", (slf,))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, (String,)>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (String,)>> {
         let rebuild = slf.get_type().getattr("from_toml")?;
         Ok((rebuild, (slf.get().text.clone(),)))
     }

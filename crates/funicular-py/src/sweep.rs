@@ -1,13 +1,13 @@
-//! Sweeps: a plan, which pickles, its rows as they come, and the table that they end in.
+//! Maps and sweeps: the plan, which can be pickled, the collection of its rows, and the table of all rows.
 //!
-//! Which rows are computed where, and what becomes of workers that die, is Python's (`_sweeps.py`, `_executors.py`).
+//! Python distributes the rows among workers and replaces workers that die (`_runs.py`, `_executors.py`).
 
 mod arguments;
 mod plan;
 mod table;
 mod work;
 
-pub(crate) use arguments::{Axes, Makes, Told, poses};
+pub(crate) use arguments::{Axes, ExecutorArgument, ProgressArgument, poses};
 pub(crate) use plan::PyPlan;
 pub(crate) use table::PyTable;
 pub(crate) use work::PyWork;
@@ -36,19 +36,19 @@ impl<'py> IntoPyObject<'py> for SweepObject {
     }
 }
 
-/// How rows are computed and where they go.
-pub(crate) struct Run {
+/// Keywords of `map` and `sweep` for the computation and the file of the rows.
+pub(crate) struct RunKeywords {
     pub(crate) file: Option<PathBuf>,
     pub(crate) resume: bool,
     pub(crate) discard: bool,
     pub(crate) threads: Option<Threads>,
-    pub(crate) executor: Option<Makes>,
+    pub(crate) executor: Option<ExecutorArgument>,
     pub(crate) chunks_per_task: Option<Count>,
-    pub(crate) progress: Option<Told>,
+    pub(crate) progress: Option<ProgressArgument>,
 }
 
-impl Run {
-    /// All rows of a plan.
+impl RunKeywords {
+    /// Computes all rows of a plan.
     pub(crate) fn rows(self, py: Python<'_>, plan: PyPlan) -> PyResult<SweepObject> {
         let at_least_one = |count: Count| count.within("chunks_per_task", 1..=usize::MAX, "give at least one");
         let chunks_per_task = self.chunks_per_task.map(at_least_one).transpose()?;
@@ -60,7 +60,7 @@ impl Run {
         keywords.set_item("executor", self.executor.map(|executor| executor.0))?;
         keywords.set_item("chunks_per_task", chunks_per_task)?;
         keywords.set_item("progress", self.progress.map(|progress| progress.0))?;
-        let run = py.import("funicular._sweeps")?.getattr("run")?;
+        let run = py.import("funicular._runs")?.getattr("run")?;
         Ok(SweepObject(run.call((plan,), Some(&keywords))?.unbind()))
     }
 }

@@ -1,4 +1,4 @@
-//! How many threads of this process compute.
+//! Number of threads of this process that compute.
 
 use crate::arrays::Count;
 use funicular_files::threads::{self, THREADS};
@@ -6,12 +6,12 @@ use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 
-/// A number of threads from Python.
+/// Number of threads from Python.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Threads(pub(crate) NonZeroUsize);
 
 impl Threads {
-    /// One per processor if none is given.
+    /// The number given, or one thread per processor.
     pub(crate) fn of(given: Option<Self>) -> NonZeroUsize {
         threads::or_all(given.map(|Self(threads)| threads))
     }

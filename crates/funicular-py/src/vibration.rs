@@ -1,7 +1,7 @@
-//! Stiffness, modes and responses of a robot at rest.
+//! Stiffness, modes and responses of a robot at an equilibrium.
 
 use crate::answers::{self, CtrlC};
-use crate::arrays::{ComplexNumbers, Count, Keyed, Matrix, Number, Numbers, Tensor, Vector};
+use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, Tensor, TextKeyed, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
@@ -17,15 +17,15 @@ use pyo3::prelude::*;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// Frequencies between two looks for Ctrl-C: some 10 ms. A multiple of every number of lanes, so that the numbers do not
-/// depend on it.
+/// Number of frequencies between two checks for Ctrl-C: some 10 ms. It is a multiple of every number of lanes, so that
+/// results do not depend on it.
 const CHUNK: usize = 16_384;
 
 fn highest(frequencies: &[f64]) -> f64 {
     frequencies.iter().copied().fold(0.0, f64::max)
 }
 
-/// A 6×6, or many; real where nothing depends on frequency.
+/// One or many 6×6 matrices; real if nothing depends on frequency.
 pub(crate) enum Stiffness {
     Static(Matrix),
     One(Matrix<Complex64>),
@@ -51,7 +51,7 @@ impl<'py> IntoPyObject<'py> for Stiffness {
     }
 }
 
-/// Row by row; `+ 0.0` makes a negative zero positive, whose sign would mean nothing.
+/// Elements of matrices by rows; `+ 0.0` turns a negative zero, whose sign has no meaning, into a positive zero.
 fn flat(matrices: &[CMat6]) -> Vec<Complex64> {
     let mut rows = Vec::with_capacity(36 * matrices.len());
     for matrix in matrices {
@@ -111,8 +111,8 @@ pub(crate) struct ModesKeywords<'a> {
 
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
     let stations = |count: Count| {
-        let most = request::MAX_STATIONS;
-        count.within("stations", 2..=most, &format!("give a whole number from 2 to {most}"))
+        let max = request::MAX_STATIONS;
+        count.within("stations", 2..=max, &format!("give a whole number from 2 to {max}"))
     };
     let request = request::ModesRequest {
         robot: of.of.get().source.clone(),
@@ -138,7 +138,7 @@ pub(crate) fn compare<'py>(
     below_hz: Number,
     assembly: &str,
     in_plane_only: bool,
-) -> PyResult<Keyed<'py>> {
+) -> PyResult<TextKeyed<'py>> {
     let request = request::CompareRequest {
         robot: of.of.get().source.clone(),
         below_hz: below_hz.value("below_hz")?,
@@ -157,10 +157,10 @@ pub(crate) fn cable<'py>(
     hz: Numbers,
     cable_model: Option<&str>,
     in_plane_only: bool,
-) -> PyResult<Keyed<'py>> {
+) -> PyResult<TextKeyed<'py>> {
     let (frequency_hz, one) = hz.frequencies()?;
     if one || frequency_hz.is_empty() {
-        return Err(errors::input("`hz` is no row of frequencies: give a list of at least one".to_owned()));
+        return Err(errors::input("`hz` is no row of frequencies: give a list with at least one frequency".to_owned()));
     }
     let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
     let found =
@@ -168,7 +168,7 @@ pub(crate) fn cable<'py>(
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
-/// Input and output of a response, as Python gives them.
+/// Keywords for input and output of a response.
 pub(crate) struct Pair<'a> {
     pub(crate) input: &'a str,
     pub(crate) output: &'a str,
@@ -201,14 +201,14 @@ pub(crate) fn frf(
     })
 }
 
-/// Values of all frequencies, with looks for Ctrl-C.
+/// Computes values at all frequencies, with checks for Ctrl-C.
 fn in_chunks<T: Send>(
     py: Python<'_>,
     frequencies: &[f64],
     compute: impl Fn(&[f64]) -> Result<Vec<T>, response::ResponseError> + Sync + Send,
 ) -> PyResult<Vec<T>> {
     let (first, rest) = frequencies.split_at(frequencies.len().min(CHUNK));
-    // The values of the first are kept where they are: most calls have no more.
+    // The vector of the first chunk grows, so that a call with one chunk copies nothing.
     let mut values = py.detach(|| compute(first)).map_err(|error| errors::response(&error))?;
     values.reserve_exact(rest.len());
     for chunk in rest.chunks(CHUNK) {
@@ -232,20 +232,21 @@ pub(crate) fn receptance(
     let dynamics = py.detach(|| of.at_rest.dynamics(linearisation, highest(&frequencies)));
     let (dynamics, _) = dynamics.map_err(|error| errors::study(&error))?;
     let matrices = in_chunks(py, &frequencies, |chunk| response::receptances(&dynamics, chunk))?;
-    // In place: a matrix of nalgebra is its columns.
+    // No copy: nalgebra stores a matrix by columns.
     Ok(Tensor::of_six(matrices.into_iter().map(|matrix| matrix.data.0).collect()))
 }
 
-/// Peaks of a response: frequencies [Hz], heights above the valleys beside them [dB], magnitudes.
+/// Finds the peaks of a response; returns their frequencies [Hz], heights above the valleys beside them [dB] and
+/// magnitudes.
 ///
 /// Parameters
 /// ----------
 /// hz
-///     Frequencies [Hz], ascending.
+///     Frequencies [Hz] in ascending order.
 /// response
-///     What `frf` gives at them.
+///     Response at these frequencies, as `frf` returns it.
 /// prominence_db
-///     Least height of a peak above the valleys beside it [dB]; 1 if not given.
+///     Minimum height of a peak above the valleys beside it [dB]; 1 if not given.
 #[pyfunction]
 #[pyo3(signature = (hz, response, *, prominence_db=Number::of(1.0)))]
 pub(crate) fn peaks(
@@ -263,7 +264,7 @@ pub(crate) fn peaks(
         return Err(errors::input(format!("`response` is {value} at {hz} Hz: it must be finite")));
     }
     if frequencies.windows(2).any(|pair| pair[1] <= pair[0]) {
-        return Err(errors::input("`hz` does not ascend".to_owned()));
+        return Err(errors::input("`hz` does not ascend: sort the frequencies and give each of them once".to_owned()));
     }
     let found = funicular::response::peaks(&frequencies, &values, prominence_db);
     Ok((

@@ -1,4 +1,4 @@
-//! What a robot at rest becomes for other programs and people: a model for control design, a file, a page.
+//! Output of an equilibrium for other programs and people: a model for control design, a file, a page.
 
 use crate::answers::{self, in_words};
 use crate::arrays::{Count, Matrix, Number, Numbers};
@@ -159,7 +159,7 @@ pub(crate) fn report(
     Ok(PageObject(made.unbind()))
 }
 
-/// Keys of several objects as one, in JSON.
+/// Keys of several objects as one object in JSON.
 pub(crate) fn joined(parts: &[&serde_json::Result<Value>]) -> PyResult<String> {
     let mut all = Map::new();
     for part in parts {

@@ -1,4 +1,4 @@
-"""Command lines of the program as calls of Python, by one rule: an option's name with _ for - is the keyword."""
+"""Conversion of command lines to calls of Python: an option's name with _ in place of - is the keyword."""
 
 import re
 import shlex
@@ -7,16 +7,16 @@ from typing import Any
 
 import funicular
 
-# Options that say where a result goes or how it looks, and nothing of what is computed.
+# Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--model", "--resume", "--discard", "--part", "--threads"}
 # Options without a value.
 SWITCHES = {"--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"}
-# Options that may be given many times, or hold lists of names.
+# Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}}
 
 
 def commands(executable: str) -> list[str]:
-    """The program's commands."""
+    """Commands of the program."""
     told = subprocess.run([executable, "--help"], capture_output=True, text=True, check=True).stdout
     listed = told.split("Commands:")[1].split("Options:")[0]
     return [name for name in re.findall(r"^  ([a-z][a-z-]*) ", listed, re.MULTILINE) if name != "help"]
@@ -27,14 +27,14 @@ def help_of(executable: str, command: str) -> str:
 
 
 def options(executable: str, command: str) -> list[str]:
-    """Names of a command's options, without those that every command has."""
+    """Names of the options of a command, without the options of all commands."""
     told = help_of(executable, command).split("Examples:")[0]
     found = re.findall(r"^ +(?:-[a-zA-Z], )?(--[a-z0-9-]+)(?: <|$|\n)", told, re.MULTILINE)
     return [name for name in dict.fromkeys(found) if name not in ("--help", "--version", "--print-request")]
 
 
 def examples(executable: str, command: str) -> list[str]:
-    """Lines of a command in its help."""
+    """Examples in the help of a command."""
     _, _, told = help_of(executable, command).partition("Examples:\n")
     blocks = told.split("\n\n")[0]
     joined = re.sub(r"\s+", " ", blocks.replace("\\\n", " "))
@@ -51,7 +51,7 @@ def numbers(text: str) -> list[Any]:
 
 
 def steps(text: str) -> Any:
-    """Values along an axis, as the keywords `grid` and `vary` take them."""
+    """Values along an axis for the keywords `grid` and `vary`."""
     if ":" in text:
         first, last, count = text.split(":")
         return (number(first), number(last), int(count))
@@ -68,7 +68,7 @@ def value(command: str, option: str, text: str) -> Any:
 
 
 def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
-    """Command, files, keywords and values of the robot file."""
+    """Command, files, keywords and changes of the robot file of a command line."""
     words = shlex.split(line)[1:]
     command, files, keywords, changes = words[0], [], {}, {}
     keywords: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""What the tests share: the repository's robots, and the program that results are compared with."""
+"""Fixtures: the robots of the repository, and the program whose results are compared."""
 
 import json
 import os
@@ -13,10 +13,12 @@ import pytest
 
 ROOT = Path(__file__).parents[3]
 ROBOTS = ROOT / "robots"
+# The folder is also a crate, whose manifest is no robot file.
+ROBOT_FILES = sorted(path.name for path in ROBOTS.glob("*.toml") if path.name != "Cargo.toml")
 
 Program = Callable[..., dict[str, Any]]
 
-# Ctrl-C is tested: a shell that runs the tests in the background has them ignore it, and so all that they start.
+# Ctrl-C is tested, but a shell that runs the tests in the background makes them and their children ignore it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
@@ -32,13 +34,13 @@ def rest(robot: funicular.Robot) -> funicular.Equilibrium:
 
 @pytest.fixture(scope="session")
 def cogiro() -> funicular.Robot:
-    """Eight cables for six degrees of freedom."""
+    """Robot with eight cables for six degrees of freedom."""
     return funicular.Robot.from_file(ROBOTS / "cogiro.toml")
 
 
 @pytest.fixture(scope="session")
 def executable() -> str:
-    """The program, which scripts/test-python builds and names."""
+    """Path of the program, which scripts/test-python builds and names."""
     path = os.environ.get("FUNICULAR_PROGRAM")
     if not path:
         pytest.skip("FUNICULAR_PROGRAM does not name the program")
@@ -47,7 +49,7 @@ def executable() -> str:
 
 @pytest.fixture(scope="session")
 def program(executable: str) -> Program:
-    """What a command of the program answers, as JSON."""
+    """Function that runs a command of the program and returns its JSON."""
 
     def run(*arguments: object) -> dict[str, Any]:
         line = [executable, *map(str, arguments), "--format", "json"]

@@ -1,4 +1,4 @@
-"""The map of the tests by mpi4py.futures: `mpiexec -n 3 python -m mpi4py.futures mpi_script.py FILE`."""
+"""Script that computes a map by mpi4py.futures: `mpiexec -n 3 python -m mpi4py.futures mpi_script.py FILE`."""
 
 import sys
 

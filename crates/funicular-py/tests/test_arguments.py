@@ -1,4 +1,4 @@
-"""Arguments that hold no real numbers are refused by name, whatever method they are given to."""
+"""Every method refuses arguments without real numbers and names them."""
 
 import datetime
 import itertools
@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 POSE = [0.0, 0.0, 0.5]
-LENGTHS = list(funicular.Robot.example().lengths)  # type: ignore[arg-type]
+LENGTHS = list(funicular.Robot.example().lengths_m)  # type: ignore[arg-type]
 
 
 def masked(values: Any, at: Any) -> Any:
@@ -27,7 +27,7 @@ def masked(values: Any, at: Any) -> Any:
     return hidden
 
 
-# Every public argument that takes one number: how it is called in errors, and a call with it.
+# Every public argument that takes one number: its name in errors, and a call with it.
 SCALARS: list[tuple[str, Callable[[funicular.Robot, Any], object]]] = [
     ("below_hz", lambda robot, x: robot.modes(x)),
     ("below_hz", lambda robot, x: robot.equilibrium().modes(x)),
@@ -48,7 +48,7 @@ SCALARS: list[tuple[str, Callable[[funicular.Robot, Any], object]]] = [
     ("axial_stiffness_n", lambda robot, x: hanging(axial_stiffness_n=x)),
 ]
 
-# Every public argument that takes an array, with numbers that are good there.
+# Every public argument that takes an array, with valid numbers.
 ARRAYS: list[tuple[str, list[Any], Callable[[funicular.Robot, Any], object]]] = [
     ("position_m", POSE, lambda robot, x: funicular.Pose(x)),
     ("roll_pitch_yaw_deg", POSE, lambda robot, x: funicular.Pose(POSE, x)),
@@ -148,7 +148,7 @@ def test_one_number_is_finite(
 
 
 def bad_arrays(good: list[Any]) -> Iterator[tuple[str, Any]]:
-    """Arrays of the right shape that hold something else than real numbers in their last row and place."""
+    """Arrays of the right shape with something else than a real number in the last place."""
     numbers = np.array(good)
     last = tuple(size - 1 for size in numbers.shape)
 
@@ -217,7 +217,7 @@ def test_an_array_of_any_real_numbers_is_the_same(
         assert found == expected if same is None else same, type(form)
 
 
-# A state of `equilibria` that is none is a row with its reason.
+# In `equilibria` a row that is no state has a reason instead of an equilibrium.
 SINGLE = [case for i, case in enumerate(ARRAYS) if i not in (9, 10)]
 
 
@@ -264,7 +264,7 @@ def test_responses_may_be_complex_and_nothing_more() -> None:
             funicular.peaks([1, 2, 3], bad)
 
 
-# Every public argument that counts.
+# Every public argument that takes a whole number.
 COUNTS: list[tuple[str, Callable[[funicular.Robot, Any], object]]] = [
     ("points", lambda robot, n: robot.equilibrium().cable_points(n)),
     ("threads", lambda robot, n: robot.equilibria([POSE], threads=n)),

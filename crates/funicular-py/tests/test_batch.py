@@ -1,11 +1,11 @@
-"""Many states at once are the same states one by one."""
+"""Many states at once give the results of single states."""
 
 import funicular
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-SINGLE = ("lengths", "tensions", "anchor_tensions", "sag_ratio")
+SINGLE = ("unstrained_length_m", "tension_platform_n", "tension_anchor_n", "sag_ratio")
 
 
 def poses(count: int, seed: int, spread: tuple[float, ...] = (2, 1, 1.5, 20, 20, 40)) -> NDArray[np.float64]:
@@ -19,7 +19,8 @@ def assert_equals_loop(robot: funicular.Robot, rows: NDArray[np.float64], many: 
             one = robot.equilibrium(pose=row, **keywords)  # type: ignore[arg-type]
         except funicular.StaticsError as error:
             assert (many.status[i], many.reason[i]) == (error.code, str(error))
-            assert np.isnan(many.tensions[i]).all() and np.isnan(many.position_m[i]).all() and np.isnan(many.residual[i])
+            assert np.isnan(many.tension_platform_n[i]).all() and np.isnan(many.position_m[i]).all()
+            assert np.isnan(many.residual[i])
             continue
         assert many.status[i] == "ok" and many.reason[i] == ""
         for name in SINGLE:
@@ -46,11 +47,11 @@ def test_so_is_one_of_a_robot_with_a_choice_of_tensions(cogiro: funicular.Robot)
 
 
 def test_so_is_one_of_lengths(robot: funicular.Robot) -> None:
-    assert robot.lengths is not None
-    rows = robot.lengths + np.random.default_rng(1).uniform(-0.05, 0.05, (80, 6))
+    assert robot.lengths_m is not None
+    rows = robot.lengths_m + np.random.default_rng(1).uniform(-0.05, 0.05, (80, 6))
     many = robot.equilibria(lengths_m=rows)
     for i, row in enumerate(rows):
-        assert many.tensions[i].tobytes() == robot.equilibrium(lengths_m=row).tensions.tobytes()
+        assert many.tension_platform_n[i].tobytes() == robot.equilibrium(lengths_m=row).tension_platform_n.tobytes()
 
 
 def test_quaternions_are_the_angles(robot: funicular.Robot) -> None:
@@ -58,7 +59,7 @@ def test_quaternions_are_the_angles(robot: funicular.Robot) -> None:
     turned = [np.r_[row[:3], funicular.Pose(row[:3], row[3:]).quaternion_wxyz] for row in rows]
     by_angles, by_quaternion = robot.equilibria(poses=rows), robot.equilibria(poses=turned)
     assert (by_angles.status == by_quaternion.status).all()
-    assert np.allclose(by_angles.tensions, by_quaternion.tensions, rtol=1e-9, equal_nan=True)
+    assert np.allclose(by_angles.tension_platform_n, by_quaternion.tension_platform_n, rtol=1e-9, equal_nan=True)
 
 
 def test_what_is_no_state_is_a_row_with_its_reason(robot: funicular.Robot) -> None:
@@ -78,7 +79,7 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
         ({}, "one of them"),
         ({"poses": [[0, 0]]}, "rows of 2 numbers"),
         ({"poses": [0, 0, 0]}, "1 dimensions"),
-        ({"lengths_m": [7] * 6}, "give an array of rows, one a state"),
+        ({"lengths_m": [7] * 6}, "give an array with one row per state"),
         ({"poses": [[0, 0, 0.5]], "threads": 0}, "at least one"),
         ({"poses": [[0, 0, 0.5]], "threads": -1}, "at least one"),
         ({"poses": [[0, 0, 0.5]], "threads": 2**61}, "at most 1024"),
@@ -88,8 +89,8 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
             robot.equilibria(**keywords)  # type: ignore[arg-type]
 
 
-def test_a_table_has_a_row_a_state(robot: funicular.Robot) -> None:
+def test_a_table_has_one_row_per_state(robot: funicular.Robot) -> None:
     pytest.importorskip("pandas")
     table = robot.equilibria(poses=[[0, 0, 0.5], [0, 0, 50]]).to_pandas()
     assert set(table.columns) > {"residual", "stable", "stiffness_min_n_per_m", "nearest_pose_distance_m"}
-    assert table["status"].tolist() == ["ok", "negative-tension"] and table["tension_6_n"].isna().tolist() == [False, True]
+    assert table["status"].tolist() == ["ok", "negative-tension"] and table["tension_platform_6_n"].isna().tolist() == [False, True]

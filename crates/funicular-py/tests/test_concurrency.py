@@ -24,7 +24,7 @@ def test_other_threads_run_while_states_are_computed(robot: funicular.Robot) -> 
         now = time.perf_counter()
         longest, last = max(longest, now - last), now
         time.sleep(0.001)
-    # With the lock held there would be one pause, as long as all of it.
+    # If the work held the lock, there would be one pause as long as the work.
     assert longest < 0.5 * (last - began)
 
 
@@ -43,7 +43,7 @@ def test_threads_share_robots_and_results(robot: funicular.Robot, rest: funicula
 
 @pytest.mark.parametrize("method", ["fork", "spawn"])
 def test_processes_get_robots_and_give_results(method: str, robot: funicular.Robot) -> None:
-    expected = robot.equilibria(poses=POSES[:500])  # before the fork, so that nothing of it may be in its way
+    expected = robot.equilibria(poses=POSES[:500])  # before the fork: threads of the parent must not disturb the children
     with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context(method)) as pool:
         assert pool.submit(robot.equilibria, POSES[:500]).result(timeout=60) == expected
         assert pool.submit(robot.modes, 5.0).result(timeout=60) == robot.modes(5)

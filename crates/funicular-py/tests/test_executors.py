@@ -1,4 +1,4 @@
-"""Whoever computes the rows, they are the same, and none is lost with a worker."""
+"""All executors compute the same rows, and no row is lost when a worker dies."""
 
 import os
 import shutil
@@ -18,7 +18,7 @@ from funicular import _executors
 
 @pytest.fixture(scope="module")
 def local(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    """The file that one process writes."""
+    """Bytes of the file that one process writes."""
     path = tmp_path_factory.mktemp("local") / "map.parquet"
     workers.ask(funicular.Robot.example(), file=path)
     return path.read_bytes()
@@ -26,7 +26,7 @@ def local(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 @pytest.fixture
 def deadly(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """One worker kills itself; the file says that it did."""
+    """Makes one worker kill itself; the file exists after that."""
     monkeypatch.setenv("FUNICULAR_TEST_MARK", str(tmp_path / "died"))
     monkeypatch.setattr(_executors, "compute", workers.dies_once)
     return tmp_path / "died"
@@ -72,7 +72,7 @@ def test_the_error_of_a_dead_pool_goes_on_with_another(
         workers.ask(robot, file=path if in_file else None, executor=executor, chunks_per_task=3)
     assert deadly.exists()
     if in_file:
-        assert "`resume=True` goes on" in error.value.__notes__[0] and not path.read_bytes() == local
+        assert "`resume=True` continues" in error.value.__notes__[0] and not path.read_bytes() == local
     with ThreadPoolExecutor(2) as executor:
         rows = error.value.resume(executor)
     if not in_file:

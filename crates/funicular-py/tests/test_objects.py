@@ -8,9 +8,9 @@ from typing import Any
 import funicular
 import numpy as np
 import pytest
-from conftest import ROBOTS
+from conftest import ROBOT_FILES, ROBOTS
 
-ALL = sorted(path.name for path in ROBOTS.glob("*.toml"))
+ALL = ROBOT_FILES
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -46,7 +46,7 @@ def test_an_equilibrium_comes_back_from_its_pickle_and_its_copy(keywords: dict[s
         pytest.fail("the case has to have an equilibrium")
     for again in (pickle.loads(pickle.dumps(rest)), copy.copy(rest), copy.deepcopy(rest)):
         assert again == rest and hash(again) == hash(rest)
-        assert again.tensions.tobytes() == rest.tensions.tobytes() and again.robot == cogiro
+        assert again.tension_platform_n.tobytes() == rest.tension_platform_n.tobytes() and again.robot == cogiro
         assert again.to_dict() == rest.to_dict()
     assert rest != cogiro.equilibrium(pose=[1, 2, 1.4])
 
@@ -83,23 +83,23 @@ def test_a_pose_is_the_same_in_all_its_forms() -> None:
 
 
 def test_forces_of_the_cables_carry_the_platform(rest: funicular.Equilibrium) -> None:
-    assert np.allclose(rest.forces.sum(axis=0), [0, 0, 10.55 * 9.81], atol=1e-9)
-    assert np.allclose(np.linalg.norm(rest.forces, axis=1), rest.tensions, rtol=1e-13)
+    assert np.allclose(rest.force_on_platform_n.sum(axis=0), [0, 0, 10.55 * 9.81], atol=1e-9)
+    assert np.allclose(np.linalg.norm(rest.force_on_platform_n, axis=1), rest.tension_platform_n, rtol=1e-13)
     ends = rest.cable_points(2)
-    assert np.allclose(ends[:, 1], rest.robot.anchors_m, atol=1e-12)
-    assert np.allclose(ends[:, 0], rest.pose.position_m + rest.robot.attachments_m @ rest.pose.rotation.T, atol=1e-12)
+    assert np.allclose(ends[:, 1], rest.robot.anchor_m, atol=1e-12)
+    assert np.allclose(ends[:, 0], rest.pose.position_m + rest.robot.attachment_m @ rest.pose.rotation.T, atol=1e-12)
 
 
 def test_stiffness_is_the_slope_of_the_force(robot: funicular.Robot, rest: funicular.Equilibrium) -> None:
     step, push = 1e-5, 1e-2
     stiffness = rest.stiffness()
-    moved = robot.equilibrium(lengths_m=rest.lengths, force_n=[0, 0, push])
+    moved = robot.equilibrium(lengths_m=rest.unstrained_length_m, force_n=[0, 0, push])
     expected = np.linalg.solve(stiffness, [0, 0, push, 0, 0, 0])[:3]
     assert np.allclose(moved.pose.position_m - rest.pose.position_m, expected, rtol=1e-3, atol=step * 1e-4)
 
 
 def test_the_hanging_cable_is_a_catenary() -> None:
-    """Stiff enough not to stretch: H cosh(w x/H) from the lowest point, with the sag that the length gives."""
+    """A cable that hardly stretches has the tension H cosh(w x/H), with x from its lowest point."""
     weight, half, horizontal = 2.0, 5.0, 7.0
     length = 2 * horizontal / weight * np.sinh(weight * half / horizontal)
     cable = funicular.Catenary(2 * half, 0, unstrained_length_m=length, weight_n_per_m=weight, axial_stiffness_n=1e11)
@@ -220,9 +220,9 @@ def test_notebooks_show_tables_and_texts_are_short(robot: funicular.Robot, rest:
 
 
 def test_arrays_own_what_the_core_computed(rest: funicular.Equilibrium) -> None:
-    tensions = rest.tensions
+    tensions = rest.tension_platform_n
     tensions[:] = 0
-    assert rest.tensions.min() > 15, "an array is the caller's own"
+    assert rest.tension_platform_n.min() > 15, "an array is the caller's own"
     for array in (rest.frf([1.0, 2.0], "fz", "z"), rest.receptance([1.0, 2.0]), rest.stiffness(1.0)):
         assert array.flags.writeable
 

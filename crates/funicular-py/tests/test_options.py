@@ -1,4 +1,4 @@
-"""docs/python.md names what every command and every option of the program is in Python; `UPDATE_DOCS=1` writes its tables."""
+"""docs/python.md lists the Python of every command and every option; `UPDATE_DOCS=1` writes the tables."""
 
 import inspect
 import os
@@ -14,7 +14,7 @@ from funicular import Equilibrium, Robot, Sweep
 
 DOCUMENT = ROOT / "docs/python.md"
 
-# What stands for a command, and the callables whose keywords are its options.
+# Python for every command, and the callables whose keywords are the options of the command.
 COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "check": ("`robot.check()`", [Robot.check]),
     "parameters": ("`robot.parameters()`", [Robot.parameters]),
@@ -38,7 +38,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "request": ("`funicular.run(request)`", [funicular.run, Robot.map, Robot.sweep]),
 }
 
-# Options that are something else than a keyword of their name, with what they stand on; a command's own go first.
+# Options without a keyword of their name, with the object that replaces them; entries of one command go first.
 OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     (None, "--set"): ("`robot.with_({path: value})`", Robot.with_),
     (None, "--all"): ("`equilibrium.all_equilibria()`", Equilibrium.all_equilibria),
@@ -66,21 +66,23 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
 
 
 def equal(command: str, option: str) -> tuple[str, str] | None:
-    """What an option is in Python, and the callable whose keyword it is, if it is one; None where it is nothing."""
+    """Python for an option, and the callable whose keyword it is (empty for other things); None if there is none."""
     for key in ((command, option), (None, option)):
         if key in OTHERS:
             return OTHERS[key][0], ""
     keyword = option.removeprefix("--").replace("-", "_")
     for called in COMMANDS[command][1]:
         if keyword in inspect.signature(called).parameters:
-            # A method that inspect knows by its class, a function by the package.
+            # A method has the name of its class, a function that of the package.
             name = called.__qualname__ if "." in called.__qualname__ else f"funicular.{called.__name__}"
+            # `Equilibrium` and `Robot` share the methods of `Analyses`.
+            name = name.replace("Analyses.", "Equilibrium.")
             return f"`{keyword}=`", f"`{name}`"
     return None
 
 
 def tables(executable: str) -> str:
-    """Commands, then options with the commands that have them."""
+    """Tables of the commands, and of the options with their commands."""
     lines = ["| Command | Python |", "|---|---|"]
     lines += [f"| `{command}` | {COMMANDS[command][0]} |" for command in commands.commands(executable)]
     rows: dict[tuple[str, str], tuple[list[str], dict[str, None]]] = {}

@@ -1,5 +1,6 @@
-"""The package as a whole: its types, its example in README.md, its figures."""
+"""Tests of the complete package: types, imports, the example in README.md, figures."""
 
+import ast
 import os
 import re
 import subprocess
@@ -38,7 +39,7 @@ def test_the_package_itself_is_typed() -> None:
 
 
 def test_the_types_are_those_of_the_compiled_module() -> None:
-    """`scripts/test-python` generates them anew; `UPDATE_STUBS=1` keeps them."""
+    """`scripts/test-python` generates the types; `UPDATE_STUBS=1` stores them."""
     generated = os.environ.get("FUNICULAR_STUBS")
     if not generated:
         pytest.skip("FUNICULAR_STUBS does not name the folder of the generated types")
@@ -54,7 +55,7 @@ def test_the_example_of_the_readme_runs_as_it_stands(readme: Path, tmp_path: Pat
     assert len(blocks) == 1
     done = subprocess.run([sys.executable, "-c", blocks[0]], capture_output=True, text=True, cwd=tmp_path, check=False)
     assert done.returncode == 0, done.stderr
-    # Every line that prints says what in a comment.
+    # Every line that prints has its output in a comment.
     assert re.findall(r"^print\(.*\)  # (.*)$", blocks[0], re.MULTILINE) == done.stdout.splitlines() != []
 
 
@@ -108,3 +109,24 @@ def test_interactive_figures_show_them_too(rest: funicular.Equilibrium) -> None:
     assert sum(len(trace.x) for trace in funicular.plot.modes(modes, backend="plotly").data) == 147
     with pytest.raises(funicular.InputError, match="matplotlib or plotly"):
         funicular.plot.modes(modes, backend="bokeh")  # type: ignore[arg-type]
+
+
+def test_modules_import_each_other_in_one_direction() -> None:
+    """No import of the package's own modules stands in a function, and there is no circle of imports."""
+    folder = HERE.parent / "python/funicular"
+    imports: dict[str, set[str]] = {}
+    for path in folder.glob("*.py"):
+        tree = ast.parse(path.read_text())
+        nodes = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+        own = [node for node in nodes if (node.module or "").startswith("funicular")]
+        assert set(own) <= set(tree.body), f"{path.name}: an import of the package's own modules is not at the top"
+        names = [node.module.removeprefix("funicular").lstrip(".") for node in own if node.module]
+        names += [alias.name for node in own if node.module == "funicular" for alias in node.names]
+        imports[path.stem] = {name for name in names if (folder / f"{name}.py").exists()}
+    assert imports["_results"] == {"_errors", "_show"}, "results know no presentation"
+
+    order: list[str] = []
+    while len(order) < len(imports):
+        free = [name for name, needed in imports.items() if name not in order and needed <= set(order)]
+        assert free, f"a circle of imports among {sorted(set(imports) - set(order))}"
+        order += free

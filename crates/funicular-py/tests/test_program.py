@@ -1,4 +1,4 @@
-"""Values are those of the program, bit for bit: it is the same core."""
+"""Python and the program have the same core: their values are equal bit for bit."""
 
 import subprocess
 from pathlib import Path
@@ -7,9 +7,9 @@ from typing import Any
 import funicular
 import numpy as np
 import pytest
-from conftest import ROBOTS, ROOT, Program
+from conftest import ROBOT_FILES, ROBOTS, ROOT, Program
 
-ALL = sorted(path.name for path in ROBOTS.glob("*.toml"))
+ALL = ROBOT_FILES
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -32,7 +32,7 @@ def test_a_pose_with_a_rule_and_limits_is_that_of_the_program(cogiro: funicular.
     ours = cogiro.equilibrium(
         pose=[1, 2, 1.5, 0, 3, 0], tension_rule="middle", max_tension_n=2500, force_n=[0, 0, -50]
     )
-    assert [cable["tension_platform_n"] for cable in theirs["cables"]] == ours.tensions.tolist()
+    assert [cable["tension_platform_n"] for cable in theirs["cables"]] == ours.tension_platform_n.tolist()
     assert theirs["tension_rule"] == ours.tension_rule == "middle"
 
 
@@ -42,7 +42,7 @@ def test_stiffness_is_that_of_the_program(hz: float, robot: funicular.Robot, pro
     ours = robot.stiffness(hz)
     assert theirs["real"] == ours.real.tolist() and theirs["imag"] == ours.imag.tolist()
     assert (ours.dtype == float) == (hz == 0.0)
-    # a catenary-dynamic cable is resolved as finely as the highest frequency asks for.
+    # A catenary-dynamic cable is resolved as finely as the highest frequency needs.
     assert np.allclose(robot.stiffness([hz, 5.0])[0], ours, rtol=1e-9, atol=1e-6)
 
 
@@ -64,8 +64,8 @@ def test_damping_is_of_first_order_only_where_that_is_asked_for(robot: funicular
     assert np.array_equal(first.frequency_hz, exact.frequency_hz)
 
 
-# Robots with more, as many and fewer cables than degrees of freedom, planar, a point mass, of lengths and of poses; and a
-# limit [Hz] below which each has modes.
+# Redundantly, fully and under-constrained robots, a planar robot and a point mass, with lengths and with poses; each
+# has modes below the limit [Hz].
 DEFAULTS = [
     ("yuan2014-4mm", 4),
     ("cogiro", 4),
@@ -80,7 +80,7 @@ DEFAULTS = [
 @pytest.mark.parametrize("static_model", [None, "spring"])
 @pytest.mark.parametrize(("name", "below_hz"), DEFAULTS)
 def test_what_is_not_given_is_as_in_the_program(name: str, below_hz: float, static_model: str | None, program: Program) -> None:
-    """A call without options is the program's command without options, whichever state and models these stand for."""
+    """A call without keywords has the state and the models of the program's command without options."""
     path = f"robots/{name}.toml"
     options = [] if static_model is None else ["--static-model", static_model]
     robot = funicular.Robot.from_file(ROBOTS / f"{name}.toml")
@@ -109,7 +109,7 @@ def test_what_is_not_given_is_as_in_the_program(name: str, below_hz: float, stat
     peaks = [[peak[key] for peak in theirs["peaks"]] for key in ("frequency_hz", "prominence_db", "magnitude")]
     assert [column.tolist() for column in funicular.peaks(theirs["frequency_hz"], response)] == peaks
 
-    # In the state of the file the robot's own methods are those of its equilibrium.
+    # Methods of the robot give the results of its equilibrium in the state of the file.
     if static_model is None:
         assert robot.modes(below_hz) == found
         assert np.array_equal(robot.stiffness(), rest.stiffness())

@@ -1,4 +1,4 @@
-"""A call of Python and a command line of the program are the same request, and have the same results."""
+"""A call of Python and a command line of the program make the same request and have the same results."""
 
 import json
 import os
@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from conftest import ROOT
 
-# Lines for commands and options that the help texts have no example of.
+# Lines for commands and options without an example in the help texts.
 STATE = "--mass-kg 20 --force-n 1,0,-5 --moment-n-m 0,0.1,0 --load-point-m 0,0,0.1 --wind-m-s 5,0,0 --cable-load-n-per-m 0,0,-0.1"
 LENGTHS = "--lengths-m 6.9,6.6,6.8,6.7,6.8,6.6"
 MODEL = "--cable-model shallow-dynamic --assembly without-geometric-stiffness --in-plane-only"
@@ -53,18 +53,18 @@ MORE = [
 
 
 def lines() -> list[str]:
-    """Lines of the help texts and of this file; without the program the tests of them are skipped."""
+    """Lines of the help texts and of this file; without the program their tests are skipped."""
     executable = os.environ.get("FUNICULAR_PROGRAM")
     if not executable:
         return MORE
     told = [line for command in commands.commands(executable) for line in commands.examples(executable, command)]
-    # A few examples name files of the reader's own.
+    # A few examples name files of the reader.
     return [line for line in told if "robots/" in line or "docs/" in line or line == "funicular report"] + MORE
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with the repository's robots, in which the examples can be followed."""
+    """Folder with the robots of the repository, in which the examples run."""
     for name in ("robots", "docs"):
         (tmp_path / name).symlink_to(ROOT / name)
     poses = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0.5,0.25,1.5,0,1,2\n0,0,2,0,0,0\n"
@@ -111,16 +111,16 @@ def ours(line: str) -> dict[str, Any]:
 def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -> None:
     theirs, mine = asked(executable, line), ours(line)
     assert mine == theirs
-    # Numbers are as many in JSON as they are here: a request comes back as it was.
+    # JSON keeps every number: a request comes back unchanged.
     assert funicular._study._complete(json.loads(json.dumps(mine))) == mine
 
 
-# Results of these are compared; the others make pages and files, or rows, which have tests of their own.
+# Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = ("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "pose-error", "cable", "reduce")
 
 
 def plain(found: Any) -> Any:
-    """Without arrays."""
+    """Results with lists instead of arrays."""
     if isinstance(found, np.ndarray):
         if found.dtype.kind == "c":
             return {"real": found.real.tolist(), "imag": found.imag.tolist()}
@@ -148,7 +148,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         assert plain(robot.pose_error(**keywords)) == theirs
         return
     rest = robot.equilibrium(**{key: value for key, value in keywords.items() if key in STATE_KEYS})
-    # Python takes frequencies instead of a range of them, and finds peaks apart.
+    # Python takes frequencies instead of a range, and finds peaks by another function.
     of_range = {"from_hz", "to_hz", "points", "log", "prominence_db"}
     own = {key: value for key, value in keywords.items() if key not in STATE_KEYS | of_range}
     hz = theirs.get("frequency_hz")
@@ -176,7 +176,7 @@ def test_modes_have_their_parts_in_a_response_and_shapes_along_the_cables() -> N
     assert modes.cable_shapes is not None and modes.cable_shapes.shape == (len(modes), 6, 5, 3)
     assert modes.cable_axes is not None and modes.station_position_m is not None and modes.station_arc_length_m is not None
     assert np.allclose(modes.cable_axes @ modes.cable_axes.transpose(0, 2, 1), np.eye(3), atol=1e-12)
-    # The anchor is held; the other end moves with the platform.
+    # The anchor is fixed; the other end moves with the platform.
     assert np.abs(modes.cable_shapes[:, :, -1]).max() < 1e-9 * np.abs(modes.cable_shapes).max()
     rest = funicular.Robot.example().equilibrium()
     arms = modes.station_position_m[:, 0] - rest.pose.position_m
@@ -196,7 +196,7 @@ def test_a_reduced_model_has_the_frequencies_and_responses_of_the_robot(tmp_path
     hz = np.array([0.5, 1.3, 2.4])
     for i, signal in enumerate(("z", "az")):
         response = np.array([(c @ np.linalg.solve(2j * np.pi * f * np.eye(len(a)) - a, b) + d)[i, 0] for f in hz])
-        # Damping that is made viscous is right at natural frequencies alone.
+        # Damping that was made viscous is exact at natural frequencies alone.
         bound = 2 * ((model.damping_error or 0) + (model.truncation_error or 0))
         expected = rest.frf(hz, "fz", signal)
         assert np.abs(response - expected).max() < bound * np.abs(expected).max()
@@ -234,7 +234,7 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
     run(f"import {' '.join(files)} --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o theirs.toml")
     imported = funicular.import_robot(files, mass_kg_per_m=0.05, axial_stiffness_n=1e6)
     imported.write("ours.toml")
-    # Comments name options in the words of who wrote them.
+    # Comments name options as the program or as Python writes them.
     theirs = re.sub("--([a-z][a-z-]+)", lambda name: f"`{name[1].replace('-', '_')}`", Path("theirs.toml").read_text())
     assert Path("ours.toml").read_text() == theirs
     assert imported.robot.equilibrium().stable
@@ -279,7 +279,7 @@ def test_every_comparison_of_the_validation_passes() -> None:
         ({"command": "modes", "robot": {"text": "x"}}, "below_hz"),
         ({"command": "statics", "robot": {"text": ""}, "poze": 1}, "has no key `poze`; did you mean `pose`"),
         ({"command": "merge", "parts": []}, "funicular.merge"),
-        ({"command": "statics", "robot": {"text": ""}, "mass_kg": float("nan")}, "what JSON cannot"),
+        ({"command": "statics", "robot": {"text": ""}, "mass_kg": float("nan")}, "a value that JSON cannot hold"),
     ],
 )
 def test_requests_that_mean_nothing_are_explained(request_: dict[str, Any], told: str) -> None:

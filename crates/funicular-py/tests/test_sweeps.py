@@ -1,4 +1,4 @@
-"""Maps and sweeps are those of the program, byte for byte, and feel like NumPy."""
+"""Maps and sweeps have the bytes of the program's files, and their columns are NumPy arrays."""
 
 import json
 import os
@@ -94,7 +94,7 @@ def test_columns_are_those_of_equilibria(rows: funicular.Sweep, robot: funicular
     others = robot.equilibria(poses)
     assert np.array_equal(rows.feasible, others.ok) and 0 < rows.feasible.sum() < len(rows) == 27
     assert np.array_equal(np.isnan(rows["tension_max_n"]), ~others.ok)
-    expected = np.fmax(others.tensions, others.anchor_tensions).max(axis=1)
+    expected = np.fmax(others.tension_platform_n, others.tension_anchor_n).max(axis=1)
     assert np.allclose(rows["tension_max_n"], expected, rtol=1e-12, equal_nan=True)
     reasons = [reason or "" for reason in rows["reason"][~rows.feasible]]
     assert all("would need" in reason for reason in reasons)
@@ -209,8 +209,8 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
         ("map", {}, "`grid` or `poses`"),
         ("map", {"grid": {"x": 0}, "poses": [[0, 0, 0]]}, "`grid` or `poses`"),
         ("map", {"grid": {"q": 0}}, "no axis `q`"),
-        ("map", {"grid": {"x": (0, 1, 1)}}, r"`x\[2\]` is 1: the third of a tuple is how many"),
-        ("map", {"grid": {"x": (0, 1, -1)}}, r"`x\[2\]` is -1: the third of a tuple is how many"),
+        ("map", {"grid": {"x": (0, 1, 1)}}, r"`x\[2\]` is 1: the third of a tuple is the number of values"),
+        ("map", {"grid": {"x": (0, 1, -1)}}, r"`x\[2\]` is -1: the third of a tuple is the number of values"),
         ("map", {"grid": {"x": (0, 1, -(10**30))}}, r"`x\[2\]` is -1000000000000000000000000000000: the third of a tuple"),
         ("map", {"grid": {"x": (-0.1, 0.1, 5.0)}}, r"`x\[2\]` is 5.0, of type float: give a whole number; .* give a list"),
         ("map", {"grid": {"x": (-0.1, 0.1, True)}}, r"`x\[2\]` is True, of type bool: give a whole number; .* give a list"),
@@ -246,7 +246,7 @@ def test_arguments_that_mean_nothing_are_explained(
     assert "--" not in str(error.value)
 
 
-# As a full disk does it, but that one of a process can be had anywhere.
+# A limit of the file size replaces a full disk: it fails in the same way and can be set on every machine.
 FULL = """
 import resource, sys
 import funicular, workers

@@ -1,4 +1,4 @@
-"""A user's script, as mypy --strict has to take it; it runs, too."""
+"""Script of a user: it runs, and `mypy --strict` accepts it."""
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -29,7 +29,7 @@ def main() -> None:
     print([first_frequency(robot, float(height)) for height in heights])
 
     rest = robot.equilibrium(funicular.Pose([0, 0, 0.5], [0, 2, 0]), tension_rule=None)
-    tensions: NDArray[np.float64] = rest.tensions
+    tensions: NDArray[np.float64] = rest.tension_platform_n
     pose: funicular.Pose = rest.pose
     stable: bool | None = rest.stable
     warnings: list[str] = rest.warnings
@@ -42,7 +42,7 @@ def main() -> None:
 
     states: funicular.Equilibria = robot.equilibria(poses=np.c_[np.zeros((3, 2)), heights])
     feasible: NDArray[np.bool_] = states.ok
-    print(states.tensions[feasible], states.reason)
+    print(states.tension_platform_n[feasible], states.reason)
 
     with ThreadPoolExecutor(2) as executor:
         rows: funicular.Sweep = robot.map(

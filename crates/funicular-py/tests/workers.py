@@ -1,4 +1,4 @@
-"""Workers that die: functions and executors that the tests of executors share."""
+"""Functions and executors with workers that die, for the tests of executors."""
 
 import os
 import signal
@@ -12,7 +12,7 @@ compute = _executors.compute
 
 
 def dies_once(plan: object, first: int, end: int) -> tuple[bytes, float]:
-    """`compute`, killed at chunk 20 the first time that any process comes there."""
+    """Computes as `compute`, but the first process that reaches chunk 20 kills itself."""
     mark = Path(os.environ["FUNICULAR_TEST_MARK"])
     if first <= 20 < end and not mark.exists():
         mark.touch()
@@ -25,12 +25,12 @@ def pool() -> ProcessPoolExecutor:
 
 
 def ask(robot: funicular.Robot, **keywords: object) -> funicular.Sweep:
-    """68 chunks of a row, of which some have no equilibrium."""
+    """Computes 68 chunks of one row; some rows have no equilibrium."""
     grid = {"x": (-4, 4, 17), "y": (-2, 2, 4), "z": [0.5]}
     return robot.map(grid, quantities=["tension-max", "first-frequency"], **keywords)  # type: ignore[arg-type]
 
 
-# Rows of `ask_long`, which take a second or more: long beside the time between two calls of `progress`.
+# Number of rows of `ask_long`. They take a second or more, much longer than the time between two calls of `progress`.
 LONG = 40 * 40 * 25
 
 

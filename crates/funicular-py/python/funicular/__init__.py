@@ -1,17 +1,21 @@
 """Statics and vibration of cable-driven parallel robots whose cables sag.
 
-A `Robot` is read from a file; `Robot.equilibrium` is where it rests, and everything else is asked of that: stiffness,
-natural frequencies, frequency responses. SI units, the unit of a value in its name; angles in degrees,
-R = Rz(yaw) Ry(pitch) Rx(roll); forces, motion and 6×6 matrices about the platform origin, in world axes.
+A `Robot` is read from a file, and `Robot.equilibrium` computes its static equilibrium. Stiffness, natural frequencies
+and frequency responses are methods of the equilibrium. Values are in SI units, and the unit stands in the name of a
+value. Angles are in degrees, R = Rz(yaw) Ry(pitch) Rx(roll). Forces, motion and 6×6 matrices are about the platform
+origin, in world axes.
 
 >>> import funicular
 >>> rest = funicular.Robot.example().equilibrium()
->>> rest.tensions.round(3)
+>>> rest.tension_platform_n.round(3)
 array([17.685, 36.926, 39.89 , 15.636, 50.443, 52.549])
 >>> rest.modes(below_hz=2).frequency_hz.round(4)
 array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 """
 
+from funicular import _earlier_names as _earlier_names
+from funicular import _html as _html
+from funicular import _tables as _tables
 from funicular._errors import (
     DynamicsError,
     Error,
@@ -23,13 +27,14 @@ from funicular._errors import (
     StaticsError,
 )
 from funicular._executors import ExecutorError
-from funicular._funicular import Catenary, Equilibrium, Pose, Robot, __version__, peaks
+from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel
 from funicular._study import Exported, Imported, import_robot, merge, paper, run, validate
 from funicular._sweeps import Sweep
 
 __all__ = [
+    "Analyses",
     "Catenary",
     "DynamicsError",
     "Equilibria",

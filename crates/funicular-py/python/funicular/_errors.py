@@ -1,22 +1,22 @@
-"""Exceptions. Their texts are the program's: the value, the limit, and what to do."""
+"""Exceptions. They carry the same messages as the program: value, limit and remedy."""
 
 from typing import NamedTuple
 
 
 class Error(Exception):
-    """Whatever funicular has to say against a request."""
+    """Base of all exceptions of funicular."""
 
     __module__ = "funicular"
 
 
 class InputError(Error, ValueError):
-    """An argument that has to change."""
+    """An argument is wrong; the message says which and what to give."""
 
     __module__ = "funicular"
 
 
 class Issue(NamedTuple):
-    """One thing that is wrong with a robot file."""
+    """One error in a robot file, with its place."""
 
     line: int
     column: int
@@ -25,12 +25,12 @@ class Issue(NamedTuple):
 
 
 class RobotFileError(Error, ValueError):
-    """A robot file that cannot be used; the message shows its lines, with carets under what is wrong."""
+    """A robot file cannot be used; the message shows its lines with carets under the errors."""
 
     __module__ = "funicular"
 
     issues: list[Issue]
-    """What is wrong, in the order of the file."""
+    """Errors, in the order of the file."""
 
     def __init__(self, message: str, issues: list[tuple[int, int, str, str | None]] | None = None) -> None:
         super().__init__(message)
@@ -38,12 +38,12 @@ class RobotFileError(Error, ValueError):
 
 
 class StaticsError(Error):
-    """There is no such equilibrium, or none was found."""
+    """No such equilibrium exists, or none was found."""
 
     __module__ = "funicular"
 
     code: str
-    """Why not, in a word that does not change; the `status` of a row of `Equilibria`."""
+    """Reason as one word that stays the same between versions; also the `status` of a row of `Equilibria`."""
 
     def __init__(self, message: str, code: str = "") -> None:
         super().__init__(message)
@@ -51,24 +51,24 @@ class StaticsError(Error):
 
 
 class DynamicsError(Error):
-    """The robot cannot be linearised as asked."""
+    """The robot cannot be linearised with the requested models."""
 
     __module__ = "funicular"
 
 
 class ResponseError(Error):
-    """There is no finite response."""
+    """The response is not finite."""
 
     __module__ = "funicular"
 
 
 class NoSolutionError(Error):
-    """Nothing is wrong with the request, and there is no such result."""
+    """The request is correct, but it has no result."""
 
     __module__ = "funicular"
 
 
 class FileError(Error):
-    """A file that cannot be written, or a file of a sweep that cannot be read or belongs to another sweep."""
+    """A file cannot be written, or a file of a sweep cannot be read or belongs to another sweep."""
 
     __module__ = "funicular"

@@ -1,4 +1,4 @@
-"""Chunks of rows computed by the workers of an executor, whatever becomes of them."""
+"""Computation of the chunks of a sweep by the workers of an executor; workers may die."""
 
 import contextlib
 import math
@@ -7,51 +7,47 @@ import time
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from funicular._errors import Error
 from funicular._funicular import SweepPlan, SweepTable, SweepWork
+from funicular._sweeps import Sweep
 
-if TYPE_CHECKING:
-    from funicular._sweeps import Sweep
+# Target duration of a task [s]: long compared with the transport to a worker and back, but its loss does not matter.
+_TASK_SECONDS = 2.0
+# Number of submitted tasks per worker: with two, no worker waits for its next task.
+_TASKS_AHEAD = 2
+# Maximum number of finished tasks per worker that wait for an earlier one.
+_MAX_WAITING = 32
+# Maximum number of attempts for a task, and of executors that finish no task.
+_MAX_TRIES = 3
+# Maximum time without a check of the executor [s].
+_POLL_SECONDS = 0.5
 
-# What a task should take [s]: long beside the way to a worker and back, short beside what anyone minds to lose.
-_SECONDS = 2.0
-# Tasks for each worker, so that none waits for its next.
-_AHEAD = 2
-# Finished tasks for each worker that may wait for an earlier one.
-_WAITING = 32
-# How often a task is tried, and an executor made anew, with nothing gained.
-_TRIES = 3
-# Time between two looks at the executor [s].
-_LOOK = 0.5
-
-Makes = Executor | Callable[[], Executor]
+ExecutorSource = Executor | Callable[[], Executor]
 
 
 class Task(NamedTuple):
-    """Chunks from the first to before the end."""
+    """Chunks from `first` (included) to `end` (excluded)."""
 
     first: int
     end: int
 
 
 class ExecutorError(Error):
-    """Workers died, or could not begin, more often than it makes sense to try.
+    """Workers died or could not start, several times in a row.
 
-    Nothing that was finished is lost: `resume` goes on in the same process, `resume=True` with the same `file` in another.
+    Finished rows are kept: `resume` continues in the same process, `resume=True` with the same `file` in another.
     """
 
     __module__ = "funicular"
 
-    def __init__(self, message: str, shared: "Shared | None" = None) -> None:
+    def __init__(self, message: str, shared: "SharedSweep | None" = None) -> None:
         super().__init__(message)
         self._shared = shared
 
-    def resume(self, executor: Makes) -> "Sweep":
-        """Goes on with another executor."""
-        from funicular._sweeps import Sweep
-
+    def resume(self, executor: ExecutorSource) -> Sweep:
+        """Continues with another executor."""
         if self._shared is None:
             raise ValueError("a copy of this error has no rows: resume from the one that was raised")
         return Sweep(self._shared.run(executor), self._shared.file)
@@ -61,23 +57,23 @@ class ExecutorError(Error):
 
 
 def compute(plan: SweepPlan, first: int, end: int) -> tuple[bytes, float]:
-    """What a worker does: chunks as bytes, and how long it took [s]."""
+    """Computes chunks in a worker; returns their bytes and the time taken [s]."""
     began = time.perf_counter()
     return plan.compute(first, end), time.perf_counter() - began
 
 
-def note_what_is_safe(error: BaseException, work: SweepWork) -> None:
-    """Ends it early; says in the exception what is safe."""
+def note_safe_rows(error: BaseException, work: SweepWork) -> None:
+    """Ends the work early and notes in the exception which rows are safe."""
     try:
         safe = work.interrupt()
     except (Error, ValueError):
-        return  # It has ended, or the exception at hand says more.
+        return  # The work has ended already, or the first exception says more.
     if safe is not None:
         error.add_note(safe)
 
 
 def _workers(executor: Executor) -> int:
-    """How many tasks an executor runs at once; there is no common way to ask."""
+    """Number of tasks that an executor runs at once; executors have no common attribute for it."""
     for name in ("num_workers", "_max_workers"):
         count = getattr(executor, name, None)
         if isinstance(count, int) and count > 0:
@@ -92,16 +88,16 @@ def _shut_down(executor: Executor, wait: bool) -> None:
     try:
         executor.shutdown(wait=wait, cancel_futures=True)
     except TypeError:
-        # Dask's does not have it, and cancels without being asked if it is not to wait.
+        # Dask's executor has no such argument; it cancels pending tasks if it does not wait.
         executor.shutdown(wait=wait)
 
 
 class _Broken(Exception):
-    """An executor that takes no tasks any more."""
+    """Executor that accepts no more tasks."""
 
 
-class Shared:
-    """A sweep that is shared among workers: tasks that are finished, and those that are still to do."""
+class SharedSweep:
+    """Sweep that is shared among workers: its finished tasks and its open tasks."""
 
     def __init__(
         self,
@@ -114,38 +110,39 @@ class Shared:
         self.plan, self.file, self.chunks_per_task, self.progress = plan, file, chunks_per_task, progress
         self.work: SweepWork | None = work
         self.fresh = work.next_chunk
-        # Finished, but an earlier one is not.
+        # Finished tasks that wait for an earlier one.
         self.waiting: dict[int, tuple[Task, bytes]] = {}
         self.again: list[Task] = []
         self.chunks_done = self.fresh
         self.failures: dict[Task, int] = {}
         self.seconds_per_chunk: float | None = None
 
-    def run(self, executor: Makes) -> SweepTable | None:
-        """All that is missing; the table of rows, if it is not in a Parquet file."""
+    def run(self, executor: ExecutorSource) -> SweepTable | None:
+        """Computes all missing chunks; returns the table of rows, or None if a Parquet file has it."""
         self._reopen()
         assert self.work is not None
         try:
             self._run(executor)
             return self.work.finish()
         except BaseException as error:
-            # In memory the work stays open for `ExecutorError.resume`; a file is closed, so that others can go on with it.
+            # In memory the work stays open for `ExecutorError.resume`. A file is closed, so that other processes can
+            # continue it.
             with contextlib.suppress(Error, ValueError):
                 self._deliver()
             if self.file is not None:
-                note_what_is_safe(error, self.work)
+                note_safe_rows(error, self.work)
                 self.work = None
             raise
 
     def _reopen(self) -> None:
-        """Goes on with a file that was closed; what waits in memory still fits."""
+        """Continues a file that was closed; finished tasks in memory still fit."""
         if self.work is None:
             self.work = self.plan.begin(self.file, True, False)
             if self.work is None:
                 raise ExecutorError(f"{self.file} was finished by another run: read it")
             begun = self.work.next_chunk
             self.waiting = {first: kept for first, kept in self.waiting.items() if first >= begun}
-            # What is neither in the file nor here, whichever way it was lost.
+            # Chunks that are neither in the file nor in memory are computed again.
             known = [task for task, _ in self.waiting.values()]
             self.again, at = [], begun
             for task in sorted([*known, Task(max(self.fresh, begun), self.plan.chunks)]):
@@ -156,8 +153,8 @@ class Shared:
             self.chunks_done = begun + sum(task.end - task.first for task in known)
         self.failures.clear()
 
-    def _run(self, executor: Makes) -> None:
-        # A class has the method, too, but makes what has it.
+    def _run(self, executor: ExecutorSource) -> None:
+        # A class also has the method `submit`, but it makes executors.
         made_here = isinstance(executor, type) or not hasattr(executor, "submit")
         in_vain = 0
         while True:
@@ -169,7 +166,7 @@ class Shared:
                 return
             except _Broken as broken:
                 in_vain = in_vain + 1 if self.chunks_done == before else 0
-                if not made_here or in_vain >= _TRIES:
+                if not made_here or in_vain >= _MAX_TRIES:
                     raise self._error(broken.__cause__) from broken.__cause__
             finally:
                 if made_here:
@@ -179,8 +176,8 @@ class Shared:
         rows = min((self.chunks_done - self.plan.first_chunk) * self.plan.chunk_rows, self.plan.rows)
         return ExecutorError(
             f"the executor's workers fail ({type(cause).__name__}: {cause}); {rows} of {self.plan.rows} rows are kept: "
-            "`resume(executor)` of this exception goes on with another executor; a function that makes executors as "
-            "`executor` goes on by itself",
+            "call `resume(executor)` of this exception to continue with another executor, or give as `executor` a "
+            "function that makes executors, which is called again after a failure",
             self,
         )
 
@@ -192,12 +189,12 @@ class Shared:
         try:
             while self.work.next_chunk < self.plan.chunks:
                 self._submit(pool, workers, running)
-                done, _ = wait(running, timeout=_LOOK, return_when=FIRST_COMPLETED)
+                done, _ = wait(running, timeout=_POLL_SECONDS, return_when=FIRST_COMPLETED)
                 for future in done:
                     self._settle(future, running.pop(future))
                 self._deliver()
         finally:
-            # What others have finished meanwhile counts; what they have not is to be done again.
+            # Tasks that have finished meanwhile are kept; all others are to be computed again.
             for future, task in running.items():
                 if future.done() and not future.cancelled() and future.exception() is None:
                     self._keep(task, *future.result())
@@ -206,8 +203,9 @@ class Shared:
                     self.again.append(task)
 
     def _submit(self, pool: Executor, workers: int, running: dict[Future[tuple[bytes, float]], Task]) -> None:
-        most = workers if self.seconds_per_chunk is None and self.chunks_per_task is None else _AHEAD * workers
-        while len(running) < most:
+        untimed = self.seconds_per_chunk is None and self.chunks_per_task is None
+        max_running = workers if untimed else _TASKS_AHEAD * workers
+        while len(running) < max_running:
             task = self._next(workers)
             if task is None:
                 return
@@ -219,28 +217,28 @@ class Shared:
 
     def _next(self, workers: int) -> Task | None:
         if self.again:
-            # The earliest, which all others wait for.
+            # The earliest task: all others wait for it.
             self.again.sort(reverse=True)
             return self.again.pop()
         left = self.plan.chunks - self.fresh
-        if left == 0 or len(self.waiting) > _WAITING * workers:
+        if left == 0 or len(self.waiting) > _MAX_WAITING * workers:
             return None
         count = self.chunks_per_task
         if count is None:
-            # At the end smaller ones, so that all workers end together.
-            fair = math.ceil(left / (_AHEAD * workers))
-            count = 1 if self.seconds_per_chunk is None else min(fair, int(_SECONDS / self.seconds_per_chunk))
+            # Smaller tasks at the end, so that all workers end together.
+            fair = math.ceil(left / (_TASKS_AHEAD * workers))
+            count = 1 if self.seconds_per_chunk is None else min(fair, int(_TASK_SECONDS / self.seconds_per_chunk))
         task = Task(self.fresh, self.fresh + max(1, min(count, left)))
         self.fresh = task.end
         return task
 
     def _settle(self, future: Future[tuple[bytes, float]], task: Task) -> None:
-        """Takes what a worker has finished, or puts the task back."""
+        """Keeps the result of a finished task, or puts the task back."""
         try:
             self._keep(task, *future.result())
         except Error:
             self.again.append(task)
-            raise  # Of the sweep itself: it would be the same anywhere.
+            raise  # An error of the sweep itself would occur in every worker.
         except BrokenExecutor as error:
             self.again.append(task)
             raise _Broken from error
@@ -250,7 +248,7 @@ class Shared:
         except BaseException as error:
             self.again.append(task)
             self.failures[task] = self.failures.get(task, 0) + 1
-            if self.failures[task] >= _TRIES:
+            if self.failures[task] >= _MAX_TRIES:
                 raise self._error(error) from error
 
     def _keep(self, task: Task, chunks: bytes, seconds: float) -> None:

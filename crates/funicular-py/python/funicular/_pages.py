@@ -1,4 +1,4 @@
-"""Pages in HTML, which are one file that opens offline."""
+"""Pages in HTML; each is one file that opens offline."""
 
 import json
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ class Page:
     """A page in HTML; notebooks show it."""
 
     html: str
-    """The page: one file with its figures, its numbers and the library that draws them."""
+    """Text of the page, with its figures, its numbers and the library that draws them."""
     warnings: tuple[str, ...]
-    """What to know before trusting it; it stands on the page, too."""
+    """Caveats, which also stand on the page."""
 
     def write(self, path: str | PathLike[str]) -> None:
-        """Writes the page, as a whole or not at all."""
+        """Writes the page; the file is complete or absent."""
         write_file(Path(path), self.html)
 
     def __repr__(self) -> str:
@@ -31,7 +31,7 @@ class Page:
 
 
 def page(html: str, warnings: list[str], path: str | PathLike[str] | None = None) -> Page:
-    """A page, which is written if there is a path."""
+    """Makes a page, and writes it if a path is given."""
     made = Page(html, tuple(warnings))
     if path is not None:
         made.write(path)
@@ -39,7 +39,7 @@ def page(html: str, warnings: list[str], path: str | PathLike[str] | None = None
 
 
 def report_call(state: str, request: str) -> str:
-    """What makes a report again; state and request are JSON."""
+    """Code that makes a report again; state and request are JSON."""
     given = json.loads(state)
     own = {key: value for key, value in json.loads(request).items() if key != "robot" and key not in given}
     return f"robot.equilibrium({_keywords(given)}).report({_keywords(own)})"

@@ -1,14 +1,14 @@
-"""What pickles are made of: results are computed again from what they were asked with, which is less and exact."""
+"""Functions that pickles of compiled classes call.
+
+A pickle contains the request of a result, which is small and exact; the result is computed again from it.
+"""
 
 import json
-import tempfile
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from funicular._funicular import Catenary, Equilibrium, Pose, Robot, SweepTable
-from funicular._sweeps import Sweep
+from funicular._funicular import Catenary, Equilibrium, Pose, Robot
 
 
 def pose(position_m: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) -> Pose:
@@ -27,10 +27,3 @@ def catenary(span: float, rise: float, length: float, weight: float, stiffness: 
     return Catenary(
         span, rise, unstrained_length_m=length, weight_n_per_m=weight, axial_stiffness_n=stiffness
     )
-
-
-def sweep(parquet: bytes) -> Sweep:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "sweep.parquet"
-        path.write_bytes(parquet)
-        return Sweep(SweepTable.read(path))

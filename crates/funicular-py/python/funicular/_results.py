@@ -1,4 +1,4 @@
-"""Results as plain NumPy arrays, made of the keys of the program's JSON."""
+"""Results as NumPy arrays, made from the keys of the program's JSON."""
 
 import copy
 import dataclasses
@@ -10,9 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from funicular import _show
+from funicular._errors import InputError
+
 
 def with_arrays(found: Any) -> Any:
-    """Results with arrays for lists of numbers, and complex arrays for pairs of `real` and `imag`."""
+    """Replaces lists of numbers by arrays, and pairs of `real` and `imag` by complex arrays."""
     if isinstance(found, dict):
         if found.keys() == {"real", "imag"}:
             return np.array(found["real"]) + 1j * np.array(found["imag"])
@@ -25,14 +28,14 @@ def with_arrays(found: Any) -> Any:
 
 
 def _are_numbers(values: list[Any]) -> bool:
-    """Whether these are numbers, or rows of numbers of one length."""
+    """True for numbers, and for rows of numbers of one length."""
     if all(isinstance(value, list) for value in values):
         return len({len(value) for value in values}) == 1 and all(value and _are_numbers(value) for value in values)
     return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
 
 
-class _Columns:
-    """Equality of arrays, where a dataclass would compare their elements."""
+class _ArrayFields:
+    """Base of dataclasses with arrays: two results are equal if all elements of their arrays are equal."""
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -52,67 +55,75 @@ def _same(a: Any, b: Any) -> bool:
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Modes(_Columns):
-    """Natural modes below a limit; arrays have one row a mode, ascending in frequency."""
+class Modes(_ArrayFields):
+    """Natural modes below a limit; arrays have one row per mode, ascending in frequency."""
 
     frequency_hz: NDArray[np.float64]
-    """Natural frequency, undamped [Hz]; as often as its multiplicity says."""
+    """Undamped natural frequency [Hz]; a multiple frequency stands once per mode."""
     multiplicity: NDArray[np.int64]
-    """How many modes share the frequency."""
+    """Number of modes that share the frequency."""
     damping_ratio: NDArray[np.float64]
-    """Of the damped partner; to first order in the damping where `damped=False` was asked for."""
+    """Damping ratio ζ of the damped partner; with `damped=False` to first order in the damping."""
     eigenvalue_per_s: NDArray[np.complex128] | None
-    """λ = −ζω + iω√(1 − ζ²) of the damped partner; None where `damped=False` was asked for."""
+    """λ = −ζω + iω√(1 − ζ²) of the damped partner [1/s]; None with `damped=False`."""
     kind: NDArray[np.str_]
-    """Whose vibration it is, by kinetic energy: platform, cable or mixed."""
+    """Vibration of the `platform`, of a `cable`, or `mixed`, by kinetic energy."""
     platform_energy_fraction: NDArray[np.float64]
     """Kinetic energy of the platform over that of the robot."""
     cable_energy_fractions: NDArray[np.float64]
     """Kinetic energy of each cable over that of the robot, (modes, cables)."""
     shape: NDArray[np.float64]
-    """Motion of the platform, translation and rotation about its origin, world axes, (modes, 6); its largest component is
-    1, rotations times the platform's length. Zero if the platform is at rest."""
+    """Motion of the platform, translation and rotation about its origin, world axes, (modes, 6).
+
+    Its maximum component is 1, with rotations times the platform's length. Zero if the platform does not move."""
     modal_mass_kg: NDArray[np.float64]
-    """Mass that moves with `shape`."""
+    """Modal mass in the scale of `shape` [kg]."""
     residual: NDArray[np.float64]
-    """Twice the relative change of the frequency that another step of its search would make."""
+    """Twice the relative change of the frequency in one more step of its search."""
     below_hz: float
-    """The limit [Hz]."""
+    """Limit of the frequencies [Hz]."""
     count_below: int
-    """How many there are, by the Wittrick–Williams count."""
+    """Number of modes below the limit, by the Wittrick–Williams count."""
     certified: bool
-    """The list has as many modes as the count, and every one is accurate."""
+    """True if the list has as many modes as the count and every mode is accurate."""
     unstable_directions: int
-    """Directions without a frequency, in which the equilibrium is unstable; they are in the count."""
+    """Number of directions in which the equilibrium is unstable; they have no frequency, but are in the count."""
     damped_certified: bool | None
-    """Whether every mode has its damped partner, counted; None where `damped=False` was asked for."""
+    """True if every mode has its damped partner, by a count; None with `damped=False`."""
     cable_names: tuple[str, ...]
+    """Names of the cables, in the order of the file."""
     robot: str
+    """Name of the robot."""
     static_model: str
+    """How cables carry their static load."""
     cable_model: str
+    """How cables answer motion of the platform."""
     assembly: str
+    """Terms of the stiffness."""
     in_plane_only: bool
+    """True if the stiffness of cables out of their planes is left out."""
     input: str | None
-    """Input of the response in which the modes take part; None if none was given."""
+    """Input signal of the response in which the modes take part; None if none was given."""
     output: str | None
-    """Output of that response."""
+    """Output signal of that response; None if none was given."""
     residue_per_kg: NDArray[np.float64] | None
-    """Residue of every mode in that response."""
+    """Residue of every mode in that response [1/kg]."""
     peak: NDArray[np.float64] | None
-    """Height of every mode's own peak; NaN for a mode without damping."""
+    """Height of the peak of every mode, in `peak_unit`; NaN for a mode without damping."""
     peak_unit: str | None
+    """Unit of `peak`."""
     station_arc_length_m: NDArray[np.float64] | None
-    """Where along the unstrained cables displacements are known [m], (cables, stations); None without `stations`."""
+    """Unstrained arc lengths of the stations [m], (cables, stations); None without `stations`."""
     station_position_m: NDArray[np.float64] | None
-    """Where these points are at rest, world axes [m], (cables, stations, 3)."""
+    """Positions of the stations at the equilibrium, world axes [m], (cables, stations, 3)."""
     cable_axes: NDArray[np.float64] | None
     """Unit vectors along the chord, in plane and out of plane of every cable, world axes, (cables, 3, 3)."""
     cable_shapes: NDArray[np.float64] | None
-    """Displacements of these points along `cable_axes` in the scale of `shape`, (modes, cables, stations, 3)."""
+    """Displacements of the stations along `cable_axes` in the scale of `shape`, (modes, cables, stations, 3)."""
     warnings: tuple[str, ...]
-    """What to know before trusting the result."""
+    """Caveats of the result."""
     found: dict[str, Any]
-    """The result with the keys of the program's JSON."""
+    """Results with the keys of the program's JSON."""
 
     def __len__(self) -> int:
         return len(self.frequency_hz)
@@ -122,23 +133,19 @@ class Modes(_Columns):
         return f"<Modes: {listed} below {self.below_hz:g} Hz, {'' if self.certified else 'NOT '}certified>"
 
     def _repr_html_(self) -> str:
-        from funicular import _html
-
-        return _html.modes(self)
+        return _show.html(self)
 
     def to_dict(self) -> dict[str, Any]:
-        """The result with the keys of the program's JSON."""
+        """Returns a dictionary with the keys of the program's JSON."""
         return copy.deepcopy(self.found)
 
     def to_pandas(self) -> Any:
-        """One row a mode, as a table of pandas, which has to be installed."""
-        from funicular import _tables
-
-        return _tables.modes_table(self)
+        """Makes a table of pandas with one row per mode; pandas has to be installed."""
+        return _show.table(self)
 
 
 def modes(found: dict[str, Any]) -> Modes:
-    """The columns of a list of modes."""
+    """Makes `Modes` from the results of the program."""
     rows, stations = found["modes"], found.get("stations")
     cables = found["cable_names"]
 
@@ -185,20 +192,20 @@ def modes(found: dict[str, Any]) -> Modes:
         cable_shapes=shapes,
         warnings=tuple(found["warnings"]),
         found=found,
-        **{key: found[key] for key in _SAME},
+        **{key: found[key] for key in _COMMON_KEYS},
     )
 
 
-# Keys of the results that are attributes of `Modes` as they are.
-_SAME = (
+# Keys of the results that become attributes of `Modes` without conversion.
+_COMMON_KEYS = (
     *("below_hz", "count_below", "certified", "unstable_directions"),
     *("robot", "static_model", "cable_model", "assembly", "in_plane_only"),
 )
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class ReducedModel(_Columns):
-    """A second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`."""
+class ReducedModel(_ArrayFields):
+    """Second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`."""
 
     mass: NDArray[np.float64]
     """M, (n, n)."""
@@ -209,38 +216,41 @@ class ReducedModel(_Columns):
     input: NDArray[np.float64]
     """B, (n, inputs)."""
     output: NDArray[np.float64]
-    """L, (outputs, n): displacements and rotations, whatever an output measures of its motion."""
+    """L, (outputs, n): displacements and rotations, also for outputs that measure velocities or accelerations."""
     a: NDArray[np.float64]
+    """A of the state space x' = A x + B f, y = C x + D f, whose state is motion and velocity."""
     b: NDArray[np.float64]
+    """B of the state space."""
     c: NDArray[np.float64]
+    """C of the state space."""
     d: NDArray[np.float64]
-    """Matrices of x' = A x + B f, y = C x + D f, the state being motion and velocity."""
+    """D of the state space."""
     inputs: tuple[str, ...]
     """Names of the inputs."""
     outputs: tuple[str, ...]
     """Names of the outputs."""
     below_hz: float
-    """Highest frequency that it is for [Hz]."""
+    """Highest frequency for which the model is made [Hz]."""
     frequency_error: float
-    """Largest relative error of a natural frequency below the limit."""
+    """Maximum relative error of a natural frequency below the limit."""
     truncation_error: float | None
-    """Largest relative error of the responses by modes left out; None where an undamped robot has none."""
+    """Maximum relative error of the responses by modes left out; None for an undamped robot."""
     damping_error: float | None
-    """Largest relative error of the responses by viscous damping; None where an undamped robot has none."""
+    """Maximum relative error of the responses by viscous damping; None for an undamped robot."""
     found: dict[str, Any]
-    """Its description with the keys of the program's JSON: units, coordinates, models."""
+    """Description with the keys of the program's JSON: units, coordinates, models."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What to know before trusting the model."""
+        """Caveats of the model."""
         return tuple(self.found["warnings"])
 
     def state_space(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """A, B, C, D of x' = A x + B f, y = C x + D f."""
+        """Returns A, B, C, D of x' = A x + B f, y = C x + D f."""
         return self.a, self.b, self.c, self.d
 
     def to_scipy(self) -> Any:
-        """The model as `scipy.signal.StateSpace`; SciPy has to be installed."""
+        """Makes a `scipy.signal.StateSpace`; SciPy has to be installed."""
         try:
             from scipy import signal
         except ImportError as error:
@@ -248,7 +258,7 @@ class ReducedModel(_Columns):
         return signal.StateSpace(*self.state_space())
 
     def to_control(self) -> Any:
-        """The model as `control.StateSpace` with named inputs and outputs; python-control has to be installed."""
+        """Makes a `control.StateSpace` with named inputs and outputs; python-control has to be installed."""
         try:
             import control
         except ImportError as error:
@@ -257,8 +267,6 @@ class ReducedModel(_Columns):
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the matrices to a NumPy archive (.npz) with the names of the program's `--model`."""
-        from funicular._errors import InputError
-
         if Path(path).suffix.lower() != ".npz":
             raise InputError(f"`path` is {path}: it must end in .npz")
         np.savez(
@@ -275,7 +283,7 @@ class ReducedModel(_Columns):
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """The description with the keys of the program's JSON."""
+        """Returns the description with the keys of the program's JSON."""
         return copy.deepcopy(self.found)
 
     def __repr__(self) -> str:
@@ -284,7 +292,7 @@ class ReducedModel(_Columns):
 
 
 def reduced(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]]) -> ReducedModel:
-    """A model of its description and its matrices."""
+    """Makes a model from its description and its matrices."""
     return ReducedModel(
         inputs=tuple(of["name"] for of in found["inputs"]),
         outputs=tuple(of["name"] for of in found["outputs"]),
@@ -298,57 +306,56 @@ def reduced(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]]) -> 
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Equilibria(_Columns):
-    """Equilibria of many states; arrays have one row a state, NaN where there is no equilibrium."""
+class Equilibria(_ArrayFields):
+    """Equilibria of many states; arrays have one row per state, NaN where there is no equilibrium."""
 
     status: NDArray[np.str_]
-    """`ok`, or the code of the reason, as `StaticsError.code`; `input` for numbers that are no state."""
+    """`ok`, or the code of the reason as in `StaticsError.code`, or `input` for numbers that are no state."""
     reason: tuple[str, ...]
-    """Why there is no equilibrium; empty where there is one."""
+    """Reason why there is no equilibrium; empty where there is one."""
     position_m: NDArray[np.float64]
     """Origin of the platform frame [m], (states, 3)."""
     quaternion_wxyz: NDArray[np.float64]
+    """Orientation as w, x, y, z with w ≥ 0, (states, 4)."""
     roll_pitch_yaw_deg: NDArray[np.float64]
-    lengths: NDArray[np.float64]
+    """Roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll), (states, 3)."""
+    unstrained_length_m: NDArray[np.float64]
     """Unstrained lengths [m], (states, cables)."""
-    tensions: NDArray[np.float64]
-    """Tensions at the platform [N], (states, cables)."""
-    anchor_tensions: NDArray[np.float64]
-    """Tensions at the anchors [N], (states, cables)."""
+    tension_platform_n: NDArray[np.float64]
+    """Tensions at the platform ends [N], (states, cables)."""
+    tension_anchor_n: NDArray[np.float64]
+    """Tensions at the anchor ends [N], (states, cables)."""
     sag_ratio: NDArray[np.float64]
     """Sags over chords, (states, cables); NaN for a cable without tension."""
     residual: NDArray[np.float64]
-    """What is left of the wrench on the platform, over the sum of all forces."""
+    """Unbalanced wrench on the platform relative to the sum of all forces."""
     stable: NDArray[np.bool_]
-    """Whether every small motion is opposed; false for ideal cables, which are rigid."""
+    """True if every small motion is opposed; False for ideal cables, which are rigid."""
     stiffness_min_n_per_m: NDArray[np.float64]
-    """Least eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; NaN for ideal cables."""
+    """Minimum eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; NaN for ideal cables."""
     nearest_pose_distance_m: NDArray[np.float64]
-    """Distance from the pose asked [m] where fewer cables than degrees of freedom hold only the nearest; else NaN."""
-    model: str
+    """Distance from the requested pose [m] with fewer cables than degrees of freedom; else NaN."""
+    static_model: str
+    """How cables carry their static load."""
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Which states have an equilibrium."""
+        """True for states that have an equilibrium."""
         return np.asarray(self.status == "ok")
 
     def __len__(self) -> int:
         return len(self.status)
 
     def __repr__(self) -> str:
-        return f"<Equilibria: {int(self.ok.sum())} of {len(self)} states, {self.model} cables>"
+        return f"<Equilibria: {int(self.ok.sum())} of {len(self)} states, {self.static_model} cables>"
 
     def _repr_html_(self) -> str:
-        from funicular import _html
-
-        return _html.equilibria(self)
+        return _show.html(self)
 
     def to_dict(self) -> dict[str, Any]:
-        """Its arrays by their names."""
+        """Returns a dictionary of the arrays by their names."""
         return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
 
     def to_pandas(self) -> Any:
-        """One row a state, as a table of pandas, which has to be installed."""
-        from funicular import _tables
-
-        return _tables.equilibria_table(self)
+        """Makes a table of pandas with one row per state; pandas has to be installed."""
+        return _show.table(self)

@@ -1,4 +1,4 @@
-"""Requests as dictionaries, and commands of the program that belong to no single robot."""
+"""Requests as dictionaries, and the commands of the program without a robot file."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -31,22 +31,22 @@ File = str | PathLike[str]
 
 @dataclass(frozen=True, repr=False)
 class Imported:
-    """A robot file made from files of another program."""
+    """Robot file made from files of another program."""
 
     text: str
-    """The robot file."""
+    """Text of the robot file."""
     assumed: tuple[str, ...]
-    """Facts that the files leave open, and how they were read."""
+    """Assumptions about facts that the files leave open."""
     lost: tuple[str, ...]
     """Facts of the files that a robot file cannot hold."""
 
     @property
     def robot(self) -> Robot:
-        """The robot."""
+        """Robot of the robot file."""
         return Robot.from_toml(self.text)
 
     def write(self, path: File) -> None:
-        """Writes the robot file, as a whole or not at all."""
+        """Writes the robot file; the file is complete or absent."""
         write_file(Path(path), self.text)
 
     def __repr__(self) -> str:
@@ -55,19 +55,19 @@ class Imported:
 
 @dataclass(frozen=True, repr=False)
 class Exported:
-    """A robot at rest as the file of another program."""
+    """Equilibrium of a robot as the file of another program."""
 
     text: str
-    """The file."""
+    """Text of the file."""
     warnings: tuple[str, ...]
-    """What to know before trusting it."""
+    """Caveats of the file."""
 
     def __repr__(self) -> str:
         return f"<Exported: {len(self.text)} characters>"
 
 
 def request(command: str, robot: str | None, keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """A request with every key that it has; the robot is JSON."""
+    """Makes a request with all its keys; `robot` is JSON."""
     given = {key: _plain(key, value) for key, value in keywords.items() if value is not None}
     given["command"] = command
     if robot is not None:
@@ -84,11 +84,11 @@ def _text(given: Mapping[str, Any]) -> str:
     try:
         return json.dumps(given, allow_nan=False)
     except (TypeError, ValueError) as error:
-        raise InputError(f"the request holds what JSON cannot: {error}") from error
+        raise InputError(f"the request contains a value that JSON cannot hold: {error}") from error
 
 
 def _plain(key: str, value: Any) -> Any:
-    """The value of a key as JSON has it."""
+    """Value of a key in JSON."""
     if isinstance(value, Pose):
         return {"position_m": value.position_m.tolist(), "quaternion_wxyz": value.quaternion_wxyz.tolist()}
     if isinstance(value, (np.ndarray, np.generic)):
@@ -107,7 +107,7 @@ def _plain(key: str, value: Any) -> Any:
 
 
 def _axis(name: str, values: Any) -> dict[str, Any]:
-    """Values along an axis: a tuple of first, last and how many, else values."""
+    """Values along an axis: a tuple is the first value, the last value and their number; anything else is values."""
     if isinstance(values, tuple) and len(values) == 3:
         first, last, count = (_plain("", value) for value in values)
         return {"axis": name, "from": first, "to": last, "count": count}
@@ -115,19 +115,19 @@ def _axis(name: str, values: Any) -> dict[str, Any]:
 
 
 def run(request: Mapping[str, Any] | str) -> Any:
-    """Runs a request: a dictionary or JSON, as `Robot.request` makes it and the program's `--print-request` prints it.
+    """Runs a request: the dictionary of `Robot.request`, or the JSON of the program's `--print-request`.
 
     Returns
     -------
-    The dictionary of the program's JSON. For `map` and `sweep` a `Sweep`, for `report`, `paper` and `plot` a `Page`, for
-    `import` an `Imported`, for `export` an `Exported`.
+    The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `paper` and `plot`, an
+    `Imported` for `import`, an `Exported` for `export`.
 
     Raises
     ------
     InputError
-        The request means nothing.
+        A value of the request is wrong.
     Error
-        There is no such result.
+        The request has no result.
     """
     full = _complete(json.loads(request) if isinstance(request, str) else request)
     text = json.dumps(full)
@@ -166,25 +166,27 @@ def import_robot(
     center_of_mass_m: ArrayLike | None = None,
     pose: Pose | ArrayLike | None = None,
 ) -> Imported:
-    """A robot file from files of CASPR, WireX or MoorDyn: the program's `import`.
+    """Makes a robot file from files of CASPR, WireX or MoorDyn, as the program's `import`.
 
     Parameters
     ----------
     files
-        The file, or the files of one robot.
+        File, or list of the files of one robot.
     cable_set
         Set of cables of a CASPR file.
     mass_kg_per_m, axial_stiffness_n, youngs_modulus_pa, diameter_m
-        Numbers of the ropes that the files lack, or instead of theirs.
+        Mass per unstrained length [kg/m], axial stiffness EA [N], Young's modulus of the full circular section [Pa] and
+        diameter [m] of the ropes; they replace the values of the files.
     mass_kg, inertia_kg_m2, center_of_mass_m
-        Numbers of the platform that the files lack, or instead of theirs; the inertia is xx, yy, zz, xy, xz, yz.
+        Mass [kg], inertia tensor about the centre of mass, platform axes [kg m²]: xx, yy, zz, xy, xz, yz, and centre of
+        mass in the platform frame [m]; they replace the values of the files.
     pose
-        Pose of the robot file's state.
+        Pose that the robot file gives as its state.
 
     Raises
     ------
     InputError
-        A file that cannot be read as a robot; the message says where and what.
+        A file cannot be read as a robot; the message says where and why.
     """
     listed = [files] if isinstance(files, (str, PathLike)) else files
     keywords = {
@@ -205,25 +207,32 @@ def import_robot(
 
 
 def paper(path: File | None = None) -> Page:
-    """The page about the starting paper (Yuan, Courteille and Deblaise 2014), theirs beside ours; `path` writes it, too."""
+    """Makes the page that compares the results of Yuan, Courteille and Deblaise 2014 with those of this package.
+
+    With `path` the page is also written to a file.
+    """
     text = json.dumps({"command": "paper"})
     return page(*text_of(text, f"funicular.paper({'' if path is None else repr(str(path))})"), path)
 
 
 def validate() -> dict[str, Any]:
-    """Every comparison with published and independent numbers, made now: the program's `validate`, with the keys of its
-    JSON; `comparisons` of them, `passed` within their tolerances."""
+    """Computes every comparison with published and independent numbers, as the program's `validate`.
+
+    Returns
+    -------
+    The keys of the program's JSON: `comparisons` is their number, `passed` the number within their tolerances.
+    """
     found: dict[str, Any] = run({"command": "validate"})
     return found
 
 
 def merge(parts: Sequence[File], path: File) -> Sweep:
-    """Joins the parts of a map or sweep (`funicular map --part`) in one file: the program's `merge`.
+    """Joins the parts of a map or sweep (`part="3/8"`) in one file, as the program's `merge`.
 
     Raises
     ------
     FileError
-        Files that are no parts of one whole, or a file that cannot be written.
+        The files are not all parts of one map or sweep, or the file cannot be written.
     """
     merge_parts([Path(part) for part in parts], Path(path))
     return Sweep(None, Path(path))

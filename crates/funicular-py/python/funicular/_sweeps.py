@@ -1,28 +1,24 @@
-"""Maps and sweeps: rows computed here or by an executor, and what they are to Python."""
+"""Rows of maps and sweeps as NumPy arrays, tables and files."""
 
 import json
 import math
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Executor
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from funicular import _show
 from funicular._errors import InputError
-from funicular._funicular import Robot, SweepPlan, SweepTable, plot_page
-
-if TYPE_CHECKING:
-    from funicular._pages import Page
-
-Progress = Callable[[int, int], object]
+from funicular._funicular import Robot, SweepTable, plot_page
+from funicular._pages import Page, page
 
 
-class _Columns(Mapping[str, NDArray[Any]]):
-    """Columns as arrays, made when they are asked for."""
+class _LazyColumns(Mapping[str, NDArray[Any]]):
+    """Columns as arrays, which are made at their first use."""
 
     def __init__(self, table: SweepTable) -> None:
         self._table = table
@@ -48,27 +44,27 @@ class _Columns(Mapping[str, NDArray[Any]]):
 
 
 class Sweep:
-    """Rows of a map or a sweep: one a point, feasible or not, in the order of the points.
+    """Rows of a map or a sweep: one per point, feasible or not, in the order of the points.
 
-    Of a Parquet file the rows are read when they are asked for.
+    The rows of a Parquet file are read at their first use.
     """
 
     __module__ = "funicular"
 
     def __init__(self, table: SweepTable | None, file: Path | None = None) -> None:
         self._loaded = table
-        self._columns: _Columns | None = None
+        self._columns: _LazyColumns | None = None
         self.file = file
         """The file that was written or read; None for rows in memory alone."""
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> Self:
-        """A Parquet file that a map or a sweep has written, here or by the program, complete or not.
+        """Reads a Parquet file of a map or a sweep, written by Python or by the program, complete or not.
 
         Raises
         ------
         FileError
-            The file cannot be read, it is damaged (its checksum is not that of its bytes), or no sweep wrote it.
+            The file cannot be read, it is damaged (its checksum does not fit its bytes), or no sweep wrote it.
         """
         return cls(SweepTable.read(Path(path)), Path(path))
 
@@ -81,10 +77,10 @@ class Sweep:
 
     @property
     def columns(self) -> Mapping[str, NDArray[Any]]:
-        """Columns by name: coordinates, `feasible`, `status`, `reason`, then the quantities. Numbers that do not exist are
-        NaN, texts that do not exist None."""
+        """Columns by name: coordinates, `feasible`, `status`, `reason`, then the quantities. A missing number is NaN, a
+        missing text None."""
         if self._columns is None:
-            self._columns = _Columns(self._table)
+            self._columns = _LazyColumns(self._table)
         return self._columns
 
     @property
@@ -94,17 +90,17 @@ class Sweep:
 
     @property
     def about(self) -> dict[str, str]:
-        """What the columns say."""
+        """Meanings of the columns."""
         return {name: about for name, _, about in self._table.fields}
 
     @property
     def feasible(self) -> NDArray[np.bool_]:
-        """Which rows have an equilibrium with tensions within the limits."""
+        """True for rows that have an equilibrium with tensions within the limits."""
         return self.columns["feasible"]
 
     @property
     def complete(self) -> bool:
-        """Whether every row is there; not so in the file of a run that was interrupted."""
+        """True if every row is there; False for the file of an interrupted run."""
         return self._table.complete
 
     @property
@@ -115,12 +111,12 @@ class Sweep:
 
     @property
     def robot(self) -> Robot:
-        """The robot, as its file was."""
+        """Robot of the file, as it was when the rows were computed."""
         return Robot.from_toml(self._table.robot_file)
 
     @property
     def axes(self) -> dict[str, NDArray[np.float64]]:
-        """Values along the axes of the grid that have more than one, the fastest first; none for a list of poses."""
+        """Values along the axes of the grid with more than one value, the fastest first; empty for a list of poses."""
         axes = {}
         for axis in self.plan.get("grid", []):
             if "values" in axis:
@@ -134,10 +130,10 @@ class Sweep:
         return axes
 
     def on_grid(self, name: str) -> NDArray[Any]:
-        """A column with one dimension for each of `axes`, the last first: `[iy, ix]` of x and y, as matplotlib has it."""
+        """Column with one dimension per axis, the last first: `[iy, ix]` for x and y, as matplotlib needs it."""
         axes = self.axes
         if not axes:
-            raise InputError("these rows are no grid: there is one dimension, that of `columns`")
+            raise InputError("these rows are no grid: they have one dimension; use `columns`")
         if not self.complete:
             raise InputError(f"the grid is not complete: {len(self)} rows are there")
         shape = [len(values) for values in reversed(axes.values())]
@@ -149,15 +145,15 @@ class Sweep:
         return self.columns[name].reshape(shape)
 
     def to_pandas(self) -> Any:
-        """The rows as a table of pandas, which has to be installed; units in its `attrs`."""
-        from funicular import _tables
-
-        return _tables.sweep_table(self)
+        """Makes a table of pandas of the rows, with the units in its `attrs`; pandas has to be installed."""
+        return _show.table(self)
 
     def to_arrow(self) -> Any:
-        """The rows as a table of pyarrow, which has to be installed, without copies; units in the fields' metadata.
+        """Makes a table of pyarrow without copies; pyarrow has to be installed.
 
-        Other libraries take the rows as they are: `polars.DataFrame(sweep)`, `duckdb.from_arrow(sweep)`.
+        The metadata of the fields contain the units.
+
+        Other libraries take the rows directly: `polars.DataFrame(sweep)`, `duckdb.from_arrow(sweep)`.
         """
         try:
             import pyarrow
@@ -169,26 +165,27 @@ class Sweep:
         return self._table.__arrow_c_stream__(requested_schema)
 
     def to_parquet(self, path: str | PathLike[str]) -> None:
-        """Writes the rows with units, robot and plan: byte for byte the file of the program's `map` or `sweep`."""
+        """Writes a Parquet file with units, robot and plan: the bytes of the program's `map` or `sweep`."""
         if Path(path).suffix.lower() != ".parquet":
             raise InputError(f"`path` is {path}: it must end in .parquet")
         self._table.write(Path(path))
 
     def write(self, path: str | PathLike[str]) -> None:
-        """Writes .parquet, .csv or .vti (for ParaView), as a whole or not at all."""
+        """Writes .parquet, .csv or .vti (for ParaView); the file is complete or absent."""
         self._table.write(Path(path))
 
-    def plot(self, path: str | PathLike[str] | None = None) -> "Page":
-        """A page in HTML with pictures of the rows, which notebooks show: the program's `plot`; `path` writes it, too."""
-        from funicular import _pages
+    def plot(self, path: str | PathLike[str] | None = None) -> Page:
+        """Makes a page in HTML with pictures of the rows, which notebooks show, as the program's `plot`.
 
+        With `path` the page is also written to a file.
+        """
         call = f"funicular.Sweep.read({str(self.file or 'rows.parquet')!r}).plot({str(path)!r})"
         if self.file is not None and self.file.suffix.lower() == ".parquet":
-            return _pages.page(*plot_page(self.file, str(self.file), call), path)
+            return page(*plot_page(self.file, str(self.file), call), path)
         with tempfile.TemporaryDirectory() as folder:
             rows = Path(folder) / "rows.parquet"
             self._table.write(rows)
-            return _pages.page(*plot_page(rows, "rows in memory", call), path)
+            return page(*plot_page(rows, "rows in memory", call), path)
 
     def __len__(self) -> int:
         return self._table.rows
@@ -209,48 +206,19 @@ class Sweep:
             self._table.write(path)
             return path.read_bytes()
 
-    def __reduce__(self) -> tuple[Callable[[bytes], "Sweep"], tuple[bytes]]:
-        from funicular import _rebuild
+    @classmethod
+    def _of_bytes(cls, parquet: bytes) -> "Sweep":
+        """Reads the bytes of a Parquet file; pickles call it."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "sweep.parquet"
+            path.write_bytes(parquet)
+            return cls(SweepTable.read(path))
 
-        return _rebuild.sweep, (self._bytes(),)
+    def __reduce__(self) -> tuple[Callable[[bytes], "Sweep"], tuple[bytes]]:
+        return Sweep._of_bytes, (self._bytes(),)
 
     def __repr__(self) -> str:
         return f"<Sweep: {int(self.feasible.sum())} of {len(self)} rows feasible, {len(self.columns)} columns>"
 
     def _repr_html_(self) -> str:
-        from funicular import _html
-
-        return _html.sweep(self)
-
-
-def run(
-    plan: SweepPlan,
-    *,
-    file: Path | None,
-    resume: bool,
-    discard: bool,
-    threads: int | None,
-    executor: Executor | Callable[[], Executor] | None,
-    chunks_per_task: int | None,
-    progress: Progress | None,
-) -> Sweep:
-    """All rows of a plan."""
-    from funicular import _executors
-
-    if executor is not None and threads is not None:
-        raise InputError("`threads` are of this process, `executor` has its own: give one of them")
-    if executor is None and chunks_per_task is not None:
-        raise InputError("`chunks_per_task` goes with `executor`")
-    if chunks_per_task is not None and chunks_per_task < 1:
-        raise InputError(f"`chunks_per_task` is {chunks_per_task}: give at least one")
-    work = plan.begin(file, resume, discard)
-    if work is None:
-        return Sweep(None, file)
-    if executor is not None:
-        return Sweep(_executors.Shared(plan, work, file, chunks_per_task, progress).run(executor), file)
-    try:
-        work.run(threads, progress)
-    except BaseException as error:
-        _executors.note_what_is_safe(error, work)
-        raise
-    return Sweep(work.finish(), file)
+        return _show.html(self)

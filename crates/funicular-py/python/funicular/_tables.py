@@ -1,13 +1,13 @@
 """Results as tables of pandas."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from funicular._funicular import Equilibrium
-    from funicular._results import Equilibria, Modes
-    from funicular._sweeps import Sweep
+from funicular import _show
+from funicular._funicular import Equilibrium
+from funicular._results import Equilibria, Modes
+from funicular._sweeps import Sweep
 
 _MOTIONS = ("x", "y", "z", "rx_per_m", "ry_per_m", "rz_per_m")
 
@@ -20,15 +20,18 @@ def _pandas() -> Any:
     return pandas
 
 
-def cables(of: "Equilibrium") -> Any:
+@_show.table.register
+def _cables(of: Equilibrium) -> Any:
     rows = []
     for cable in of.cables:
         force = cable.pop("force_on_platform_n")
-        rows.append(cable | {f"force_on_platform_{axis}_n": part for axis, part in zip("xyz", force, strict=True)})
+        components = zip("xyz", force, strict=True)
+        rows.append(cable | {f"force_on_platform_{axis}_n": component for axis, component in components})
     return _pandas().DataFrame(rows).set_index("name")
 
 
-def modes_table(of: "Modes") -> Any:
+@_show.table.register
+def _modes(of: Modes) -> Any:
     columns: dict[str, Any] = {
         "frequency_hz": of.frequency_hz,
         "multiplicity": of.multiplicity,
@@ -36,29 +39,34 @@ def modes_table(of: "Modes") -> Any:
     }
     if of.eigenvalue_per_s is not None:
         columns["eigenvalue_per_s"] = of.eigenvalue_per_s
+
     columns |= {"kind": of.kind, "platform_energy_fraction": of.platform_energy_fraction}
     columns |= {f"shape_{motion}": of.shape[:, i] for i, motion in enumerate(_MOTIONS)}
     columns |= {"modal_mass_kg": of.modal_mass_kg, "residual": of.residual}
     if of.peak is not None:
         columns |= {"residue_per_kg": of.residue_per_kg, "peak": of.peak}
+
     columns |= {
         f"energy_fraction_cable_{name}": of.cable_energy_fractions[:, i] for i, name in enumerate(of.cable_names)
     }
     return _pandas().DataFrame(columns)
 
 
-def equilibria_table(of: "Equilibria") -> Any:
+@_show.table.register
+def _equilibria(of: Equilibria) -> Any:
     columns: dict[str, Any] = {"status": of.status, "reason": np.asarray(of.reason, dtype=object)}
     columns |= {f"position_{axis}_m": of.position_m[:, i] for i, axis in enumerate("xyz")}
     columns |= {f"{angle}_deg": of.roll_pitch_yaw_deg[:, i] for i, angle in enumerate(("roll", "pitch", "yaw"))}
-    for name, values in (
-        ("length", of.lengths),
-        ("tension", of.tensions),
-        ("anchor_tension", of.anchor_tensions),
-        ("sag_ratio", of.sag_ratio),
+
+    # The number of the cable stands before the unit, as in the columns of a sweep.
+    for name, unit, values in (
+        ("unstrained_length", "_m", of.unstrained_length_m),
+        ("tension_platform", "_n", of.tension_platform_n),
+        ("tension_anchor", "_n", of.tension_anchor_n),
+        ("sag_ratio", "", of.sag_ratio),
     ):
-        unit = {"length": "_m", "sag_ratio": ""}.get(name, "_n")
         columns |= {f"{name}_{i + 1}{unit}": values[:, i] for i in range(values.shape[1])}
+
     columns |= {
         "residual": of.residual,
         "stable": of.stable,
@@ -68,7 +76,8 @@ def equilibria_table(of: "Equilibria") -> Any:
     return _pandas().DataFrame(columns)
 
 
-def sweep_table(of: "Sweep") -> Any:
+@_show.table.register
+def _sweep(of: Sweep) -> Any:
     table = _pandas().DataFrame(dict(of.columns))
     table.attrs["units"] = of.units
     return table

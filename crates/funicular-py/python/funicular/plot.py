@@ -1,7 +1,7 @@
-"""Figures of robots, modes and responses, by matplotlib or plotly, whichever is asked for; both are extras.
+"""Figures of robots, modes and responses by matplotlib or plotly, which are optional.
 
-Every function takes `backend="matplotlib"` (returns its Axes; `ax=` draws into given ones) or `backend="plotly"` (returns its
-Figure). Neither is imported before it is used.
+Every function takes `backend="matplotlib"` (it returns the Axes; `ax=` draws into given Axes) or `backend="plotly"` (it
+returns the Figure). Neither library is imported before it is used.
 """
 
 from collections.abc import Sequence
@@ -20,6 +20,7 @@ Backend = Literal["matplotlib", "plotly"]
 
 _KINDS = {"platform": "C0", "mixed": "C1", "cable": "C2"}
 _COLOURS = {"platform": "#1f77b4", "mixed": "#ff7f0e", "cable": "#2ca02c"}
+_ENERGY = "platform's fraction of the energy"
 
 
 def _axes(ax: Any, **keywords: Any) -> Any:
@@ -41,19 +42,21 @@ def _figures() -> Any:
 
 
 def _check(backend: str, ax: Any) -> bool:
-    """Whether it is matplotlib."""
+    """Checks the choice of a library; True for matplotlib."""
     if backend not in ("matplotlib", "plotly"):
         raise InputError(f'`backend` is "{backend}": it must be matplotlib or plotly')
     if backend == "plotly" and ax is not None:
-        raise InputError("`ax` is matplotlib's: leave it out with plotly")
+        raise InputError("`ax` belongs to matplotlib: leave it out with plotly")
     return backend == "matplotlib"
 
 
 def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib", ax: Any = None) -> Any:
-    """The robot at rest in space: cables as they hang, attachments joined to the platform's origin, anchors. Metres, all
-    axes to one scale."""
+    """Draws an equilibrium in space: hanging cables, anchors, and attachments joined to the origin of the platform [m].
+
+    All axes have one scale.
+    """
     curves = of.cable_points(points)
-    origin, anchors = of.pose.position_m, of.robot.anchors_m
+    origin, anchors = of.pose.position_m, of.robot.anchor_m
     platform = np.stack([point for curve in curves for point in (origin, curve[0], np.full(3, np.nan))])
     names = of.robot.cable_names
     if _check(backend, ax):
@@ -88,8 +91,10 @@ def frf(
     backend: Backend = "matplotlib",
     ax: Any = None,
 ) -> Any:
-    """Magnitude of a response over frequency, or of several; a row each, named by `labels`. Magnitudes are on a scale of
-    powers."""
+    """Draws the magnitude of a response over frequency on a logarithmic scale.
+
+    Several responses are the rows of `response`, with names in `labels`.
+    """
     frequencies = real_numbers("hz", hz)
     curves: NDArray[np.complex128] = np.atleast_2d(complex_numbers("response", cast(ArrayLike, response)))
     names = [f"response {i + 1}" for i in range(len(curves))] if labels is None else list(labels)
@@ -117,15 +122,16 @@ def frf(
 
 
 def modes(of: Modes, *, backend: Backend = "matplotlib", ax: Any = None) -> Any:
-    """The natural frequencies, each as high as the platform's share of its energy, coloured by kind."""
+    """Draws the natural frequencies, coloured by kind, over the platform's fraction of the kinetic energy."""
     if _check(backend, ax):
         ax = _axes(ax)
         for kind, colour in _KINDS.items():
             chosen = of.kind == kind
             if chosen.any():
                 ax.vlines(of.frequency_hz[chosen], 0, of.platform_energy_fraction[chosen], color=colour, linewidth=1)
-                ax.plot(of.frequency_hz[chosen], of.platform_energy_fraction[chosen], "o", ms=3, color=colour, label=kind)
-        ax.set(xlabel="frequency [Hz]", ylabel="platform's part of the energy", xlim=(0, of.below_hz), ylim=(0, 1.05))
+                fraction = of.platform_energy_fraction[chosen]
+                ax.plot(of.frequency_hz[chosen], fraction, "o", ms=3, color=colour, label=kind)
+        ax.set(xlabel="frequency [Hz]", ylabel=_ENERGY, xlim=(0, of.below_hz), ylim=(0, 1.05))
         ax.legend()
         return ax
     go = _figures()
@@ -136,5 +142,5 @@ def modes(of: Modes, *, backend: Backend = "matplotlib", ax: Any = None) -> Any:
             x, y = of.frequency_hz[chosen], of.platform_energy_fraction[chosen]
             down = {"type": "data", "symmetric": False, "array": np.zeros(len(y)), "arrayminus": y, "width": 0}
             figure.add_scatter(x=x, y=y, mode="markers", name=kind, marker_color=colour, error_y=down)
-    figure.update_layout(xaxis_title="frequency [Hz]", yaxis_title="platform's part of the energy")
+    figure.update_layout(xaxis_title="frequency [Hz]", yaxis_title=_ENERGY)
     return figure

@@ -1,4 +1,4 @@
-//! What Python hands to a sweep, with the types that the `.pyi` names.
+//! Arguments of a sweep, with the types that the `.pyi` names.
 
 use crate::arrays::{ARRAY_LIKE, Count, Number, Numbers};
 use crate::errors;
@@ -12,7 +12,7 @@ const CALLABLE: PyStaticExpr = PyStaticExpr::Attribute { value: &ABC, attr: "Cal
 const EXECUTOR: PyStaticExpr =
     PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "concurrent.futures" }, attr: "Executor" };
 
-/// Values along axes, by name, in the order given.
+/// Values along axes by name, in the given order.
 pub(crate) struct Axes(pub(crate) Vec<Axis>);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Axes {
@@ -36,13 +36,13 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Axes {
     }
 }
 
-/// A tuple of first, last and how many; else values.
+/// Axis from a tuple of first value, last value and their number, or from values.
 fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     if let Ok(tuple) = values.cast::<PyTuple>()
         && tuple.len() == 3
     {
         let third = format!("{name}[2]");
-        let rule = "the third of a tuple is how many values there are, 2 or more; give a list for values";
+        let rule = "the third of a tuple is the number of values, 2 or more; give a list for values";
         let count = tuple.get_item(2)?.extract::<Count>()?.within(&third, 2..=usize::MAX, rule)?;
         let end = |place: usize| tuple.get_item(place)?.extract::<Number>()?.value(&format!("{name}[{place}]"));
         return Ok(Axis::Range { from: end(0)?, to: end(1)?, count, axis: name });
@@ -51,10 +51,10 @@ fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     Ok(Axis::List { axis: name, values })
 }
 
-/// An executor, or what makes one.
-pub(crate) struct Makes(pub(crate) Py<PyAny>);
+/// Executor, or a function that makes one.
+pub(crate) struct ExecutorArgument(pub(crate) Py<PyAny>);
 
-impl<'py> FromPyObject<'_, 'py> for Makes {
+impl<'py> FromPyObject<'_, 'py> for ExecutorArgument {
     type Error = PyErr;
 
     const INPUT_TYPE: PyStaticExpr = PyStaticExpr::BinOp {
@@ -77,10 +77,10 @@ impl<'py> FromPyObject<'_, 'py> for Makes {
     }
 }
 
-/// Who is told of the progress.
-pub(crate) struct Told(pub(crate) Py<PyAny>);
+/// Function that is called with the progress.
+pub(crate) struct ProgressArgument(pub(crate) Py<PyAny>);
 
-impl<'py> FromPyObject<'_, 'py> for Told {
+impl<'py> FromPyObject<'_, 'py> for ProgressArgument {
     type Error = PyErr;
 
     const INPUT_TYPE: PyStaticExpr = PyStaticExpr::Subscript {
@@ -96,14 +96,14 @@ impl<'py> FromPyObject<'_, 'py> for Told {
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if !object.is_callable() {
             return Err(errors::input(
-                "`progress` is no function: it is called with rows done and all rows".to_owned(),
+                "`progress` is no function: give one that takes the number of finished rows and of all rows".to_owned(),
             ));
         }
         Ok(Self(object.to_owned().unbind()))
     }
 }
 
-/// Position [m] and roll, pitch, yaw [degrees]; these are zero if they are not given.
+/// Position [m] and roll, pitch, yaw [degrees], which are zero if not given.
 fn six(what: &str, row: &[f64]) -> PyResult<[f64; 6]> {
     match *row {
         [x, y, z] => Ok([x, y, z, 0.0, 0.0, 0.0]),
@@ -115,7 +115,7 @@ fn six(what: &str, row: &[f64]) -> PyResult<[f64; 6]> {
     }
 }
 
-/// Poses in rows.
+/// Poses from an array with one row per pose.
 pub(crate) fn poses(numbers: Numbers) -> PyResult<Vec<[f64; 6]>> {
     let (flat, columns) = numbers.rows("poses")?;
     if columns == 0 {

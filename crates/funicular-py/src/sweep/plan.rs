@@ -1,7 +1,7 @@
-//! A map or sweep that is ready to run: as it travels to workers, and its chunks.
+//! Plan of a map or sweep, which is sent to workers and computes chunks of rows.
 
 use super::work::PyWork;
-use crate::arrays::Reduced;
+use crate::arrays::PickleParts;
 use crate::errors;
 use crate::interrupt::on_threads;
 use crate::threads::Threads;
@@ -15,13 +15,13 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A plan with all that it is made of.
-pub(crate) struct Whole {
+/// Sweep that is ready to run, and the record of its rows.
+pub(crate) struct PlanData {
     sweep: PreparedSweep,
     pub(crate) record: Record,
 }
 
-impl Whole {
+impl PlanData {
     fn of(request: &Request, part: Option<Part>) -> anyhow::Result<Self> {
         let sweep = PreparedSweep::new(request)?;
         let record = sweep.record(&sweep.plan()?, part);
@@ -33,43 +33,44 @@ impl Whole {
         self.record.rows_of(self.record.range())
     }
 
-    /// Number of rows before a chunk.
+    /// Number of rows before the chunk `next`.
     pub(crate) fn done(&self, next: usize) -> usize {
         self.record.rows_of(self.record.range().start..next)
     }
 
-    /// Computes chunks on threads of this call alone, and hands them over in order to this one, which looks for Ctrl-C.
+    /// Computes chunks on new threads and passes them in order to `take` on the calling thread; `check` looks for
+    /// Ctrl-C.
     pub(crate) fn run(
         &self,
         chunks: Range<usize>,
         threads: NonZeroUsize,
         take: impl FnMut(Chunk) -> PyResult<()>,
-        look: impl FnMut() -> PyResult<()>,
+        check: impl FnMut() -> PyResult<()>,
     ) -> PyResult<()> {
         let plan = self.sweep.plan().map_err(|error| errors::study(&error.into()))?;
-        on_threads(chunks, threads, |index, given_up| plan.evaluate(index, given_up), take, look)
+        on_threads(chunks, threads, |index, cancelled| plan.evaluate(index, cancelled), take, check)
     }
 }
 
-/// A map or sweep; a pickle of it is its request as JSON.
+/// Plan of a map or sweep; its pickle is the request as JSON.
 #[pyclass(frozen, name = "SweepPlan", module = "funicular._funicular")]
 pub(crate) struct PyPlan {
     request: Request,
-    pub(crate) whole: Arc<Whole>,
+    pub(crate) data: Arc<PlanData>,
 }
 
 impl PyPlan {
     pub(crate) fn of(py: Python<'_>, request: Request, part: Option<String>) -> PyResult<Self> {
         let part =
             part.map(|part| part.parse().map_err(|reason| errors::input(format!("`part`: {reason}")))).transpose()?;
-        let whole = py.detach(|| Whole::of(&request, part)).map_err(|error| errors::study(&error))?;
-        Ok(Self { request, whole: Arc::new(whole) })
+        let data = py.detach(|| PlanData::of(&request, part)).map_err(|error| errors::study(&error))?;
+        Ok(Self { request, data: Arc::new(data) })
     }
 }
 
 #[pymethods]
 impl PyPlan {
-    /// Of a request as JSON, or one of its parts, as "3/8".
+    /// Makes the plan of a request in JSON; `part` is one of its parts, such as "3/8".
     #[new]
     #[pyo3(signature = (request, part=None))]
     fn new(py: Python<'_>, request: &str, part: Option<String>) -> PyResult<Self> {
@@ -79,28 +80,28 @@ impl PyPlan {
     /// Number of rows.
     #[getter]
     fn rows(&self) -> usize {
-        self.whole.rows()
+        self.data.rows()
     }
 
-    /// The first chunk of rows; each is computed by itself.
+    /// Index of the first chunk of rows; chunks are computed independently.
     #[getter]
     fn first_chunk(&self) -> usize {
-        self.whole.record.range().start
+        self.data.record.range().start
     }
 
-    /// The chunk behind the last.
+    /// Index behind the last chunk.
     #[getter]
     fn chunks(&self) -> usize {
-        self.whole.record.range().end
+        self.data.record.range().end
     }
 
-    /// Rows of every chunk but the last.
+    /// Number of rows of every chunk but the last.
     #[getter]
     fn chunk_rows(&self) -> usize {
-        self.whole.record.chunk_rows
+        self.data.record.chunk_rows
     }
 
-    /// Chunks from `first` to before `end`, as bytes that `SweepWork.add` takes.
+    /// Computes the chunks from `first` (included) to `end` (excluded), as bytes for `SweepWork.add`.
     #[pyo3(signature = (first, end, threads=Threads(NonZeroUsize::MIN)))]
     fn compute<'py>(
         &self,
@@ -114,17 +115,17 @@ impl PyPlan {
         }
         let mut bytes = Vec::new();
         py.detach(|| {
-            self.whole.run(
+            self.data.run(
                 first..end,
                 threads.0,
                 |chunk| table::pack(&mut bytes, &chunk).map_err(PyErr::from),
-                crate::interrupt::look,
+                crate::interrupt::check_signals,
             )
         })?;
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// Begins to collect rows, in memory or in a file; None if the file has them all.
+    /// Begins to collect rows in memory or in a file; None if the file has all rows.
     #[pyo3(signature = (file=None, resume=false, discard=false))]
     fn begin(&self, py: Python<'_>, file: Option<PathBuf>, resume: bool, discard: bool) -> PyResult<Option<PyWork>> {
         let begin = match (resume, discard) {
@@ -133,27 +134,27 @@ impl PyPlan {
             (false, true) => Begin::Discard,
             (false, false) => Begin::Anew,
         };
-        let whole = Arc::clone(&self.whole);
+        let data = Arc::clone(&self.data);
         let Some(path) = file else {
             if resume || discard {
                 return Err(errors::input("`resume` and `discard` go with `file`".to_owned()));
             }
-            if whole.record.part.is_some() {
-                return Err(errors::input("`part` goes with `file`: parts become one file".to_owned()));
+            if data.record.part.is_some() {
+                return Err(errors::input("`part` goes with `file`: parts are joined as files".to_owned()));
             }
-            return Ok(Some(PyWork::in_memory(whole)));
+            return Ok(Some(PyWork::in_memory(data)));
         };
         let opened =
-            py.detach(|| Job::open(&path, whole.record.clone(), begin)).map_err(|error| errors::files(&error))?;
+            py.detach(|| Job::open(&path, data.record.clone(), begin)).map_err(|error| errors::files(&error))?;
         Ok(match opened {
             Opened::Done => None,
-            Opened::Work(job) => Some(PyWork::in_file(whole, *job, path)),
+            Opened::Work(job) => Some(PyWork::in_file(data, *job, path)),
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Reduced<'py, (String, Option<String>)> {
-        let Self { request, whole } = slf.get();
-        let part = whole.record.part.map(|part| part.to_string());
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PickleParts<'py, (String, Option<String>)> {
+        let Self { request, data } = slf.get();
+        let part = data.record.part.map(|part| part.to_string());
         (slf.get_type().into_any(), (request.to_value().to_string(), part))
     }
 }

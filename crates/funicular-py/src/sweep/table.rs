@@ -1,4 +1,4 @@
-//! The rows of a sweep for NumPy, Arrow and files.
+//! Table of the rows of a sweep for NumPy, Arrow and files.
 
 use crate::arrays::Vector;
 use crate::errors;
@@ -12,7 +12,7 @@ use pyo3::types::PyCapsule;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The rows of a sweep, as columns in memory.
+/// Rows of a sweep as columns in memory.
 #[pyclass(frozen, name = "SweepTable", module = "funicular._funicular")]
 pub(crate) struct PyTable(Table);
 
@@ -24,7 +24,7 @@ impl PyTable {
 
 #[pymethods]
 impl PyTable {
-    /// Reads a Parquet file that a sweep has written.
+    /// Reads a Parquet file of a sweep.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         py.detach(|| Table::read(&path)).map(Self).map_err(|error| errors::files(&error))
@@ -37,7 +37,7 @@ impl PyTable {
         columns.map(|column| (column.name.clone(), column.unit.to_string(), column.about.clone())).collect()
     }
 
-    /// One column: numbers (NaN where there is none), flags, or a list of texts and None.
+    /// Returns one column: numbers (NaN if missing), flags, or a list of texts (None if missing).
     fn column(&self, py: Python<'_>, index: usize) -> PyResult<Py<PyAny>> {
         let values = py.detach(|| self.0.column(index));
         Ok(match values.ok_or_else(|| PyIndexError::new_err(index))? {
@@ -60,7 +60,7 @@ impl PyTable {
         self.0.rows()
     }
 
-    /// Whether every row of the plan is there.
+    /// True if every row of the plan is there.
     #[getter]
     fn complete(&self) -> bool {
         self.0.is_complete()
@@ -78,24 +78,24 @@ impl PyTable {
         serde_json::Value::from(self.0.record().plan.clone()).to_string()
     }
 
-    /// Writes .parquet, .csv or .vti, as a whole or not at all.
+    /// Writes .parquet, .csv or .vti; the file is complete or absent.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| self.0.write(&path)).map_err(|error| errors::files(&error))
     }
 
-    /// The rows for any library that knows Arrow's C stream, without copies.
+    /// Exports the rows as a C stream of Arrow, without copies.
     #[pyo3(signature = (requested_schema=None))]
     fn __arrow_c_stream__<'py>(
         &self,
         py: Python<'py>,
         requested_schema: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        // The protocol lets a producer answer with its own schema.
+        // The protocol allows a producer to use its own schema.
         let _ = requested_schema;
         let batches: Vec<_> = self.0.batches().iter().cloned().map(Ok).collect();
         let reader = RecordBatchIterator::new(batches, Arc::clone(self.0.schema()));
         let stream = FFI_ArrowArrayStream::new(Box::new(reader));
-        // A capsule, whose type has had a name in Python only since 3.13.
+        // `Any`: the type of a capsule has a name in Python only since 3.13.
         Ok(PyCapsule::new_with_value(py, stream, c"arrow_array_stream")?.into_any())
     }
 }

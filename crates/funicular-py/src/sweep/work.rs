@@ -1,6 +1,6 @@
-//! Rows on their way into memory or a file.
+//! Collection of the rows of a plan in memory or in a file.
 
-use super::plan::Whole;
+use super::plan::PlanData;
 use super::table::PyTable;
 use crate::errors;
 use crate::threads::Threads;
@@ -13,13 +13,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Where rows go.
-enum Place {
+/// Destination of the rows.
+enum RowStore {
     Memory(TableBuilder),
     File(Box<Job>, PathBuf),
 }
 
-impl Place {
+impl RowStore {
     fn add(&mut self, chunk: &funicular_study::sweep::Chunk) -> PyResult<()> {
         match self {
             Self::Memory(rows) => rows.add(chunk).map_err(|error| PyRuntimeError::new_err(error.to_string())),
@@ -35,26 +35,26 @@ impl Place {
     }
 }
 
-/// Rows of a plan as they come, in order.
+/// Collection of the rows of a plan, in their order.
 #[pyclass(name = "SweepWork", module = "funicular._funicular")]
 pub(crate) struct PyWork {
-    whole: Arc<Whole>,
-    /// None once it has ended.
-    into: Option<Place>,
+    data: Arc<PlanData>,
+    /// `None` after the end.
+    store: Option<RowStore>,
 }
 
 impl PyWork {
-    pub(crate) fn in_memory(whole: Arc<Whole>) -> Self {
-        let into = Place::Memory(TableBuilder::new(whole.record.clone()));
-        Self { whole, into: Some(into) }
+    pub(crate) fn in_memory(data: Arc<PlanData>) -> Self {
+        let store = RowStore::Memory(TableBuilder::new(data.record.clone()));
+        Self { data, store: Some(store) }
     }
 
-    pub(crate) fn in_file(whole: Arc<Whole>, job: Job, path: PathBuf) -> Self {
-        Self { whole, into: Some(Place::File(Box::new(job), path)) }
+    pub(crate) fn in_file(data: Arc<PlanData>, job: Job, path: PathBuf) -> Self {
+        Self { data, store: Some(RowStore::File(Box::new(job), path)) }
     }
 
-    fn open(&mut self) -> PyResult<&mut Place> {
-        self.into.as_mut().ok_or_else(ended)
+    fn open(&mut self) -> PyResult<&mut RowStore> {
+        self.store.as_mut().ok_or_else(ended)
     }
 }
 
@@ -64,96 +64,96 @@ fn ended() -> PyErr {
 
 #[pymethods]
 impl PyWork {
-    /// The first chunk that is missing.
+    /// Index of the first missing chunk.
     #[getter]
     fn next_chunk(&mut self) -> PyResult<usize> {
         Ok(self.open()?.next())
     }
 
-    /// Rows that are there.
+    /// Number of finished rows.
     #[getter]
     fn done(&mut self) -> PyResult<usize> {
         let next = self.open()?.next();
-        Ok(self.whole.done(next))
+        Ok(self.data.done(next))
     }
 
-    /// The file that holds the rows until the end; None in memory.
+    /// File that contains the rows until the end; None for rows in memory.
     #[getter]
     fn journal(&mut self) -> PyResult<Option<PathBuf>> {
         Ok(match self.open()? {
-            Place::Memory(_) => None,
-            Place::File(job, _) => Some(job.journal().to_owned()),
+            RowStore::Memory(_) => None,
+            RowStore::File(job, _) => Some(job.journal().to_owned()),
         })
     }
 
-    /// Takes chunks that `SweepPlan.compute` has made, the next ones.
+    /// Adds the next chunks, as bytes of `SweepPlan.compute`.
     fn add(&mut self, py: Python<'_>, chunks: &[u8]) -> PyResult<()> {
-        let whole = Arc::clone(&self.whole);
-        let into = self.open()?;
+        let data = Arc::clone(&self.data);
+        let store = self.open()?;
         py.detach(|| {
-            for chunk in unpack(chunks, &whole.record)? {
-                if chunk.index != into.next() {
+            for chunk in unpack(chunks, &data.record)? {
+                if chunk.index != store.next() {
                     return Err(PyValueError::new_err(format!(
                         "chunk {} is not the next, {}",
                         chunk.index,
-                        into.next()
+                        store.next()
                     )));
                 }
-                into.add(&chunk)?;
+                store.add(&chunk)?;
             }
             Ok(())
         })
     }
 
-    /// Computes all chunks that are missing here, side by side; `progress` is called with the rows there and all rows.
+    /// Computes all missing chunks in parallel; `progress` is called with the number of finished rows and of all rows.
     #[pyo3(signature = (threads=None, progress=None))]
     fn run(&mut self, py: Python<'_>, threads: Option<Threads>, progress: Option<Py<PyAny>>) -> PyResult<()> {
         let threads = Threads::of(threads);
-        let whole = Arc::clone(&self.whole);
-        let into = self.open()?;
-        let chunks = into.next()..whole.record.range().end;
+        let data = Arc::clone(&self.data);
+        let store = self.open()?;
+        let chunks = store.next()..data.record.range().end;
         let done = AtomicUsize::new(chunks.start);
-        let mut told = Instant::now();
-        let tell = || match &progress {
+        let mut reported = Instant::now();
+        let report = || match &progress {
             None => Ok(()),
             Some(progress) => Python::attach(|py| {
-                progress.call1(py, (whole.done(done.load(Ordering::Relaxed)), whole.rows())).map(drop)
+                progress.call1(py, (data.done(done.load(Ordering::Relaxed)), data.rows())).map(drop)
             }),
         };
         py.detach(|| {
-            let tell = &tell;
+            let report = &report;
             let take = |chunk: funicular_study::sweep::Chunk| {
-                into.add(&chunk)?;
+                store.add(&chunk)?;
                 done.store(chunk.index + 1, Ordering::Relaxed);
                 Ok(())
             };
-            let look = || {
-                crate::interrupt::look()?;
-                if told.elapsed() >= TELL {
-                    told = Instant::now();
-                    tell()?;
+            let check = || {
+                crate::interrupt::check_signals()?;
+                if reported.elapsed() >= REPORT_INTERVAL {
+                    reported = Instant::now();
+                    report()?;
                 }
                 Ok(())
             };
-            whole.run(chunks, threads, take, look)?;
-            tell()
+            data.run(chunks, threads, take, check)?;
+            report()
         })
     }
 
-    /// Ends it: writes the file, as a whole. The table of rows; None where that would be read from a Parquet file.
+    /// Ends the collection and writes the file. Returns the table of rows, or None if it is in a Parquet file.
     fn finish(&mut self, py: Python<'_>) -> PyResult<Option<PyTable>> {
-        if self.open()?.next() < self.whole.record.range().end {
+        if self.open()?.next() < self.data.record.range().end {
             return Err(PyValueError::new_err("chunks are missing"));
         }
-        let into = self.into.take().ok_or_else(ended)?;
-        let whole = Arc::clone(&self.whole);
-        py.detach(|| match into {
-            Place::Memory(rows) => finished(rows).map(Some),
-            Place::File(job, path) => {
+        let store = self.store.take().ok_or_else(ended)?;
+        let data = Arc::clone(&self.data);
+        py.detach(|| match store {
+            RowStore::Memory(rows) => finished(rows).map(Some),
+            RowStore::File(job, path) => {
                 let table = if is_parquet(&path) {
                     None
                 } else {
-                    let mut rows = TableBuilder::new(whole.record.clone());
+                    let mut rows = TableBuilder::new(data.record.clone());
                     let mut added = Ok(());
                     job.each(&mut |chunk| {
                         if added.is_ok() {
@@ -170,16 +170,16 @@ impl PyWork {
         })
     }
 
-    /// Ends it early: what is safe, in a sentence; None in memory.
+    /// Ends the collection early. Returns a sentence about the rows that are safe, or None for rows in memory.
     fn interrupt(&mut self, py: Python<'_>) -> PyResult<Option<String>> {
-        let Some(Place::File(job, _)) = self.into.take() else { return Ok(None) };
+        let Some(RowStore::File(job, _)) = self.store.take() else { return Ok(None) };
         let safe = py.detach(|| job.interrupt()).map_err(|error| errors::files(&error))?;
-        Ok(Some(format!("{safe}; the same call with `resume=True` goes on")))
+        Ok(Some(format!("{safe}; the same call with `resume=True` continues")))
     }
 }
 
 /// Time between two reports of progress.
-const TELL: std::time::Duration = std::time::Duration::from_millis(200);
+const REPORT_INTERVAL: std::time::Duration = std::time::Duration::from_millis(200);
 
 fn is_parquet(path: &Path) -> bool {
     Format::of(path).is_ok_and(|format| format == Format::Parquet)

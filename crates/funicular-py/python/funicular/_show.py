@@ -1,0 +1,19 @@
+"""Hooks for presentation: results call them, and `_html` and `_tables` register what each type looks like.
+
+Results import this module alone, so that they know nothing of HTML or pandas.
+"""
+
+from functools import singledispatch
+from typing import Any
+
+
+@singledispatch
+def html(result: object) -> str:
+    """HTML that a notebook shows for a result."""
+    raise TypeError(f"no HTML is registered for {type(result).__name__}")
+
+
+@singledispatch
+def table(result: object) -> Any:
+    """Table of pandas for a result."""
+    raise TypeError(f"no table is registered for {type(result).__name__}")

@@ -1,0 +1,368 @@
+//! `funicular.Analyses`: the methods that `Robot` and `Equilibrium` share, with their signatures.
+
+use crate::answers;
+use crate::arrays::{Count, Number, Numbers, Tensor, TextKeyed, Vector};
+use crate::equilibrium::PyEquilibrium;
+use crate::errors;
+use crate::interrupt::interruptible;
+use crate::robot::PyRobot;
+use crate::vibration::{self, ModesKeywords, ModesObject, Pair};
+use crate::written::{self, PageKeywords, ReduceKeywords};
+use funicular_study::analyses;
+use funicular_study::request::{State, Tensions};
+use numpy::Complex64;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Analyses of a robot at an equilibrium: the methods that `Equilibrium` and `Robot` share.
+///
+/// Those of `Robot` analyse the equilibrium in the state of the robot file, which every call computes again.
+#[pyclass(frozen, subclass, name = "Analyses", module = "funicular")]
+pub(crate) struct PyAnalyses;
+
+impl PyAnalyses {
+    /// Runs `analyse` on the equilibrium that a method is called on; for a robot on that of the state of its file.
+    fn at<R>(slf: &Bound<'_, Self>, analyse: impl FnOnce(&PyEquilibrium) -> PyResult<R>) -> PyResult<R> {
+        if let Ok(equilibrium) = slf.cast::<PyEquilibrium>() {
+            return analyse(equilibrium.get());
+        }
+        let robot = slf.cast::<PyRobot>()?.clone().unbind();
+        analyse(&PyEquilibrium::of(slf.py(), robot, State::default(), Tensions::default())?)
+    }
+}
+
+#[pymethods]
+impl PyAnalyses {
+    /// Computes the stiffness about the platform origin in world axes [N/m, N, N m].
+    ///
+    /// Parameters
+    /// ----------
+    /// at_hz
+    ///     Frequency [Hz], or a row of n frequencies; 0 if not given.
+    /// cable_model
+    ///     How cables answer motion of the platform: `catenary-dynamic`, `shallow-dynamic`, `shallow-static`,
+    ///     `catenary-static`, `spring`. If not given: `catenary-dynamic` with catenary statics, else `shallow-dynamic`,
+    ///     and at 0 Hz the exact tangent of the static model. In wind this tangent is unsymmetric, because the drag
+    ///     turns with the cables (theory (49d)). A named model, or another frequency, gives the symmetric stiffness
+    ///     with constant drag.
+    /// assembly
+    ///     Terms of the stiffness: `consistent`, or `without-geometric-stiffness` for the end stiffness of the cables
+    ///     alone, as in Yuan et al. 2014.
+    /// in_plane_only
+    ///     Leave out the stiffness of cables out of their planes, as in Yuan et al. 2014.
+    ///
+    /// Returns
+    /// -------
+    /// (6, 6), real at 0 Hz and complex at another frequency; for a row of frequencies (n, 6, 6), complex.
+    #[pyo3(signature = (at_hz=None, *, cable_model=None, assembly="consistent", in_plane_only=false))]
+    fn stiffness(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        at_hz: Option<Numbers>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<vibration::Stiffness> {
+        Self::at(slf, |rest| vibration::stiffness(py, rest, at_hz, cable_model, assembly, in_plane_only))
+    }
+
+    /// Searches for all equilibria of the unstrained lengths of the equilibrium.
+    ///
+    /// Returns
+    /// -------
+    /// The keys of the program's JSON. `equilibria` lists the solutions, the lowest first, each with `pose`, `stable`,
+    /// `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
+    fn all_equilibria<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
+        let at_rest = Self::at(slf, |rest| Ok(Arc::clone(&rest.at_rest)))?;
+        let found = interruptible(py, move || analyses::statics::about(&at_rest, true))?;
+        answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
+    }
+
+    /// Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
+    ///
+    /// Parameters
+    /// ----------
+    /// below_hz
+    ///     Limit of the frequencies [Hz].
+    /// input, output
+    ///     Signals of a response, as in `frf`: every mode then has its residue and the height of its peak.
+    /// input_point_m, output_point_m
+    ///     Points of the platform, as in `frf`.
+    /// stations
+    ///     Number of points along every cable, ends included, whose displacements are wanted.
+    /// cable_model, assembly, in_plane_only
+    ///     Models, as in `stiffness`.
+    /// damped
+    ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
+    ///     damping, and there are no eigenvalues.
+    #[pyo3(signature = (
+        below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
+        assembly="consistent", in_plane_only=false, damped=true
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn modes(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        below_hz: Number,
+        input: Option<String>,
+        output: Option<String>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        stations: Option<Count>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        damped: bool,
+    ) -> PyResult<ModesObject> {
+        let keywords = ModesKeywords {
+            below_hz,
+            input,
+            output,
+            input_point_m,
+            output_point_m,
+            stations,
+            cable_model,
+            assembly,
+            in_plane_only,
+            damped,
+        };
+        Self::at(slf, |rest| vibration::modes(py, rest, keywords))
+    }
+
+    /// Computes the frequency response of one output to one input: complex, for e^{+iωt}, in units of output per input.
+    ///
+    /// Parameters
+    /// ----------
+    /// hz
+    ///     Frequencies [Hz], a row of n.
+    /// input
+    ///     Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
+    ///     direction, in world axes; or a force on a cable, as in `cable:3@0.5:fz`.
+    /// output
+    ///     Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
+    ///     (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; or a point of a cable, as in
+    ///     `cable:3@0.5:az`.
+    /// input_point_m, output_point_m
+    ///     Point where the force acts and point whose motion is measured, platform frame [m]; the origin if not given.
+    /// cable_model, assembly, in_plane_only
+    ///     Models, as in `stiffness`.
+    ///
+    /// Raises
+    /// ------
+    /// ResponseError
+    ///     One of the frequencies is an undamped natural frequency.
+    #[pyo3(signature = (
+        hz, input, output, *, input_point_m=None, output_point_m=None, cable_model=None, assembly="consistent",
+        in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn frf(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        hz: Numbers,
+        input: &str,
+        output: &str,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<Vector<Complex64>> {
+        let pair = Pair { input, output, input_point_m, output_point_m };
+        Self::at(slf, |rest| vibration::frf(py, rest, hz, pair, cable_model, assembly, in_plane_only))
+    }
+
+    /// Computes the receptance of all six motions to all six wrench components about the platform origin: (n, 6, 6),
+    /// world axes.
+    ///
+    /// The parameters are those of `frf`.
+    #[pyo3(signature = (hz, *, cable_model=None, assembly="consistent", in_plane_only=false))]
+    fn receptance(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        hz: Numbers,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<Tensor<Complex64>> {
+        Self::at(slf, |rest| vibration::receptance(py, rest, hz, cable_model, assembly, in_plane_only))
+    }
+
+    /// Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
+    /// recommended model.
+    ///
+    /// Parameters
+    /// ----------
+    /// below_hz
+    ///     Limit of the frequencies [Hz].
+    /// assembly, in_plane_only
+    ///     Terms of the stiffness, as in `stiffness`.
+    ///
+    /// Returns
+    /// -------
+    /// The keys of the program's JSON; lists of numbers are arrays.
+    #[pyo3(signature = (below_hz, *, assembly="consistent", in_plane_only=false))]
+    fn compare<'py>(
+        slf: &Bound<'py, Self>,
+        py: Python<'py>,
+        below_hz: Number,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<TextKeyed<'py>> {
+        Self::at(slf, |rest| vibration::compare(py, rest, below_hz, assembly, in_plane_only))
+    }
+
+    /// Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
+    ///
+    /// Parameters
+    /// ----------
+    /// name
+    ///     Name of a cable.
+    /// hz
+    ///     Frequencies [Hz], a row of n.
+    /// cable_model, in_plane_only
+    ///     Model, as in `stiffness`.
+    ///
+    /// Returns
+    /// -------
+    /// The keys of the program's JSON. `local` has `k_a`, `k_b`, `k_c`, `k_o` (n, complex): along the chord, coupling,
+    /// normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
+    /// the natural frequencies of the cable with both ends fixed.
+    #[pyo3(signature = (name, hz, *, cable_model=None, in_plane_only=false))]
+    fn cable<'py>(
+        slf: &Bound<'py, Self>,
+        py: Python<'py>,
+        name: &str,
+        hz: Numbers,
+        cable_model: Option<&str>,
+        in_plane_only: bool,
+    ) -> PyResult<TextKeyed<'py>> {
+        Self::at(slf, |rest| vibration::cable(py, rest, name, hz, cable_model, in_plane_only))
+    }
+
+    /// Computes a second-order model M x'' + C x' + K x = B f, y = L x for control design.
+    ///
+    /// Parameters
+    /// ----------
+    /// below_hz
+    ///     Highest frequency for which the model is made [Hz].
+    /// input, output
+    ///     Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+    ///     displacements and rotations.
+    /// input_point_m, output_point_m
+    ///     Points of the platform, as in `frf`.
+    /// tolerance
+    ///     Maximum relative error of the responses by modes left out.
+    /// damping_at_hz
+    ///     Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
+    ///     not given.
+    /// cable_model, assembly, in_plane_only
+    ///     Models, as in `stiffness`.
+    #[pyo3(signature = (
+        below_hz, input=None, output=None, *, input_point_m=None, output_point_m=None, tolerance=Number::of(1e-3),
+        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn reduce(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        below_hz: Number,
+        input: Option<Vec<String>>,
+        output: Option<Vec<String>>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        tolerance: Number,
+        damping_at_hz: Option<Number>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<written::ReducedObject> {
+        let keywords = ReduceKeywords {
+            below_hz,
+            input,
+            output,
+            input_point_m,
+            output_point_m,
+            tolerance,
+            damping_at_hz,
+            cable_model,
+            assembly,
+            in_plane_only,
+        };
+        Self::at(slf, |rest| written::reduce(py, rest, keywords))
+    }
+
+    /// Writes the equilibrium as a file of another program; returns the caveats of the file.
+    ///
+    /// Parameters
+    /// ----------
+    /// to
+    ///     Program that the file is for: `opensees`, `moordyn` or `vtk`.
+    /// path
+    ///     Path of the file, which is complete or absent.
+    /// segments
+    ///     Number of elements per cable.
+    /// modes_below_hz
+    ///     Limit of the modes in the file [Hz].
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     The file cannot be written.
+    #[pyo3(signature = (to, path, *, segments=Count::of(20), modes_below_hz=None))]
+    fn export(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        to: &str,
+        path: PathBuf,
+        segments: Count,
+        modes_below_hz: Option<Number>,
+    ) -> PyResult<Vec<String>> {
+        Self::at(slf, |rest| written::export(py, rest, to, path, segments, modes_below_hz))
+    }
+
+    /// Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     File to which the page is also written.
+    /// below_hz
+    ///     Limit of the frequencies [Hz].
+    /// input, output
+    ///     Signals of the response on the page, as in `frf`; `fz` and `az` if not given, or `fx` and `ax` for a
+    ///     platform that cannot move along z.
+    /// input_point_m, output_point_m, cable_model, assembly, in_plane_only
+    ///     Points and models, as in `frf`.
+    #[pyo3(signature = (
+        path=None, *, below_hz=Number::of(20.0), input=None, output=None, input_point_m=None, output_point_m=None,
+        cable_model=None, assembly="consistent", in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn report(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        path: Option<PathBuf>,
+        below_hz: Number,
+        input: Option<String>,
+        output: Option<String>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<written::PageObject> {
+        let keywords = PageKeywords {
+            below_hz,
+            input,
+            output,
+            input_point_m,
+            output_point_m,
+            cable_model,
+            assembly,
+            in_plane_only,
+        };
+        Self::at(slf, |rest| written::report(py, rest, path, keywords))
+    }
+}
