@@ -1,4 +1,4 @@
-//! Library of cable-driven parallel robots: the texts of robot files, each with its source and its assumptions.
+//! Library of cable-driven parallel robots: texts of robot files, each with its source and its assumptions.
 //!
 //! ```
 //! for (name, text) in funicular_robots::ALL {
@@ -39,7 +39,7 @@ pub const YUAN2014_4MM: &str = include_str!("yuan2014-4mm.toml");
 /// Six cables of 8 mm, the robot of Yuan, Courteille and Deblaise (ICRA 2014).
 pub const YUAN2014_8MM: &str = include_str!("yuan2014-8mm.toml");
 
-/// Every robot: name of its file without `.toml`, and the text of that file.
+/// All robots: name of the file without `.toml`, and text of the file.
 pub const ALL: [(&str, &str); 11] = [
     ("caroca", CAROCA),
     ("cogiro", COGIRO),
@@ -59,7 +59,7 @@ mod tests {
     use std::path::Path;
 
     #[test]
-    fn every_robot_file_of_the_folder_is_in_the_list() {
+    fn the_list_has_every_robot_file_of_the_folder() {
         let mut files: Vec<String> = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")))
             .unwrap()
             .filter_map(|entry| {

@@ -1,4 +1,4 @@
-"""What scripts/cross-check runs: robots of the library by funicular and by the programs of others."""
+"""Comparison of funicular with other programs on robots of the library; scripts/cross-check runs it."""
 
 import contextlib
 import io
@@ -19,26 +19,27 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-# Largest differences that pass.
+# Maximum differences that pass.
 POSITION_M = 1e-6  # of any attachment
-TENSION_PART = 1e-6  # of the robot's greatest tension
-# What of a frequency, as a part, the platform's frame and the eigenvalue solver leave.
-FLOOR_PART = 2e-6
-# Chains err by second order, and by more where the orders of their errors differ. Half as many bars then say the error: a
-# third of what changes, and this many times it are granted.
+TENSION_RATIO = 1e-6  # of the robot's maximum tension
+# Relative error of a frequency from the platform's frame and the eigenvalue solver.
+FLOOR_RATIO = 2e-6
+# The error of a chain is of second order in the length of its bars. A chain with half as many bars therefore gives an
+# estimate of the error: a third of the change. Errors of other orders are covered by this factor.
 MARGIN = 1.5
-# What is left of that error when two meshes are extrapolated to none.
+# Remaining fraction of this error after extrapolation from two meshes.
 EXTRAPOLATED = 0.5
 
 BARS = 20
 
 
 class Case:
-    """A robot, and what acts on it."""
+    """A robot with the load on it."""
 
     def __init__(self, name, seconds=None, segments=BARS, robot=None, options=(), tilted=False):
         self.name, self.robot, self.options, self.tilted = name, robot or name, list(options), tilted
-        # That MoorDyn integrates, some periods of the lowest mode, and its segments; None where it has not the robot.
+        # Time [s] that MoorDyn integrates (some periods of the lowest mode), None if MoorDyn cannot model the robot;
+        # segments.
         self.seconds, self.segments = seconds, segments
 
 
@@ -57,7 +58,7 @@ ALL = [
 
 
 class Table:
-    """Rows of differences and their limits."""
+    """Table of differences and their limits."""
 
     def __init__(self):
         self.failed = 0
@@ -70,7 +71,7 @@ class Table:
 
 
 class Robot:
-    """A robot of the library and funicular's answer."""
+    """A robot of the library with the results of funicular."""
 
     def __init__(self, program, case, folder):
         self.program, self.name, self.options = program, case.name, case.options
@@ -83,11 +84,11 @@ class Robot:
         self.statics = json.loads(self.run("statics", "--format", "json"))
         platform = self.file["platform"]
         motion = platform.get("motion", "rigid")
-        self.is_point = degrees of freedom == "point-mass"
-        # Components that MoorPy's platform has; it knows no other plane.
+        self.is_point = motion == "point-mass"
+        # Components of the motion in MoorPy, which knows no other planes.
         self.components = {
             "rigid": [0, 1, 2, 3, 4, 5], "point-mass": [0, 1, 2], "planar-xy": [0, 1, 5], "planar-xz": [0, 2, 4], "planar-yz": [1, 2, 3],
-        }.get(degrees of freedom)  # fmt: skip
+        }.get(motion)  # fmt: skip
         self.mass = platform["mass_kg"]
         self.center = np.array(platform.get("center_of_mass_m", [0.0, 0.0, 0.0]))
         self.position = np.array(self.statics["pose"]["position_m"])
@@ -120,7 +121,7 @@ class Robot:
         self.run("export", "--to", program, "-o", str(path), *arguments)
 
     def moved(self, position, rotation):
-        """How far the attachment that is farthest off is from funicular's [m]."""
+        """Largest distance of an attachment from its position in funicular [m]."""
         ours = self.position + self.attachments @ self.rotation.T
         return np.linalg.norm(position + self.attachments @ rotation.T - ours, axis=1).max()
 
@@ -129,7 +130,7 @@ class Robot:
 
 
 def tilted(file):
-    """A planar robot in a plane that is none of the coordinates': turned, while gravity stays."""
+    """Rotates a planar robot into a plane that is not a coordinate plane; gravity stays."""
     a, b = 0.4, -0.7
     turn = np.array([[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]]) @ np.array([
         [math.cos(b), 0, math.sin(b)], [0, 1, 0], [-math.sin(b), 0, math.cos(b)],
@@ -159,7 +160,7 @@ def axial_stiffness(rope):
 
 @contextlib.contextmanager
 def quiet():
-    """Nothing of a program that talks: its C code writes past sys.stdout."""
+    """Suppresses the output of a program, whose C code does not write through sys.stdout."""
     sys.stdout.flush()
     kept = [os.dup(1), os.dup(2)]
     with tempfile.TemporaryFile() as sink:
@@ -180,9 +181,9 @@ def quiet():
 
 
 def check_moorpy(robot, table):
-    """Statics from the robot file, from a start beside funicular's pose."""
+    """Compares the statics of the robot file, from a start near funicular's pose."""
     with quiet():
-        # In air, the seabed far below. MoorPy's own tolerance, 0.05 m, stops far from equilibrium.
+        # In air, with the seabed far below. MoorPy's default tolerance of 0.05 m stops far from equilibrium.
         system = moorpy.System(depth=1e4, rho=0, g=9.81)
         start = robot.position + [0.01 * sign if k in robot.components else 0.0 for k, sign in enumerate((1, -1, 1))]
         roll, pitch, yaw = (math.radians(angle) for angle in robot.statics["pose"]["roll_pitch_yaw_deg"])
@@ -190,7 +191,7 @@ def check_moorpy(robot, table):
             system.addPoint(0, start, m=robot.mass, v=0, fExt=robot.wrench[:3])
         else:
             pose = np.array([*start, roll, pitch, yaw])
-            # The wrench at funicular's pose: MoorPy's does not turn with the body.
+            # The wrench at funicular's pose, because MoorPy does not rotate it with the body.
             system.addBody(0, pose, m=robot.mass, v=0, rCG=robot.center, f6Ext=robot.wrench, DOFs=robot.components)
         for i, (rope, length) in enumerate(zip(robot.ropes, robot.lengths)):
             name = f"rope{i}"
@@ -215,11 +216,11 @@ def check_moorpy(robot, table):
             points = np.array([system.pointList[2 * i].r for i in range(len(robot.lengths))])
             moved = np.linalg.norm(points - robot.position - robot.attachments @ robot.rotation.T, axis=1).max()
     table.row(robot.name, "MoorPy", "position of the attachments [m]", moved, POSITION_M)
-    table.row(robot.name, "MoorPy", "tensions over the greatest", robot.off(ends), TENSION_PART)
+    table.row(robot.name, "MoorPy", "tensions / maximum tension", robot.off(ends), TENSION_RATIO)
 
 
 class Chains:
-    """What OpenSees says of chains of so many bars."""
+    """Results of OpenSees for chains with a number of bars."""
 
     def __init__(self, robot, folder, bars):
         path = folder / f"{bars}.py"
@@ -231,35 +232,35 @@ class Chains:
         cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
         self.bars = bars
         self.moved = robot.moved(np.array(result["position_m"]), (np.eye(3) + cross) @ robot.rotation)
-        # Over what funicular says, and over its greatest tension.
+        # Differences relative to funicular's maximum tension, and to funicular's frequencies.
         self.tensions = (np.array(result["tensions_n"]) - robot.tensions).T / robot.tensions.max()
         self.frequencies = np.array(result["frequencies_hz"]) / np.array(done["FREQUENCIES_HZ"]) - 1.0
 
 
 def check_opensees(robot, folder, table):
-    """Statics and the first frequencies, within what half as many bars say of the error."""
+    """Compares statics and first frequencies, with limits from the results with half as many bars."""
     meshes = [Chains(robot, folder, bars) for bars in (BARS // 2, BARS, 2 * BARS)]
     for coarse, fine in zip(meshes, meshes[1:]):
         name = f"OpenSees, {fine.bars} bars"
         table.row(robot.name, name, "position of the attachments [m]", fine.moved, POSITION_M)
-        table.row(robot.name, name, "tensions at the platform, over the greatest", np.abs(fine.tensions[0]).max(), TENSION_PART)
+        table.row(robot.name, name, "tensions at the platform / maximum tension", np.abs(fine.tensions[0]).max(), TENSION_RATIO)
         for what, ours, before, floor in (
-            ("tensions at the anchors, over the greatest", fine.tensions[1], coarse.tensions[1], TENSION_PART),
-            (f"first {len(fine.frequencies)} frequencies, relative", fine.frequencies, coarse.frequencies, FLOOR_PART),
+            ("tensions at the anchors / maximum tension", fine.tensions[1], coarse.tensions[1], TENSION_RATIO),
+            (f"first {len(fine.frequencies)} frequencies, relative", fine.frequencies, coarse.frequencies, FLOOR_RATIO),
         ):
             error = np.abs(ours - before).max() / 3.0
             table.row(robot.name, name, what, np.abs(ours).max(), floor + MARGIN * error)
     left = fine.frequencies + (fine.frequencies - coarse.frequencies) / 3.0
-    table.row(robot.name, "OpenSees, no mesh", "the same, extrapolated", np.abs(left).max(), FLOOR_PART + EXTRAPOLATED * error)
+    table.row(robot.name, "OpenSees, no mesh", "frequencies, extrapolated, relative", np.abs(left).max(), FLOOR_RATIO + EXTRAPOLATED * error)
 
 
 def check_moordyn(robot, folder, table, seconds, segments):
-    """Where the platform comes to rest: the mean of what is left of its motion, weighted so that waves drop out.
+    """Compares the equilibrium: the mean of the remaining motion, weighted so that waves cancel out.
 
-    MoorDyn begins with catenaries, which its chains are not: they ring. Undamped axial waves carry tension of their own
-    and move the mean by up to 4e-5 m (yuan2014-8mm), so the segments get half of their critical damping. Waves across hardly
-    decay (a shift of 1.5e-6 m after 60 s, 1.2e-6 m after 90 s); it is their square that moves the mean, and twice as many
-    segments make it a sixteenth.
+    MoorDyn starts with catenaries, which differ from its chains, so the chains vibrate. Undamped axial waves add tension
+    and move the mean by up to 4e-5 m (yuan2014-8mm), so the segments get half of their critical damping. Transverse waves
+    hardly decay (a shift of 1.5e-6 m after 60 s, 1.2e-6 m after 90 s). Their square moves the mean: twice as many segments
+    reduce it to a sixteenth.
     """
     path = folder / "moordyn.txt"
     robot.export("moordyn", path, "--segments", str(segments))
@@ -288,7 +289,7 @@ def check_moordyn(robot, folder, table, seconds, segments):
 
 
 def check_vtk(robot, folder, table):
-    """What VTK reads is what funicular says."""
+    """Compares the file read by VTK with the results of funicular."""
     path = folder / "vtk.vtp"
     modes = json.loads(robot.run("modes", "--below-hz", "4", "--format", "json"))["modes"]
     robot.export("vtk", path, "--modes-below-hz", "4", "--segments", str(BARS))
@@ -303,9 +304,9 @@ def check_vtk(robot, folder, table):
     ends = np.stack([tension[at], tension[at + BARS]], axis=1)
     off = np.linalg.norm(points[at + BARS] - robot.anchors, axis=1).max()
     table.row(robot.name, "VTK", "anchors [m]", off, 1e-12)
-    table.row(robot.name, "VTK", "tensions over the greatest", robot.off(ends), 1e-12)
+    table.row(robot.name, "VTK", "tensions / maximum tension", robot.off(ends), 1e-12)
     table.row(robot.name, "VTK", "cables and modes missing", abs(shape.GetNumberOfLines() - len(at)) + abs(data.GetNumberOfArrays() - 2 - len(modes)), 0)
-    # The beginning of a cable moves with the platform.
+    # The start of a cable moves with the platform.
     worst = 0.0
     arms = robot.attachments @ robot.rotation.T
     for i, mode in enumerate(modes):
@@ -319,7 +320,7 @@ def check_vtk(robot, folder, table):
 def main():
     program, *options = sys.argv[1:]
     if options not in ([], ["--short"]):
-        raise SystemExit(f"unknown options {options}: --short is the only one")
+        raise SystemExit(f"unknown options {options}: the only option is --short")
     table = Table()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -3,7 +3,7 @@
 use crate::args::{Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_files::Guard;
-use funicular_files::atomic_file::{Temporary, is_regular_or_new};
+use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use funicular_study::analyses::Found;
 use funicular_study::{NoSolution, json};
@@ -49,11 +49,12 @@ pub(crate) struct Target {
 }
 
 impl Target {
-    /// Checks that bytes can be written there, before work begins that may take long. No path or `-` is standard output.
+    /// Checks that bytes can be written there, before work begins that may take long. No path or `-` is standard
+    /// output.
     ///
     /// # Errors
-    /// A place that cannot be written; a file that the command reads or writes otherwise, or whose ending means something
-    /// else.
+    /// A place that cannot be written; a file that the command reads or writes otherwise, or whose ending means
+    /// something else.
     pub(crate) fn open(path: Option<&Path>, content: Content, guard: &mut Guard) -> Result<Self> {
         let Some(path) = path.filter(|path| path.as_os_str() != "-") else { return Ok(Self { file: None }) };
         let shown = path.display();
@@ -68,7 +69,7 @@ impl Target {
             if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
                 bail!("cannot write to {shown}: it is read-only");
             }
-            Temporary::beside(&target).with_context(|| format!("cannot write to {shown}"))?;
+            TemporaryFile::beside(&target).with_context(|| format!("cannot write to {shown}"))?;
         }
         Ok(Self { file: Some(target) })
     }
@@ -94,7 +95,8 @@ pub(crate) struct Sink {
 }
 
 impl Sink {
-    /// Chooses the requested format, or else the format of the file's ending. Never overwrites a file that the guard knows.
+    /// Chooses the requested format, or else the format of the file's ending. Never overwrites a file that the guard
+    /// knows.
     pub(crate) fn open(args: &OutputArgs, guard: &mut Guard) -> Result<Self> {
         let path = args.output_file.as_deref();
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
@@ -152,22 +154,13 @@ fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSoluti
     })
 }
 
-/// Gives a folder the permissions of a new folder. A temporary folder can be read by its owner only.
-pub(crate) fn open_to_all(folder: &Path) -> io::Result<()> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(folder, fs::Permissions::from_mode(0o755))?;
-    }
-    Ok(())
-}
-
 fn to_stdout(bytes: &[u8]) -> Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(bytes).and_then(|()| out.flush()).map_err(of_stdout)
 }
 
-/// Error of standard output. A closed pipe is passed on unchanged, because it does not count as an error: the reader has stopped.
+/// Error of standard output. A closed pipe is passed on unchanged, because it does not count as an error: the reader
+/// has stopped.
 pub(crate) fn of_stdout(error: io::Error) -> anyhow::Error {
     match error.kind() {
         io::ErrorKind::BrokenPipe => error.into(),
@@ -179,7 +172,7 @@ fn to_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if !is_regular_or_new(path) {
         return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
     }
-    let mut file = Temporary::beside(path)?;
+    let mut file = TemporaryFile::beside(path)?;
     file.as_file_mut().write_all(bytes)?;
     file.persist(path)
 }

@@ -1,4 +1,4 @@
-//! Rows in memory as Arrow has them.
+//! Rows in memory in the format of Apache Arrow.
 
 use arrow_array::builder::{BooleanBuilder, Float64Builder, StringBuilder};
 use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The schema of rows; every field has its `unit` and what it is (`about`) in its metadata.
+/// Arrow schema of the rows. The metadata of every field hold its `unit` and a description (`about`).
 pub fn schema(record: &Record) -> Schema {
     Schema::new(record.columns.iter().map(field).collect::<Vec<_>>())
 }
@@ -27,18 +27,18 @@ fn field(column: &Column) -> Field {
     Field::new(&column.name, kind, column.kind != Kind::Flag).with_metadata(about)
 }
 
-/// The rows of a chunk as a batch of [`schema`].
+/// Rows of a chunk as a record batch with this [`schema`].
 ///
 /// # Errors
 /// Columns that are not those of the record.
 pub fn batch(record: &Record, chunk: &Chunk) -> Result<RecordBatch, ArrowError> {
-    let mut rows = Builders::new(&record.columns);
+    let mut rows = ColumnBuilders::new(&record.columns);
     rows.add(chunk, 0..chunk.rows());
     rows.finish(&Arc::new(schema(record)))
 }
 
-/// Columns that grow.
-pub(crate) struct Builders(Vec<Builder>);
+/// Builders of all columns.
+pub(crate) struct ColumnBuilders(Vec<Builder>);
 
 enum Builder {
     Real(Float64Builder),
@@ -46,7 +46,7 @@ enum Builder {
     Text(StringBuilder),
 }
 
-impl Builders {
+impl ColumnBuilders {
     pub(crate) fn new(columns: &[Column]) -> Self {
         Self(
             columns
@@ -60,7 +60,7 @@ impl Builders {
         )
     }
 
-    /// Adds some rows of a chunk whose columns are of these kinds.
+    /// Adds rows of a chunk; its columns have to be of the builders' kinds.
     pub(crate) fn add(&mut self, chunk: &Chunk, rows: Range<usize>) {
         for (builder, values) in self.0.iter_mut().zip(&chunk.columns) {
             match (builder, values) {
@@ -73,12 +73,12 @@ impl Builders {
                 (Builder::Text(builder), Values::Text(values)) => {
                     values[rows.clone()].iter().for_each(|value| builder.append_option(value.as_deref()));
                 }
-                (_, values) => unreachable!("a column of another kind: {values:?}"),
+                (_, values) => unreachable!("column and builder differ in kind: {values:?}"),
             }
         }
     }
 
-    /// What was added, as a batch; the builders are empty then.
+    /// Returns the added rows as a batch and leaves the builders empty.
     pub(crate) fn finish(&mut self, schema: &Arc<Schema>) -> Result<RecordBatch, ArrowError> {
         let columns = self
             .0
@@ -93,7 +93,7 @@ impl Builders {
     }
 }
 
-/// The values of a batch, with all its columns; `None` for kinds that no chunk has.
+/// Values of a batch, column by column; `None` if a column has a type that no chunk has.
 pub(crate) fn values(batch: &RecordBatch) -> Option<Vec<Values>> {
     fn options<T>(array: &dyn Array, at: impl Fn(usize) -> T) -> Vec<Option<T>> {
         (0..array.len()).map(|i| array.is_valid(i).then(|| at(i))).collect()

@@ -1,10 +1,10 @@
-//! Rows as CSV: a header, every digit, nothing where there is no value.
+//! Rows as CSV: a header, all digits, an empty field for a missing value.
 
 use crate::Rows;
 use funicular_study::sweep::{Chunk, Column, Record, Values};
 use std::io::{self, Write};
 
-/// Writes chunks as CSV.
+/// Writer of chunks as CSV.
 pub struct CsvRows<W: Write> {
     out: csv::Writer<W>,
 }
@@ -13,7 +13,7 @@ impl<W: Write> CsvRows<W> {
     /// Writes the header.
     ///
     /// # Errors
-    /// What `out` reports.
+    /// The error of `out`.
     pub fn new(out: W, columns: &[Column]) -> io::Result<Self> {
         let mut out = csv::Writer::from_writer(out);
         out.write_record(columns.iter().map(|column| column.name.as_str())).map_err(below)?;
@@ -23,7 +23,7 @@ impl<W: Write> CsvRows<W> {
     /// Adds the rows of a chunk.
     ///
     /// # Errors
-    /// What `out` reports.
+    /// The error of `out`.
     pub fn add(&mut self, chunk: &Chunk) -> io::Result<()> {
         let mut number = String::new();
         for row in 0..chunk.rows() {
@@ -33,7 +33,7 @@ impl<W: Write> CsvRows<W> {
                         number.clear();
                         if let Some(value) = values[row] {
                             use std::fmt::Write as _;
-                            // The shortest text that reads back as the same number.
+                            // `{:?}` gives the shortest text that is read back as the same number.
                             let _ = write!(number, "{value:?}");
                         }
                         self.out.write_field(number.as_bytes()).map_err(below)?;
@@ -51,16 +51,16 @@ impl<W: Write> CsvRows<W> {
         Ok(())
     }
 
-    /// Everything is out.
+    /// Flushes `out`.
     ///
     /// # Errors
-    /// What `out` reports.
+    /// The error of `out`.
     pub fn finish(mut self) -> io::Result<()> {
         self.out.flush()
     }
 }
 
-/// The error of what is written to, whose kind the other conversion loses.
+/// Error of the underlying writer with its kind, which the standard conversion of `csv::Error` loses.
 fn below(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,

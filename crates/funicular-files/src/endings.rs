@@ -1,38 +1,38 @@
-//! Endings of files and what they mean, in one table for all that is written.
+//! Endings of file names and their meanings, in one table for all outputs.
 
 use crate::FilesError;
 use std::path::Path;
 
-/// The meaning of an ending.
+/// Kind of a file, given by the ending of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Any text; whatever is text may be in it.
+    /// Plain text; it may hold any output that is text.
     Text,
-    /// Text with marks for headings and tables.
+    /// Markdown text.
     Markdown,
     /// JSON.
     Json,
-    /// A table, its values separated by commas.
+    /// Table of comma-separated values.
     Csv,
     /// Rows of a sweep with units, robot and plan.
     Parquet,
-    /// An image for ParaView.
+    /// Image for ParaView.
     Vti,
     /// Curves and polygons for ParaView.
     Vtp,
-    /// A page for a browser.
+    /// Page for a browser.
     Html,
-    /// A robot file.
+    /// Robot file.
     Toml,
-    /// A script.
+    /// Python script.
     Python,
     /// Arrays of NumPy.
     Npz,
-    /// Something that is never written, in words.
+    /// Kind that is never written, in words.
     Other(&'static str),
 }
 
-/// Every ending that means something. One that is not here is free for any text.
+/// All endings with a meaning. A file with any other ending may hold any text.
 const ENDINGS: [(&[&str], Kind); 31] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
@@ -45,13 +45,13 @@ const ENDINGS: [(&[&str], Kind); 31] = [
     (&["toml"], Kind::Toml),
     (&["py"], Kind::Python),
     (&["npz"], Kind::Npz),
-    (&["partial", "writing"], Kind::Other("rows of a sweep on their way")),
+    (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
     (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
-    (&["tsv", "tab"], Kind::Other("a table separated by tabs")),
+    (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
     (&["xls", "xlsx", "xlsm", "xlsb", "ods"], Kind::Other("a spreadsheet")),
     (&["arrow", "arrows", "feather", "ipc"], Kind::Other("an Arrow file")),
     (&["h5", "hdf", "hdf5", "nc"], Kind::Other("an HDF5 file")),
-    (&["mat"], Kind::Other("a file of MATLAB's variables")),
+    (&["mat"], Kind::Other("variables of MATLAB")),
     (&["m"], Kind::Other("a script of MATLAB")),
     (&["npy"], Kind::Other("one array of NumPy")),
     (&["pkl", "pickle"], Kind::Other("Python's pickled objects")),
@@ -68,13 +68,13 @@ const ENDINGS: [(&[&str], Kind); 31] = [
 ];
 
 impl Kind {
-    /// The kind that the ending of a file names, in capitals or not; none for no ending, or for one that means nothing.
+    /// Kind given by the ending of a file, upper or lower case; `None` for no ending or an ending without a meaning.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = ending(path)?;
         ENDINGS.iter().find(|(endings, _)| endings.contains(&ending.as_str())).map(|(_, kind)| *kind)
     }
 
-    /// In words.
+    /// Name of the kind in messages.
     fn in_words(self) -> &'static str {
         match self {
             Self::Text => "text",
@@ -93,10 +93,10 @@ impl Kind {
     }
 }
 
-/// Refuses a file whose ending means something else than the text that is to be written into it.
+/// Refuses a file whose ending contradicts the content to be written.
 ///
-/// `written` is that text in words, `fitting` the kinds whose endings it may have, besides those of any text and those that
-/// mean nothing.
+/// `written` names the content in words. `fitting` lists the kinds whose endings are allowed, besides endings of plain
+/// text and endings without a meaning.
 ///
 /// # Errors
 /// [`FilesError::OtherEnding`], with the endings that fit.
@@ -114,12 +114,12 @@ pub fn check(path: &Path, written: &str, fitting: &[Kind]) -> Result<(), FilesEr
     }
 }
 
-/// The ending in small letters, without the dot.
+/// Ending of a file name in lower case, without the dot.
 fn ending(path: &Path) -> Option<String> {
     path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase)
 }
 
-/// The first ending of each kind: ".json, .csv or .txt".
+/// First ending of each kind, such as ".json, .csv or .txt".
 fn listed(kinds: &[Kind]) -> String {
     let first =
         |kind: &Kind| ENDINGS.iter().find(|(_, other)| other == kind).map(|(endings, _)| format!(".{}", endings[0]));
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_goes_where_it_fits_and_where_nothing_is_meant() {
+    fn a_text_may_have_a_fitting_ending_or_one_without_meaning() {
         let fitting = [Kind::Json, Kind::Csv, Kind::Text];
         for fits in ["a.json", "a.csv", "a.txt", "a.out", "a", "a.v2"] {
             check(Path::new(fits), "the result", &fitting).unwrap();

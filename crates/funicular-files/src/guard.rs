@@ -1,56 +1,57 @@
-//! Guard of the files of a command: nothing is written over a file that is read, nor twice to one place.
+//! Guard of the files of a command: it refuses to overwrite a file that is read, and to write two results to one file.
 
 use crate::{FilesError, behind_link, with_ending};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The files that a command reads and writes, those beside its results too.
+/// Files that a command reads and writes, including journals and temporary files.
 #[derive(Debug, Default)]
 pub struct Guard {
     read: Vec<Used>,
     written: Vec<Used>,
 }
 
-/// A file and its part in the command.
+/// File or folder and its role in the command.
 #[derive(Debug)]
 struct Used {
-    /// As it is called in a message: "the robot file".
+    /// Name in messages, such as "the robot file".
     role: String,
     path: PathBuf,
     place: Place,
-    /// All that is in this folder is of the command.
+    /// True for a folder: everything in it belongs to the command.
     is_folder: bool,
 }
 
 impl Guard {
-    /// Adds a file that is read. Devices and pipes are left alone: nothing that is written replaces them.
+    /// Adds a file that is read. Devices and pipes are ignored, because no result replaces them.
     pub fn reads(&mut self, role: &str, path: &Path) {
         if let Some(place) = Place::of(path) {
             self.read.push(Used { role: role.to_owned(), path: path.to_owned(), place, is_folder: false });
         }
     }
 
-    /// Adds a file that is written, named by an option.
+    /// Adds a file that is written; `option` is the option that names it.
     ///
     /// # Errors
-    /// [`FilesError::Clash`]: it is one of the files that are read, or another that is written, by whatever name.
+    /// [`FilesError::Clash`]: the file is already read or written, perhaps under another name.
     pub fn writes(&mut self, role: &str, option: &str, path: &Path) -> Result<(), FilesError> {
         self.add(role, option, path, false)
     }
 
-    /// Adds a folder that is written, with all that will be in it.
+    /// Adds a folder that is written, with all files in it.
     ///
     /// # Errors
-    /// [`FilesError::Clash`], as [`Guard::writes`].
+    /// [`FilesError::Clash`]; see [`Guard::writes`].
     pub fn writes_folder(&mut self, role: &str, option: &str, path: &Path) -> Result<(), FilesError> {
         self.add(role, option, path, true)
     }
 
-    /// Adds a file of rows with what is beside it until it is complete: the journal, if there is one, and the new file.
+    /// Adds a file of rows together with the files beside it until it is complete: the journal (if used) and the new
+    /// file.
     ///
     /// # Errors
-    /// [`FilesError::Clash`], as [`Guard::writes`].
+    /// [`FilesError::Clash`]; see [`Guard::writes`].
     pub fn writes_rows(&mut self, option: &str, path: &Path, has_journal: bool) -> Result<(), FilesError> {
         self.writes("the rows", option, path)?;
         let path = behind_link(path);
@@ -65,7 +66,7 @@ impl Guard {
     fn add(&mut self, role: &str, option: &str, path: &Path, is_folder: bool) -> Result<(), FilesError> {
         let Some(place) = Place::of(path) else { return Ok(()) };
         let used = Used { role: role.to_owned(), path: path.to_owned(), place, is_folder };
-        let advice = format!("choose another name for {option}");
+        let advice = format!("choose another file for {option}");
         if let Some(source) = self.read.iter().find(|source| used.meets(source)) {
             let shown = source.path.display();
             let same = if source.path == used.path {
@@ -88,7 +89,7 @@ impl Guard {
 }
 
 impl Used {
-    /// One would replace the other.
+    /// True if writing one would replace the other or a file in it.
     fn meets(&self, other: &Self) -> bool {
         self.place.is(&other.place)
             || (self.is_folder && other.place.path.starts_with(&self.place.path))
@@ -96,25 +97,25 @@ impl Used {
     }
 }
 
-/// Where a path leads.
+/// File or folder that a path leads to.
 #[derive(Debug)]
 struct Place {
-    /// Without links and detours, as far as it exists.
+    /// Path without links, `.` and `..`, as far as it exists.
     path: PathBuf,
-    /// Device and number of what is there, which all of its names share.
+    /// Device and inode number, equal for all names of one file.
     file: Option<(u64, u64)>,
-    /// Nothing is there yet.
+    /// True if nothing exists at the path yet.
     is_new: bool,
 }
 
 impl Place {
-    /// None for devices and pipes, which are written as they are.
+    /// Place of a path; `None` for devices and pipes, which are written in place.
     fn of(path: &Path) -> Option<Self> {
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => None,
             Ok(metadata) => {
                 let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-                Some(Self { path, file: number(&metadata), is_new: false })
+                Some(Self { path, file: file_id(&metadata), is_new: false })
             }
             Err(_) => {
                 let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -129,7 +130,8 @@ impl Place {
         if self.path == other.path || (self.file.is_some() && self.file == other.file) {
             return true;
         }
-        // Of what exists, the system has found whatever name it takes for the same. Two new names it has not seen.
+        // For existing files the system has resolved the names. For two new names, check whether the folder ignores
+        // case.
         let folded = |path: &Path| path.file_name().map(|name| name.to_string_lossy().to_lowercase());
         self.is_new
             && other.is_new
@@ -139,20 +141,20 @@ impl Place {
     }
 }
 
-/// Device and number of a file, where the system gives them.
-fn number(metadata: &fs::Metadata) -> Option<(u64, u64)> {
+/// Device and inode number of a file, where the system has them.
+fn file_id(metadata: &fs::Metadata) -> Option<(u64, u64)> {
     #[cfg(unix)]
-    let number = {
+    let id = {
         use std::os::unix::fs::MetadataExt;
         Some((metadata.dev(), metadata.ino()))
     };
     #[cfg(not(unix))]
-    let number = None;
+    let id = None;
     let _ = metadata;
-    number
+    id
 }
 
-/// Whether names in a folder that differ in case alone are one; tried with a file that vanishes again.
+/// True if a folder takes names that differ only in case as one name. Tested with a temporary file.
 fn ignores_case(folder: &Path) -> bool {
     let probe = tempfile::Builder::new().prefix(".funicular-case-").tempfile_in(folder);
     probe.is_ok_and(|probe| {
@@ -187,7 +189,7 @@ mod tests {
                 guard.reads("the robot file", input);
                 let said = guard.writes("the result", "-o", output).unwrap_err().to_string();
                 assert!(said.starts_with("refusing to write the result over the robot file"), "{said}");
-                assert!(said.ends_with("choose another name for -o"), "{said}");
+                assert!(said.ends_with("choose another file for -o"), "{said}");
                 let mut guard = Guard::default();
                 guard.writes("the matrices", "--model", input).unwrap();
                 assert!(guard.writes("the result", "-o", output).is_err(), "{input:?} {output:?}");
@@ -200,14 +202,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_yet_is_one_place_too() {
+    fn files_that_do_not_exist_yet_are_guarded_too() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         let mut guard = Guard::default();
         guard.writes("the result", "-o", &at("new.npz")).unwrap();
         let said = guard.writes("the matrices", "--model", &at("./new.npz")).unwrap_err().to_string();
         assert!(said.starts_with("refusing to write the matrices and the result both to"), "{said}");
-        // Whether this is the same place is the file system's choice, and only that.
+        // The file system decides whether this is the same file.
         let same = guard.writes("the matrices", "--model", &at("NEW.npz")).is_err();
         fs::write(at("new.npz"), "").unwrap();
         assert_eq!(same, at("NEW.npz").exists());

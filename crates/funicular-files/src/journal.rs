@@ -1,7 +1,8 @@
-//! Finished chunks on their way: a file that only grows, whose torn end is known as such.
+//! Journal of finished chunks: a file that is only appended to, and whose incomplete end can be recognized.
 //!
-//! One line of magic, then frames: length and CRC-32 of what follows, 4 bytes each, little-endian. The first frame is
-//! the record (JSON) and the robot file, every other one chunk, in order.
+//! It begins with one line of magic. Frames follow: length and CRC-32 of the content, 4 bytes each, little-endian, then
+//! the content. The first frame holds the record (JSON) and the robot file, every further frame holds one chunk, in
+//! order.
 
 use crate::{FilesError, Rows};
 use funicular_study::sweep::{Chunk, Difference, Kind, Part, Record, Values};
@@ -14,45 +15,45 @@ use std::time::{Duration, Instant};
 
 const MAGIC: &[u8] = b"funicular journal 1\n";
 
-/// Longest frame; anything above is torn.
-const LONGEST: u32 = 1 << 30;
+/// Maximum length of a frame [bytes]; a larger number is a damaged length.
+const MAX_FRAME: u32 = 1 << 30;
 
-/// How often chunks are forced to the disk: what a power cut may cost. Killing the process costs nothing.
-const SYNC: Duration = Duration::from_secs(5);
+/// Time between two syncs to the disk: a power cut may cost this much work. Killing the process costs nothing.
+const SYNC_INTERVAL: Duration = Duration::from_secs(5);
 
-/// A journal that is being written.
+/// Journal that is being written.
 pub(crate) struct Journal {
     pub(crate) path: PathBuf,
     file: File,
     record: Record,
-    /// End of the last whole frame.
+    /// End of the last complete frame [bytes].
     end: u64,
-    /// The chunk that comes next.
+    /// Index of the next chunk.
     pub(crate) next: usize,
     synced: Instant,
 }
 
-/// What is in a file where a journal may be.
+/// Content of the file at the journal's path.
 pub(crate) enum Found {
-    /// Nothing that anyone would miss.
+    /// No rows: a new or empty file, or a journal without chunks.
     Nothing,
-    /// Chunks of a sweep.
+    /// Journal with chunks of a sweep.
     Chunks {
-        /// How they differ from the one asked.
+        /// Difference from the requested sweep.
         difference: Option<Difference>,
-        /// Rows it has, and all it is to have.
+        /// Number of rows in the journal, and of the complete sweep.
         done: usize,
         rows: usize,
-        /// End of the last whole frame, and the chunk behind it.
+        /// End of the last complete frame [bytes], and index of the chunk after it.
         end: u64,
         next: usize,
     },
-    /// Something else.
+    /// Other content than a journal.
     Foreign,
 }
 
 impl Journal {
-    /// Opens or makes the file and keeps other processes out.
+    /// Opens or creates the file and locks it against other processes.
     pub(crate) fn lock(path: &Path) -> Result<File, FilesError> {
         let mut options = OpenOptions::new();
         let file = options
@@ -61,15 +62,15 @@ impl Journal {
             .create(true)
             .truncate(false)
             .open(path)
-            .map_err(|source| FilesError::Place { path: path.to_owned(), reason: crate::told(&source) })?;
-        // Any other error is a file system without locks: the user has to know what runs.
+            .map_err(|source| FilesError::Place { path: path.to_owned(), reason: crate::io_reason(&source) })?;
+        // Any other error means a file system without locks: there the user has to avoid two runs on one file.
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => Err(FilesError::Locked { path: path.to_owned() }),
             Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
         }
     }
 
-    /// Begins an empty one.
+    /// Starts an empty journal.
     pub(crate) fn begin(path: &Path, mut file: File, record: Record) -> io::Result<Self> {
         file.set_len(0)?;
         file.seek(SeekFrom::Start(0))?;
@@ -82,14 +83,14 @@ impl Journal {
         Ok(Self { path: path.to_owned(), file, record, end, next, synced: Instant::now() })
     }
 
-    /// Goes on behind what was found; what is torn is cut off.
-    pub(crate) fn go_on(path: &Path, mut file: File, record: Record, end: u64, next: usize) -> io::Result<Self> {
+    /// Continues a journal after its last complete frame; the rest of the file is cut off.
+    pub(crate) fn resume(path: &Path, mut file: File, record: Record, end: u64, next: usize) -> io::Result<Self> {
         file.set_len(end)?;
         file.seek(SeekFrom::Start(end))?;
         Ok(Self { path: path.to_owned(), file, record, end, next, synced: Instant::now() })
     }
 
-    /// Adds the next chunk. If that fails, what was there before is whole.
+    /// Adds the next chunk. If that fails, the chunks before it stay intact.
     pub(crate) fn add(&mut self, chunk: &Chunk) -> io::Result<()> {
         assert_eq!(chunk.index, self.next, "chunks come in order");
         if let Err(error) = write_frame(&mut self.file, &encode(chunk)) {
@@ -98,20 +99,20 @@ impl Journal {
         }
         self.end = self.file.stream_position()?;
         self.next += 1;
-        if self.synced.elapsed() > SYNC {
+        if self.synced.elapsed() > SYNC_INTERVAL {
             self.sync()?;
         }
         Ok(())
     }
 
-    /// Forces everything to the disk.
+    /// Writes all data through to the disk.
     pub(crate) fn sync(&mut self) -> io::Result<()> {
         self.file.sync_data()?;
         self.synced = Instant::now();
         Ok(())
     }
 
-    /// Rows that are safe.
+    /// Number of rows in the journal.
     pub(crate) fn done(&self) -> usize {
         self.record.rows_of(self.record.range().start..self.next)
     }
@@ -136,14 +137,14 @@ impl Rows for Journal {
     }
 }
 
-/// Looks at what is there.
-pub(crate) fn look(file: &File, record: &Record) -> io::Result<Found> {
+/// Reads an existing file and compares it with `record`.
+pub(crate) fn inspect(file: &File, record: &Record) -> io::Result<Found> {
     let mut file = BufReader::with_capacity(1 << 20, file);
     file.seek(SeekFrom::Start(0))?;
     let mut magic = Vec::new();
     file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic)?;
     if magic != MAGIC {
-        // An empty file is one that was killed at birth.
+        // An empty file, or a part of the magic: the run was killed before its first frame.
         return Ok(if MAGIC.starts_with(&magic) { Found::Nothing } else { Found::Foreign });
     }
     let Some(head) = read_frame(&mut file)? else { return Ok(Found::Nothing) };
@@ -162,7 +163,7 @@ pub(crate) fn look(file: &File, record: &Record) -> io::Result<Found> {
                 _ => break,
             }
         } else {
-            // Of another sweep, whose columns are not known here; the rows stand in front.
+            // A chunk of another sweep, whose columns are not known here; its number of rows stands at bytes 8 to 11.
             done +=
                 frame.get(8..12).map_or(0, |rows| u32::from_le_bytes([rows[0], rows[1], rows[2], rows[3]]) as usize);
         }
@@ -176,7 +177,7 @@ pub(crate) fn look(file: &File, record: &Record) -> io::Result<Found> {
     Ok(if done == 0 && same { Found::Nothing } else { Found::Chunks { difference, done, rows, end, next } })
 }
 
-/// A part as files have it.
+/// Part in the form used by files: its text, or null.
 pub(crate) fn shown_part(part: Option<Part>) -> Value {
     part.map_or(Value::Null, |part| Value::String(part.to_string()))
 }
@@ -184,7 +185,7 @@ pub(crate) fn shown_part(part: Option<Part>) -> Value {
 pub(crate) fn write_frame(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
     let length = u32::try_from(bytes.len())
         .ok()
-        .filter(|length| *length <= LONGEST)
+        .filter(|length| *length <= MAX_FRAME)
         .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "a chunk is too large for the journal"))?;
     let mut frame = Vec::with_capacity(bytes.len() + 8);
     frame.extend(length.to_le_bytes());
@@ -193,13 +194,13 @@ pub(crate) fn write_frame(file: &mut impl Write, bytes: &[u8]) -> io::Result<()>
     file.write_all(&frame)
 }
 
-/// The next frame; none at the end, or where the rest is torn.
+/// Reads the next frame. `None` at the end of the file or at an incomplete or damaged frame.
 pub(crate) fn read_frame(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     let mut head = Vec::new();
     file.by_ref().take(8).read_to_end(&mut head)?;
     let &[a, b, c, d, e, f, g, h] = &head[..] else { return Ok(None) };
     let (length, sum) = (u32::from_le_bytes([a, b, c, d]), u32::from_le_bytes([e, f, g, h]));
-    if length > LONGEST {
+    if length > MAX_FRAME {
         return Ok(None);
     }
     let mut bytes = Vec::new();
@@ -207,7 +208,7 @@ pub(crate) fn read_frame(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     Ok((bytes.len() == length as usize && crc32fast::hash(&bytes) == sum).then_some(bytes))
 }
 
-/// Index, number of rows, and the columns: a bit a row for what is there, then what is there.
+/// Bytes of a chunk: index, number of rows, then per column one bit per row (value present) and the present values.
 pub(crate) fn encode(chunk: &Chunk) -> Vec<u8> {
     let mut bytes = Vec::new();
     bytes.extend((chunk.index as u64).to_le_bytes());
@@ -242,7 +243,7 @@ fn put_bits(bytes: &mut Vec<u8>, bits: impl Iterator<Item = bool>) {
     }
 }
 
-/// The chunk of a frame; none if it is not of this record.
+/// Chunk of a frame; `None` if it does not belong to this record.
 pub(crate) fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
     let bytes = &mut bytes;
     let index = usize::try_from(u64::from_le_bytes(get(bytes, 8)?.try_into().ok()?)).ok()?;
@@ -268,7 +269,7 @@ pub(crate) fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
     bytes.is_empty().then_some(Chunk { index, columns })
 }
 
-/// A value where there is one.
+/// Reads one value for every bit that is set.
 fn optional<T>(bits: impl Iterator<Item = bool>, mut read: impl FnMut() -> Option<T>) -> Option<Vec<Option<T>>> {
     bits.map(|there| if there { read().map(Some) } else { Some(None) }).collect()
 }

@@ -1,11 +1,12 @@
 //! Files of funicular: the results of maps and sweeps.
 //!
-//! A [`Job`] takes the [chunks](funicular_study::sweep::Chunk) of a [plan](funicular_study::sweep::Plan) in order. They go to a
-//! [journal](Job) beside the file first, so that a run that ends by any means can go on; the file itself is written from it
-//! as a whole. Parquet, CSV and VTK hold the same rows; `arrow::batch` gives them in memory.
+//! A [`Job`] takes the [chunks](funicular_study::sweep::Chunk) of a [plan](funicular_study::sweep::Plan) in order and
+//! appends them to a [journal](Job) beside the file. A run that was interrupted, killed or lost its power can therefore
+//! be continued. The file itself is written from the journal when all chunks are there, and appears only when it is
+//! complete. Parquet, CSV and VTK files hold the same rows; `arrow::batch` gives the rows in memory.
 //!
-//! The feature `parquet`, on by default, brings Parquet files and rows in memory. Without it the crate writes CSV and VTK, and
-//! refuses Parquet files with a message.
+//! The feature `parquet`, on by default, adds Parquet files and rows in memory. Without it the crate writes CSV and VTK
+//! and refuses Parquet files with a message.
 
 #[cfg(feature = "parquet")]
 pub mod arrow;
@@ -39,79 +40,81 @@ pub use threads::Outcome;
 
 use endings::Kind;
 use funicular_study::sweep::{Chunk, Difference, Record};
-use std::fs::{self, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a file of a sweep cannot be read or written. A message names options by their keys between ⟪ and ⟫, for
+/// Reason why a file of a sweep cannot be read or written. Messages name options by their keys between ⟪ and ⟫, for
 /// [`worded`](funicular_study::wording::worded).
 #[derive(Debug, Error)]
 pub enum FilesError {
-    /// The ending of a file says no format.
-    #[error("the ending of {} names no format: .parquet, .csv or .vti (for ParaView)", .path.display())]
+    /// The ending of a file stands for no format of rows.
+    #[error("the ending of {} names no format: choose .parquet, .csv or .vti (for ParaView)", .path.display())]
     Ending {
         /// The file.
         path: PathBuf,
     },
-    /// A file of text whose ending says that it is something else.
+    /// The ending of a file stands for another kind of content than the one to be written.
     #[error("{} would hold {written}, and .{ending} means {means}; choose a name that ends in {fitting}", .path.display())]
     OtherEnding {
         /// The file.
         path: PathBuf,
-        /// What would be written into it, in words.
+        /// Content to be written, in words.
         written: String,
-        /// Its ending, without the dot.
+        /// Ending of the file, without the dot.
         ending: String,
-        /// The meaning of the ending, in words.
+        /// Meaning of the ending, in words.
         means: &'static str,
-        /// The endings that fit.
+        /// Endings that fit.
         fitting: String,
     },
-    /// A file that would be written over one that is read, or over another that is written.
+    /// A file to be written is also read, or is written twice.
     #[error("{0}")]
     Clash(String),
-    /// A place that results cannot be written to.
+    /// Results cannot be written to this path.
     #[error("cannot write to {}: {reason}", .path.display())]
     Place {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         reason: String,
     },
-    /// The rows are there, but writing them failed.
-    #[error("cannot write {}: {}; {saved}", .path.display(), told(.cause))]
+    /// The rows were computed, but writing them failed.
+    #[error("cannot write {}: {}; {saved}", .path.display(), io_reason(.cause))]
     Write {
         /// The file.
         path: PathBuf,
-        /// What is safe, and what to do.
+        /// Work that is safe, and the next step.
         saved: String,
-        /// What the system says.
+        /// Error of the system.
         cause: io::Error,
     },
-    /// A file that cannot be read.
-    #[error("cannot read {}: {}", .path.display(), told(.cause))]
+    /// A file cannot be read.
+    #[error("cannot read {}: {}", .path.display(), io_reason(.cause))]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         cause: io::Error,
     },
-    /// Work in the way.
+    /// An earlier run left a journal, and the caller chose neither to continue nor to discard it.
     #[error(
-        "{} holds {done} of {rows} rows of a run that did not end: go on with ⟪resume⟫, or begin anew with ⟪discard⟫",
+        "{} holds {done} of {rows} rows of an unfinished run: continue with ⟪resume⟫, or start again with ⟪discard⟫",
         .journal.display()
     )]
     Unfinished {
         /// The journal.
         journal: PathBuf,
-        /// Rows that it has.
+        /// Rows in the journal.
         done: usize,
-        /// Rows that were asked for.
+        /// Rows of the request.
         rows: usize,
     },
-    /// A file that is no journal where one would be.
-    #[error("{} is no journal of funicular that this version can read: move it away, or begin anew with ⟪discard⟫", .path.display())]
+    /// The file at the journal's path is no journal.
+    #[error(
+        "{} is no journal of funicular that this version can read: move it away, or start again with ⟪discard⟫",
+        .path.display()
+    )]
     NoJournal {
         /// The file.
         path: PathBuf,
@@ -122,41 +125,44 @@ pub enum FilesError {
         /// The journal.
         path: PathBuf,
     },
-    /// A file or journal of something else.
+    /// A file or journal belongs to another sweep.
     #[error("{} belongs to another sweep: {difference}; {advice}", .path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
-        /// What differs.
+        /// Difference between the two sweeps.
         difference: Difference,
-        /// What to do.
+        /// Next step for the user.
         advice: &'static str,
     },
-    /// A file whose bytes are not those that were written.
+    /// The checksum of a file does not match its bytes.
     #[error(
-        "{} is damaged, or another program has written it anew: its checksum is not that of its bytes; copy it again \
-         from where it is whole, or remove it and compute it again",
+        "{} is damaged, or another program has rewritten it: its checksum does not match its bytes; copy it again from \
+         an intact copy, or remove it and compute it again",
         .path.display()
     )]
     Damaged {
         /// The file.
         path: PathBuf,
     },
-    /// A file without what a sweep writes into it.
+    /// A file lacks data that a sweep writes.
     #[error("{} was not written by a sweep of funicular: {reason}", .path.display())]
     NotOurs {
         /// The file.
         path: PathBuf,
-        /// What is missing or wrong.
+        /// The missing or wrong data.
         reason: String,
     },
-    /// Rows in a format that does not say what they are.
-    #[error("{} holds rows alone, without robot and plan: write the sweep to a .parquet file and give that", .path.display())]
+    /// The format of a file keeps the rows only, without robot and plan.
+    #[error(
+        "{} holds only rows, without robot and plan: write the sweep to a .parquet file and use that file",
+        .path.display()
+    )]
     NotParquet {
         /// The file.
         path: PathBuf,
     },
-    /// A Parquet file, and a build without the feature `parquet`.
+    /// A Parquet file was requested from a build without the feature `parquet`.
     #[error(
         "cannot read or write {}: this program was built without Parquet files; write .csv or .vti, or build it with \
          the feature parquet, which is on by default",
@@ -166,21 +172,21 @@ pub enum FilesError {
         /// The file.
         path: PathBuf,
     },
-    /// A grid that ParaView's images do not have.
+    /// The rows do not form an image for ParaView.
     #[error("{}: {reason}; write .parquet or .csv", .path.display())]
     NoImage {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         reason: String,
     },
-    /// Parts that do not make a whole.
+    /// The given parts are not exactly the parts of one sweep.
     #[error("{0}")]
     Parts(String),
 }
 
-/// What the system says, in words where they help.
-fn told(error: &io::Error) -> String {
+/// Error of the system in words; plain words where the system's own are hard to understand.
+fn io_reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::StorageFull => "the disk is full".to_owned(),
         io::ErrorKind::QuotaExceeded => "the disk quota is used up".to_owned(),
@@ -188,30 +194,30 @@ fn told(error: &io::Error) -> String {
     }
 }
 
-/// What to do about it before another try.
+/// Advice for the time before the next attempt.
 fn to_do(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room",
-        _ => "mend that",
+        _ => "fix the cause",
     }
 }
 
 /// A format of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Columns with units, robot and plan in the file.
+    /// Apache Parquet: columns with units, robot and plan in the file.
     Parquet,
-    /// Text, every digit.
+    /// Comma-separated text with all digits.
     Csv,
-    /// An image for ParaView, of a grid.
+    /// VTK image of a grid, for ParaView.
     Vti,
 }
 
 impl Format {
-    /// By the ending of a file.
+    /// Format that the ending of a file stands for.
     ///
     /// # Errors
-    /// [`FilesError::Ending`] for any other, [`FilesError::WithoutParquet`] for `.parquet` without the feature.
+    /// [`FilesError::Ending`] for any other ending, [`FilesError::WithoutParquet`] for `.parquet` without the feature.
     pub fn of(path: &Path) -> Result<Self, FilesError> {
         match Kind::of(path) {
             Some(Kind::Parquet) if cfg!(not(feature = "parquet")) => {
@@ -225,51 +231,36 @@ impl Format {
     }
 }
 
-/// Rows in chunks, as often as they are asked for.
+/// Source of rows in chunks that can be read several times.
 trait Rows {
-    /// Every chunk in order.
+    /// Passes every chunk to `take`, in order.
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()>;
 }
 
-/// Behind the name of a file of rows: the journal of a run that has not ended.
+/// Ending added to the name of a file of rows for the journal of an unfinished run.
 const JOURNAL: &str = ".partial";
 
-/// Behind the name of a file of rows: the file that will take its place.
+/// Ending added to the name of a file of rows for the new file while it is written.
 const NEW: &str = ".writing";
 
-/// Writes rows to a file, as a whole or not at all. Until then they are in `FILE.writing`: a name that the next try takes
-/// over, so that nothing is left of a run that was killed here.
-fn write_whole(path: &Path, format: Format, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {
-    let beside = with_ending(path, NEW);
-    let file = OpenOptions::new().write(true).create(true).truncate(false).open(&beside)?;
-    if let Err(TryLockError::WouldBlock) = file.try_lock() {
-        return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another run is writing it"));
-    }
-    let write = || {
-        file.set_len(0)?;
-        let out = io::BufWriter::with_capacity(1 << 20, &file);
+/// Writes rows to a file that appears only when it is complete. Until then the rows are in `FILE.writing`.
+fn write_complete(path: &Path, format: Format, record: &Record, rows: &dyn Rows, all_rows: bool) -> io::Result<()> {
+    atomic_file::write_locked(path, &with_ending(path, NEW), |file| {
+        let out = io::BufWriter::with_capacity(1 << 20, file);
         match format {
-            Format::Parquet => parquet::write(out, record, rows, complete)?,
-            Format::Csv => csv::write(out, record, rows)?,
-            Format::Vti => vti::write(out, record, rows)?,
+            Format::Parquet => parquet::write(out, record, rows, all_rows),
+            Format::Csv => csv::write(out, record, rows),
+            Format::Vti => vti::write(out, record, rows),
         }
-        if let Ok(metadata) = fs::metadata(path) {
-            file.set_permissions(metadata.permissions())?;
-        }
-        // The journal goes once the file is there: it has to be on the disk by then.
-        file.sync_data()?;
-        fs::rename(&beside, path)
-    };
-    write().inspect_err(|_| drop(fs::remove_file(&beside)))
+    })
 }
 
-/// Through a symbolic link to the file it stands for: that one is to be replaced, not the link. Any other path is as the
-/// user gave it.
+/// Target of a symbolic link, because the file is replaced and not the link. Any other path is returned unchanged.
 fn behind_link(path: &Path) -> PathBuf {
     if path.is_symlink() { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() }
 }
 
-/// The name of a file with more behind it.
+/// Path with `ending` appended to the file name.
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);

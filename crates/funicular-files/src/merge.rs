@@ -1,24 +1,29 @@
-//! Parts become the file that one run would have written.
+//! Merging of the parts of a sweep into the file that a single run would have written.
 
 use crate::parquet::ParquetFile;
-use crate::{FilesError, Format, Guard, Rows, behind_link, resumable_writer, write_whole};
+use crate::{FilesError, Format, Guard, Rows, behind_link, resumable_writer, write_complete};
 use funicular_study::sweep::{Chunk, Column, Kind, Part, Record, SCHEMA};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Writes the rows of all parts of a sweep, in any order, to one file; byte for byte what a single run writes. The rows.
+/// Writes the rows of all parts of a sweep to one file, byte for byte the file of a single run; the parts may be given
+/// in any order. Returns the number of rows.
 ///
 /// # Errors
-/// [`FilesError`]: files that are no parts, parts that are missing, double, incomplete or of another sweep.
+/// [`FilesError`]: files that are no parts; parts that are missing, given twice, incomplete or of another sweep.
 pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     let format = Format::of(to)?;
+
+    // No part may be overwritten.
     let mut guard = Guard::default();
     for part in parts {
         guard.reads("the part", part);
     }
     guard.writes_rows("-o", to, false)?;
+
+    // The first part gives the record that all others have to match.
     let mut files = Vec::with_capacity(parts.len());
     for path in parts {
         files.push((path, ParquetFile::open(path)?));
@@ -28,23 +33,25 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     };
     let record = record_of(first, first_path)?;
     resumable_writer::check_place(to, format, &record)?;
+
     let mut found: Vec<(Part, ParquetFile)> = Vec::with_capacity(files.len());
     for (path, file) in files {
         found.push((checked(&record, path, &file, &found)?, file));
     }
     found.sort_by_key(|(part, _)| part.number);
     refuse_missing(&found)?;
+
     let to = behind_link(to);
-    let rows = Parts { record: &record, parts: &found };
-    write_whole(&to, format, &record, &rows, true).map_err(|cause| FilesError::Write {
+    let rows = PartRows { record: &record, parts: &found };
+    write_complete(&to, format, &record, &rows, true).map_err(|cause| FilesError::Write {
         path: to.clone(),
-        saved: format!("the parts are as they were: {}, then merge again", crate::to_do(&cause)),
+        saved: format!("the parts are unchanged: {}, then merge again", crate::to_do(&cause)),
         cause,
     })?;
     Ok(record.rows)
 }
 
-/// Names the parts that are not there.
+/// Refuses a set of parts with gaps, and lists the missing parts.
 fn refuse_missing(found: &[(Part, ParquetFile)]) -> Result<(), FilesError> {
     const SHOWN: usize = 10;
     let of = found.first().map_or(0, |(part, _)| part.of);
@@ -59,7 +66,7 @@ fn refuse_missing(found: &[(Part, ParquetFile)]) -> Result<(), FilesError> {
     Err(FilesError::Parts(format!("{noun} {listed}{more} {is} missing: give all {of} parts")))
 }
 
-/// The part that a file is, if it fits what was found before.
+/// Part that a file holds, after a check against the record and the parts found before.
 fn checked(
     record: &Record,
     path: &Path,
@@ -72,15 +79,15 @@ fn checked(
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
     let Some(part) = file.part else {
-        return Err(FilesError::Parts(format!("{shown} is no part: it is a whole sweep, written without ⟪part⟫")));
+        return Err(FilesError::Parts(format!("{shown} is no part: it is a complete sweep, written without ⟪part⟫")));
     };
     if !file.complete || file.rows != record.rows_of(part.range(record.chunks())) {
         return Err(FilesError::Parts(format!(
-            "{shown} (part {part}) is incomplete: go on with the command that began it and ⟪resume⟫"
+            "{shown} (part {part}) is incomplete: repeat the command that began it with ⟪resume⟫"
         )));
     }
     if let Some((other, _)) = before.first().filter(|(other, _)| other.of != part.of) {
-        return Err(FilesError::Parts(format!("{shown} is part {part}, others are parts of {}", other.of)));
+        return Err(FilesError::Parts(format!("{shown} is part {part}, but other files are parts of {}", other.of)));
     }
     if before.iter().any(|(other, _)| other.number == part.number) {
         return Err(FilesError::Parts(format!("part {part} is given twice, the second time as {shown}")));
@@ -88,12 +95,13 @@ fn checked(
     Ok(part)
 }
 
-struct Parts<'a> {
+/// Rows of all parts, in the order of the sweep.
+struct PartRows<'a> {
     record: &'a Record,
     parts: &'a [(Part, ParquetFile)],
 }
 
-impl Rows for Parts<'_> {
+impl Rows for PartRows<'_> {
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()> {
         self.parts.iter().try_for_each(|(part, file)| {
             file.each(part.range(self.record.chunks()).start, self.record.chunk_rows, &mut |chunk| {
@@ -104,7 +112,7 @@ impl Rows for Parts<'_> {
     }
 }
 
-/// The record that a file has, without the part.
+/// Record in a file's metadata, without the part.
 pub(crate) fn record_of(file: &ParquetFile, path: &Path) -> Result<Record, FilesError> {
     let json = &file.json;
     let not_ours = |reason: String| FilesError::NotOurs { path: path.to_owned(), reason };

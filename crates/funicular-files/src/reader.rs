@@ -1,4 +1,4 @@
-//! Rows read back from a file, for pictures.
+//! Reading of the rows of a Parquet file in chunks, for example for plots.
 
 use crate::FilesError;
 use crate::merge::record_of;
@@ -6,24 +6,24 @@ use crate::parquet::ParquetFile;
 use funicular_study::sweep::{Chunk, Record, SweepRows};
 use std::path::Path;
 
-/// A Parquet file of a sweep.
+/// Parquet file of a sweep, opened for reading.
 pub struct SweepFile {
     file: ParquetFile,
-    /// What it says of itself.
+    /// Record of the sweep: robot, plan and columns.
     pub record: Record,
-    /// It has all rows that it is to hold.
+    /// True if the file holds all rows of its plan or part.
     pub complete: bool,
-    /// Place of its first row among those of all parts.
+    /// Index of the first row among the rows of all parts.
     pub first_row: usize,
-    /// Rows that it has.
+    /// Number of rows in the file.
     pub rows: usize,
 }
 
 impl SweepFile {
-    /// Opens it and reads what it says of itself.
+    /// Opens the file and reads its metadata.
     ///
     /// # Errors
-    /// [`FilesError`]: a file that cannot be read, or that no sweep of this version has written.
+    /// [`FilesError`]: a file that cannot be read, or that was not written by a sweep of this version.
     pub fn open(path: &Path) -> Result<Self, FilesError> {
         let file = ParquetFile::open(path)?;
         let mut record = record_of(&file, path)?;
@@ -38,12 +38,12 @@ impl SweepFile {
         Ok(Self { file, record, complete, first_row, rows })
     }
 
-    /// Its rows in chunks, in order.
+    /// Passes the rows to `take` in chunks, in order.
     ///
     /// # Errors
     /// [`FilesError`]: a file that is damaged, or whose columns are not those of its record.
     pub fn each(&self, mut take: impl FnMut(&Chunk)) -> Result<(), FilesError> {
-        /// Enough to read fast, few to hold.
+        /// Rows per chunk: enough to read fast, few enough to hold in memory.
         const ROWS: usize = 4096;
         self.file
             .each(0, ROWS, &mut |chunk| {

@@ -1,47 +1,49 @@
-//! One file of rows from the first chunk to the last, over as many runs as it takes.
+//! Writing of one file of rows that may take several runs: journal, continuation and completion.
 
-use crate::atomic_file::{Temporary, is_regular_or_new};
+use crate::atomic_file::{TemporaryFile, is_regular_or_new};
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
-use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_whole};
+use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_complete};
 use funicular_study::sweep::{Chunk, Difference, Record};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What to do about an earlier run.
+/// Treatment of the work of an earlier run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Begin {
-    /// Refuse to lose its work.
+    /// Refuse to start if an earlier run left work.
     Anew,
-    /// Go on with it.
+    /// Continue the earlier run.
     Resume,
-    /// Forget it.
+    /// Discard the work of the earlier run.
     Discard,
 }
 
-/// A file that is being made.
+/// File of rows that is being written.
 pub struct Job {
     path: PathBuf,
     format: Format,
     journal: Journal,
 }
 
-/// What there is to do.
+/// Result of opening the file of a sweep.
 pub enum Opened {
-    /// Chunks to compute, from [`Job::next`] on.
+    /// Chunks are missing: compute them from [`Job::next`] on.
     Work(Box<Job>),
-    /// Nothing: the file is the whole result of this plan.
+    /// The file is already the complete result of this plan.
     Done,
 }
 
 impl Job {
-    /// Opens the file of a sweep: checks that it can be written, finds what an earlier run has left, and keeps others out.
+    /// Opens the file of a sweep: checks that it can be written, looks for the work of an earlier run, and locks the
+    /// journal.
     ///
-    /// The journal is `FILE.partial`. With [`Begin::Resume`] its chunks are taken over, a torn end is cut off.
+    /// The journal is `FILE.partial`. With [`Begin::Resume`] its chunks are kept, and an incomplete frame at its end is
+    /// cut off.
     ///
     /// # Errors
-    /// [`FilesError`]: a place that cannot be written, a format that does not fit, work of an earlier run that nobody asked
-    /// to resume, or work of another sweep.
+    /// [`FilesError`]: a path that cannot be written, a format that does not fit the rows, work of an earlier run with
+    /// [`Begin::Anew`], or work of another sweep.
     pub fn open(path: &Path, record: Record, begin: Begin) -> Result<Opened, FilesError> {
         let path = &behind_link(path);
         let format = Format::of(path)?;
@@ -59,22 +61,22 @@ impl Job {
         Ok(Opened::Work(Box::new(Self { path: path.clone(), format, journal })))
     }
 
-    /// The first chunk that is missing.
+    /// Index of the first missing chunk.
     pub fn next(&self) -> usize {
         self.journal.next
     }
 
-    /// Rows that are safe.
+    /// Number of rows in the journal.
     pub fn done(&self) -> usize {
         self.journal.done()
     }
 
-    /// The journal.
+    /// Path of the journal.
     pub fn journal(&self) -> &Path {
         &self.journal.path
     }
 
-    /// The chunks that are there.
+    /// Passes every chunk of the journal to `take`, in order.
     ///
     /// # Errors
     /// [`FilesError::Read`].
@@ -86,18 +88,18 @@ impl Job {
         each.map_err(|cause| FilesError::Read { path: self.journal.path.clone(), cause })
     }
 
-    /// Takes the next chunk.
+    /// Adds the next chunk to the journal.
     ///
     /// # Errors
-    /// [`FilesError::Write`], with what is safe.
+    /// [`FilesError::Write`], with the number of rows that are safe.
     ///
     /// # Panics
-    /// For any other chunk.
+    /// If `chunk` is not the next chunk.
     pub fn add(&mut self, chunk: &Chunk) -> Result<(), FilesError> {
         self.journal.add(chunk).map_err(|source| self.failed(&self.journal.path, source))
     }
 
-    /// Writes the file, as a whole, and removes the journal.
+    /// Writes the complete file and removes the journal.
     ///
     /// # Errors
     /// [`FilesError::Write`]; the journal stays.
@@ -107,15 +109,17 @@ impl Job {
     pub fn finish(mut self) -> Result<(), FilesError> {
         assert_eq!(self.next(), self.journal.record().range().end, "all chunks are there");
         self.journal.sync().map_err(|source| self.failed(&self.journal.path, source))?;
-        write_whole(&self.path, self.format, self.journal.record(), &self.journal, true)
+        write_complete(&self.path, self.format, self.journal.record(), &self.journal, true)
             .map_err(|source| self.failed(&self.path, source))?;
-        // The result is there; a journal that stays is a nuisance, no loss.
+        // The result is written: a journal that cannot be removed is no loss.
         let _ = fs::remove_file(&self.journal.path);
         Ok(())
     }
 
-    /// Writes the rows there are, and keeps the journal; what is safe where, in a sentence. A whole file that is there is
-    /// not replaced, nor any .csv, which does not say whether it is whole; an image has no holes and is not written.
+    /// Writes the rows computed so far, keeps the journal, and returns a sentence on where the rows are.
+    ///
+    /// A complete Parquet file is not replaced. An existing .csv file is not replaced either, because it cannot show
+    /// whether it is complete. An image is not written, because it needs all of its values.
     ///
     /// # Errors
     /// [`FilesError::Write`]; the journal stays.
@@ -129,50 +133,52 @@ impl Job {
         if !replaces_nothing || self.done() == 0 {
             return Ok(self.safe());
         }
-        write_whole(&self.path, self.format, self.journal.record(), &self.journal, false)
+        write_complete(&self.path, self.format, self.journal.record(), &self.journal, false)
             .map_err(|source| self.failed(&self.path, source))?;
         let mark = match self.format {
-            Format::Csv => "which does not say that it is incomplete",
+            Format::Csv => "which cannot show that it is incomplete",
             Format::Parquet | Format::Vti => "marked as incomplete",
         };
-        Ok(format!("{}; {} has them, {mark}", self.safe(), self.path.display()))
+        Ok(format!("{}; they are also in {}, {mark}", self.safe(), self.path.display()))
     }
 
-    /// What the journal holds, in words.
+    /// Sentence on the rows in the journal.
     fn safe(&self) -> String {
         let rows = self.journal.record().rows_of(self.journal.record().range());
         format!("{} of {rows} rows are safe in {}", self.done(), self.journal.path.display())
     }
 
     fn failed(&self, path: &Path, cause: std::io::Error) -> FilesError {
-        let saved = format!("{}: {}, then go on with ⟪resume⟫", self.safe(), crate::to_do(&cause));
+        let saved = format!("{}: {}, then continue with ⟪resume⟫", self.safe(), crate::to_do(&cause));
         FilesError::Write { path: path.to_owned(), saved, cause }
     }
 }
 
-/// Checks that a file can be written there, and that the format fits.
+/// Checks that a file can be written at `path`, and that the rows fit the format.
 pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Result<(), FilesError> {
     let place = |reason: String| FilesError::Place { path: path.to_owned(), reason };
     if path.is_dir() {
         return Err(place("it is a directory; add a file name".to_owned()));
     }
     if !is_regular_or_new(path) {
-        return Err(place("it is no regular file; name one, or leave out ⟪output_file⟫".to_owned()));
+        return Err(place("it is no regular file; name a regular file, or leave out ⟪output_file⟫".to_owned()));
     }
     if fs::metadata(path).is_ok_and(|metadata| metadata.permissions().readonly()) {
         return Err(place("it is read-only".to_owned()));
     }
-    Temporary::beside(path).map_err(|error| place(crate::told(&error)))?;
+    TemporaryFile::beside(path).map_err(|error| place(crate::io_reason(&error)))?;
     if format == Format::Vti {
         vti::check(record).map_err(|reason| FilesError::NoImage { path: path.to_owned(), reason })?;
     }
     if record.part.is_some() && format != Format::Parquet {
-        return Err(place("a part has to be a .parquet file, which says what it is a part of".to_owned()));
+        return Err(place(
+            "a part has to be a .parquet file, because only this format records the part's number".to_owned(),
+        ));
     }
     Ok(())
 }
 
-/// The file is the whole result already.
+/// True if the file is already the complete result.
 fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
     let file = ParquetFile::open(path)?;
     let other_part =
@@ -187,26 +193,26 @@ fn is_done(path: &Path, record: &Record) -> Result<bool, FilesError> {
 fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal, FilesError> {
     let path = || partial.to_owned();
     let unreadable = |cause| FilesError::Read { path: path(), cause };
-    let unwritable = |source| FilesError::Place { path: path(), reason: crate::told(&source) };
+    let unwritable = |source| FilesError::Place { path: path(), reason: crate::io_reason(&source) };
     let file = Journal::lock(partial)?;
     let found = match begin {
         Begin::Discard => Found::Nothing,
-        Begin::Anew | Begin::Resume => journal::look(&file, &record).map_err(unreadable)?,
+        Begin::Anew | Begin::Resume => journal::inspect(&file, &record).map_err(unreadable)?,
     };
     match found {
         Found::Nothing => Journal::begin(partial, file, record).map_err(|source| {
-            // Nothing is in it that anyone could go on with.
+            // The new journal holds no rows yet.
             let _ = fs::remove_file(partial);
             unwritable(source)
         }),
         Found::Foreign => Err(FilesError::NoJournal { path: path() }),
         Found::Chunks { difference: Some(difference), .. } => {
-            let advice = "choose another file, or begin anew with ⟪discard⟫";
+            let advice = "choose another file, or start again with ⟪discard⟫";
             Err(FilesError::Foreign { path: path(), difference, advice })
         }
         Found::Chunks { done, rows, .. } if begin == Begin::Anew => {
             Err(FilesError::Unfinished { journal: path(), done, rows })
         }
-        Found::Chunks { end, next, .. } => Journal::go_on(partial, file, record, end, next).map_err(unwritable),
+        Found::Chunks { end, next, .. } => Journal::resume(partial, file, record, end, next).map_err(unwritable),
     }
 }

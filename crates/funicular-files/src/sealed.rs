@@ -1,42 +1,43 @@
-//! Checksum of a Parquet file over all of its bytes, kept in its own metadata.
+//! Checksum over all bytes of a Parquet file, kept in the file's own metadata.
 //!
-//! Pages of Parquet may carry checksums, but not every reader looks at them, this crate's library writes none, and the
-//! metadata behind the pages have none at all. So the whole file gets one: the CRC-32 of all its bytes, with zeros in the
-//! place of its own eight digits. It is the last pair of the file's metadata, where any reader of Parquet passes over it.
+//! Pages of Parquet may carry checksums, but not every reader checks them, the library used here writes none, and the
+//! metadata after the pages have none at all. The checksum here covers the complete file: it is the CRC-32 of all
+//! bytes, with zeros in place of its own eight digits. It is the last pair of the file's metadata; other readers ignore
+//! it.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// Key of the checksum among the file's metadata.
+/// Key of the checksum in the file's metadata.
 pub(crate) const KEY: &str = "funicular.checksum";
 
-/// Value of the checksum while it is not known, and while it is computed.
+/// Placeholder for the checksum while the checksum is computed.
 pub(crate) const BLANK: &str = "00000000";
 
-/// What stands between key and value in the footer (Thrift's compact protocol): the next field, a text, of eight bytes.
+/// Bytes between key and value in the footer, in Thrift's compact protocol: the next field is a text of eight bytes.
 const BETWEEN: [u8; 2] = [0x18, BLANK.len() as u8];
 
 /// First and last bytes of every Parquet file.
 const MAGIC: &[u8; 4] = b"PAR1";
 
-/// Length of what follows the footer: its own length, and the magic.
+/// Length of the end of the file after the footer: the footer's length (4 bytes) and the magic.
 const END: u64 = 8;
 
-/// A writer that holds back the end of a file to put in the checksum of all of it.
-pub(crate) struct Sealing<W: Write> {
+/// Writer that holds back the footer of a file to insert the checksum of the complete file.
+pub(crate) struct SealingWriter<W: Write> {
     out: W,
     sum: crc32fast::Hasher,
-    /// The footer, from [`Sealing::hold`] on.
+    /// Bytes of the footer, collected after [`SealingWriter::hold`].
     footer: Option<Vec<u8>>,
 }
 
-impl<W: Write> Sealing<W> {
+impl<W: Write> SealingWriter<W> {
     pub(crate) fn new(out: W) -> Self {
         Self { out, sum: crc32fast::Hasher::new(), footer: None }
     }
 
-    /// From here on the bytes are the footer's.
+    /// Starts the footer: all further bytes are held back.
     pub(crate) fn hold(&mut self) {
         self.footer = Some(Vec::new());
     }
@@ -44,7 +45,7 @@ impl<W: Write> Sealing<W> {
     /// Writes the footer with the checksum.
     ///
     /// # Errors
-    /// What `out` reports; a footer that has no place for the checksum, which is a mistake in the program.
+    /// The error of `out`; a footer without a place for the checksum, which is a bug.
     pub(crate) fn seal(self) -> io::Result<()> {
         let Self { mut out, mut sum, footer } = self;
         let mut footer = footer.unwrap_or_default();
@@ -57,7 +58,7 @@ impl<W: Write> Sealing<W> {
     }
 }
 
-impl<W: Write> Write for Sealing<W> {
+impl<W: Write> Write for SealingWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if let Some(footer) = &mut self.footer {
             return footer.write(bytes);
@@ -72,16 +73,16 @@ impl<W: Write> Write for Sealing<W> {
     }
 }
 
-/// What the bytes of a file say before anything in them is believed.
+/// Result of checking a file's checksum before its content is read.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Seal {
-    /// The checksum is that of the bytes.
-    Whole,
-    /// It is another.
+    /// The checksum matches the bytes.
+    Intact,
+    /// The checksum does not match the bytes.
     Broken,
-    /// There is none.
+    /// The file has no checksum.
     None,
-    /// The bytes are no Parquet file.
+    /// The file is no Parquet file.
     NoParquet,
 }
 
@@ -106,7 +107,7 @@ pub(crate) fn check(path: &Path) -> io::Result<Seal> {
         return Ok(Seal::NoParquet);
     }
 
-    // All before the footer, by way of a buffer: a file may be larger than the memory.
+    // Everything before the footer is read through a buffer: a file may be larger than the memory.
     let mut sum = crc32fast::Hasher::new();
     let mut buffer = vec![0; 1 << 20];
     file.seek(SeekFrom::Start(0))?;
@@ -138,11 +139,11 @@ pub(crate) fn check(path: &Path) -> io::Result<Seal> {
     let found = footer[place..place + BLANK.len()].to_owned();
     footer[place..place + BLANK.len()].copy_from_slice(BLANK.as_bytes());
     sum.update(&footer);
-    Ok(if digits(sum.finalize()).as_bytes() == found { Seal::Whole } else { Seal::Broken })
+    Ok(if digits(sum.finalize()).as_bytes() == found { Seal::Intact } else { Seal::Broken })
 }
 
-/// Where the digits of the checksum are in a footer. No text of a robot file looks like it: it would hold a control
-/// character, which TOML refuses.
+/// Position of the checksum's digits in a footer. The text of a robot file cannot be mistaken for it: the searched
+/// bytes hold a control character, which TOML refuses.
 fn place(footer: &[u8]) -> Option<usize> {
     let before = [KEY.as_bytes(), &BETWEEN].concat();
     let at = footer.windows(before.len()).rposition(|window| window == before)? + before.len();

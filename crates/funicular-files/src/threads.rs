@@ -1,4 +1,4 @@
-//! Work on several threads, handed over in order; how many threads there may be.
+//! Parallel work on several threads with results delivered in order; limits on the number of threads.
 
 use funicular_study::sweep::{Chunk, Plan};
 use std::collections::BTreeMap;
@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError, mpsc};
 use std::thread;
 
-/// Numbers of threads that may be requested.
+/// Allowed numbers of threads.
 pub const THREADS: RangeInclusive<usize> = 1..=1024;
 
-/// Checks a number of threads.
+/// Checks a requested number of threads; `None` if it is outside [`THREADS`].
 ///
 /// # Example
 /// ```
@@ -24,32 +24,32 @@ pub fn checked(count: usize) -> Option<NonZeroUsize> {
     NonZeroUsize::new(count).filter(|_| THREADS.contains(&count))
 }
 
-/// The number requested, or one thread per processor.
+/// Requested number of threads; by default one thread per processor.
 pub fn or_all(requested: Option<NonZeroUsize>) -> NonZeroUsize {
     requested.unwrap_or_else(|| thread::available_parallelism().unwrap_or(NonZeroUsize::MIN))
 }
 
-/// Items that may be finished ahead of the next one that is due, per thread: this bounds the memory, and how long one slow
-/// item may hold up the others.
+/// Maximum number of items per thread that may be computed ahead of the next item to deliver. A large number costs
+/// memory; a small number makes the other threads wait for one slow item.
 const AHEAD: usize = 8;
 
-/// How a run ended.
+/// End of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// Every item was delivered.
     Complete,
-    /// It was cancelled; every item before this one was delivered.
+    /// The run was cancelled; every item before `next` was delivered.
     Cancelled {
-        /// The first that was not.
+        /// First item that was not delivered.
         next: usize,
     },
 }
 
-/// What the threads share.
+/// State shared by the threads.
 struct Shared {
     next: AtomicUsize,
     stop: AtomicBool,
-    /// The item that is due.
+    /// Next item to deliver.
     due: Mutex<usize>,
     moved: Condvar,
 }
@@ -57,16 +57,16 @@ struct Shared {
 impl Shared {
     fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
-        // Taken, so that nobody is between looking and waiting.
+        // Take the lock once, so that no thread can miss the wake-up between its check and its wait.
         drop(self.due.lock().unwrap_or_else(PoisonError::into_inner));
         self.moved.notify_all();
     }
 }
 
-/// Stops the others when a thread ends by a panic; they would wait for its item for ever.
-struct Guard<'a>(&'a Shared);
+/// Stops the other threads if a thread panics; otherwise they would wait forever for its item.
+struct StopOnPanic<'a>(&'a Shared);
 
-impl Drop for Guard<'_> {
+impl Drop for StopOnPanic<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
             self.0.stop();
@@ -74,11 +74,11 @@ impl Drop for Guard<'_> {
     }
 }
 
-/// Computes chunks of a plan on threads of this call alone, and delivers them in order to the calling thread. The results
-/// do not depend on the number of threads. Raised from any thread, `cancel` ends the run between two points.
+/// Computes chunks of a plan on threads of this call and delivers them in order to the calling thread. The results do
+/// not depend on the number of threads. Setting `cancel` from any thread ends the run between two points.
 ///
 /// # Errors
-/// The first error of `deliver`; it ends the run.
+/// First error of `deliver`, which ends the run.
 pub fn run<E>(
     plan: &Plan<'_>,
     chunks: Range<usize>,
@@ -89,13 +89,16 @@ pub fn run<E>(
     in_order(chunks, threads, cancel, |index, given_up| plan.evaluate(index, given_up), deliver)
 }
 
-/// Computes items on threads of this call alone, and delivers them in order to the calling thread. `compute` takes the
-/// number of the item, and a question to ask now and then: whether to give up, with `None`.
+/// Computes items on threads of this call and delivers them in order to the calling thread.
 ///
-/// A pool that outlives the call would not survive a fork, and the process pools of Python fork.
+/// `compute` takes the number of the item and a function that it has to call regularly: if the function returns true,
+/// `compute` stops and returns `None`.
+///
+/// The threads end with the call. A pool that outlives the call would not survive a fork, and Python's process pools
+/// fork.
 ///
 /// # Errors
-/// The first error of `deliver`; it ends the run.
+/// First error of `deliver`, which ends the run.
 pub fn in_order<T: Send, E>(
     items: Range<usize>,
     threads: NonZeroUsize,
@@ -109,13 +112,15 @@ pub fn in_order<T: Send, E>(
         due: Mutex::new(items.start),
         moved: Condvar::new(),
     };
+
     let lead = AHEAD.saturating_mul(threads.get());
     let (finished, arriving) = mpsc::channel::<(usize, T)>();
+
     thread::scope(|scope| {
         for _ in 0..threads.get().min(items.len()) {
             let (shared, items, compute, finished) = (&shared, &items, &compute, finished.clone());
             scope.spawn(move || {
-                let _guard = Guard(shared);
+                let _guard = StopOnPanic(shared);
                 let given_up = || cancel.load(Ordering::Relaxed) || shared.stop.load(Ordering::Relaxed);
                 while let Some(index) = take(shared, items, lead) {
                     let Some(item) = compute(index, &given_up) else { break };
@@ -127,7 +132,7 @@ pub fn in_order<T: Send, E>(
         }
         drop(finished);
 
-        // Items arrive in any order; those that are ahead wait for the one that is due.
+        // Items arrive in any order; an early item waits until the items before it have been delivered.
         let mut waiting = BTreeMap::new();
         let mut due = items.start;
         for (index, item) in arriving {
@@ -149,7 +154,7 @@ pub fn in_order<T: Send, E>(
     })
 }
 
-/// The next item to compute, when it is not too far ahead of the one that is due.
+/// Returns the next item to compute; waits while it is too far ahead of the next item to deliver.
 fn take(shared: &Shared, items: &Range<usize>, lead: usize) -> Option<usize> {
     let index = shared.next.fetch_add(1, Ordering::Relaxed);
     if index >= items.end {
@@ -167,7 +172,7 @@ mod tests {
     use super::*;
     use std::convert::Infallible;
 
-    /// Items of very different size, each its square.
+    /// Squares of numbers; the time per item varies strongly.
     fn squares(threads: usize, cancel: &AtomicBool, stop_at: Option<usize>) -> (Result<Outcome, usize>, Vec<usize>) {
         let mut delivered = Vec::new();
         let compute = |index: usize, given_up: &dyn Fn() -> bool| {
@@ -192,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_is_cancelled_or_refused_ends_behind_whole_items() {
+    fn a_run_that_is_cancelled_or_refused_delivers_a_contiguous_range_of_items() {
         let (refused, delivered) = squares(3, &AtomicBool::new(false), Some(100));
         assert_eq!((refused, delivered), (Err(100), (3..=10).map(|i| i * i).collect()));
 

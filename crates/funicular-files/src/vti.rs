@@ -1,4 +1,4 @@
-//! Rows of a grid as a VTK image, for ParaView.
+//! Rows of a grid as a VTK image (`.vti`), for ParaView.
 
 use crate::Rows;
 use base64::engine::general_purpose::STANDARD;
@@ -9,7 +9,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use std::io::{self, Write};
 
-/// Three axes: where each begins, its step and its number of values.
+/// Three axes of an image: first value, step and number of values of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Image {
     origin: [f64; 3],
@@ -17,15 +17,15 @@ struct Image {
     counts: [usize; 3],
 }
 
-/// Whether a record is one of a grid that makes an image; what is in the way.
+/// Checks that the rows of a record form an image; the error gives the reason if they do not.
 pub(crate) fn check(record: &Record) -> Result<(), String> {
     Image::of(record).map(|_| ())
 }
 
 impl Image {
-    /// Positions where only positions vary; else the axes that vary, in their order.
+    /// Axes of the image: the positions if only positions vary, otherwise the varying axes in their order.
     fn of(record: &Record) -> Result<Self, String> {
-        let no_grid = || "an image needs a grid, and this is a list".to_owned();
+        let no_grid = || "an image needs a grid, and the poses are a list".to_owned();
         let axes = axes_of(&record.plan).ok_or_else(no_grid)?;
         let axes: Vec<(&str, [f64; 2], usize)> = axes.iter().map(axis).collect::<Result<_, _>>()?;
         let varying: Vec<_> = axes.iter().copied().filter(|axis| axis.2 > 1).collect();
@@ -46,7 +46,7 @@ impl Image {
     }
 }
 
-/// Name, first value and step, number of values.
+/// Name of an axis, its first value and step, and its number of values.
 fn axis(axis: &Axis) -> Result<(&str, [f64; 2], usize), String> {
     match axis {
         Axis::Range { axis, from, to, count } => {
@@ -60,8 +60,8 @@ fn axis(axis: &Axis) -> Result<(&str, [f64; 2], usize), String> {
     }
 }
 
-/// Writes the image. Numbers that do not exist are NaN, which VTK has no other word for; `feasible` and `status` (the number of
-/// the code in [`funicular_study::sweep::CODES`]) say why.
+/// Writes the image. Missing numbers are NaN, because VTK has no missing values. `feasible` and `status` (position of
+/// the code in [`funicular_study::sweep::CODES`]) give the reason.
 pub(crate) fn write(out: impl Write, record: &Record, rows: &dyn Rows) -> io::Result<()> {
     let image = Image::of(record).map_err(io::Error::other)?;
     let [x, y, z] = image.counts.map(|count| count - 1);
@@ -77,7 +77,7 @@ pub(crate) fn write(out: impl Write, record: &Record, rows: &dyn Rows) -> io::Re
     out.write_event(Event::Start(BytesStart::new("Piece").with_attributes([("Extent", extent.as_str())])))?;
     out.write_event(Event::Start(BytesStart::new("PointData")))?;
     for (i, column) in record.columns.iter().enumerate() {
-        // Reasons are sentences, with numbers of their own.
+        // Reasons are sentences with different numbers in each row: an image cannot hold them.
         if column.name != "reason" {
             array(&mut out, record, rows, i, column)?;
         }
@@ -89,7 +89,8 @@ pub(crate) fn write(out: impl Write, record: &Record, rows: &dyn Rows) -> io::Re
     out.get_mut().flush()
 }
 
-/// One column: its size in bytes, then its values, both in base64. One pass over all rows, so that no column is in memory.
+/// Writes one column: its size in bytes, then its values, both in base64. Reads all rows once, so that no column is
+/// held in memory.
 fn array(out: &mut Writer<impl Write>, record: &Record, rows: &dyn Rows, i: usize, column: &Column) -> io::Result<()> {
     let (kind, size) = match column.kind {
         Kind::Real => ("Float64", 8),
@@ -117,7 +118,8 @@ fn array(out: &mut Writer<impl Write>, record: &Record, rows: &dyn Rows, i: usiz
     Ok(())
 }
 
-/// The number of a word: of a status among the codes, of a kind among the kinds; 255 for none.
+/// Number of a word: position of a status among the codes, or of a mode's kind among the kinds; 255 for a missing
+/// value.
 fn number(word: Option<&str>) -> u8 {
     let codes = funicular_study::sweep::CODES.iter().map(|code| code.0);
     let kinds = ["platform", "cable", "mixed"];

@@ -1,21 +1,20 @@
-//! Parquet files of a build without the feature `parquet`: each use of one is refused.
+//! Parquet files of a build without the feature `parquet`: every use is refused.
 //!
-//! It has the names of `parquet.rs`, so that the rest of the crate need not know which of both it is built with.
+//! The names are those of `parquet.rs`, so that the rest of the crate is the same in both builds.
 
 use crate::{FilesError, Rows};
-use funicular::sweep::Chunk;
-use funicular_study::sweep::{Part, Record};
+use funicular_study::sweep::{Chunk, Part, Record};
 use serde_json::Value;
 use std::convert::Infallible;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Refuses to write rows. [`Format::of`](crate::Format::of) has refused the file before.
+/// Refuses to write rows. It is not reached, because [`Format::of`](crate::Format::of) refuses the file before.
 pub(crate) fn write(_out: impl Write + Send, _record: &Record, _rows: &dyn Rows, _complete: bool) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::Unsupported, "this program was built without Parquet files"))
 }
 
-/// A file that a sweep has written; none can exist.
+/// Parquet file of a sweep; no value of this type can exist.
 pub(crate) struct ParquetFile {
     pub(crate) path: PathBuf,
     pub(crate) json: Value,
@@ -32,7 +31,7 @@ impl ParquetFile {
         Err(FilesError::WithoutParquet { path: path.to_owned() })
     }
 
-    /// Cannot be called: there is no such file.
+    /// Cannot be called, because no value of this type exists.
     pub(crate) fn each(
         &self,
         _first: usize,

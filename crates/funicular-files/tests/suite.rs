@@ -1,4 +1,4 @@
-//! Files of sweeps: what survives, what is refused, what can be read back.
+//! Tests of the files of sweeps: survival of interruptions, refusals, reading back.
 #![allow(missing_docs)]
 
 use arrow_array::{Array, Float64Array};
@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 const ROBOT: &str = funicular_robots::COGIRO;
 
-/// A sweep of 70×3 poses, some of them infeasible, and its rows.
+/// Sweep of 70×3 poses, some of them infeasible, with its rows.
 fn sweep() -> (Record, Vec<Chunk>) {
     let robot = Robot::from_toml(ROBOT).unwrap();
     let axes = [
@@ -25,7 +25,7 @@ fn sweep() -> (Record, Vec<Chunk>) {
         ("z".to_owned(), Steps::List(vec![1.0])),
     ];
     let points = Poses::grid(robot.clone(), &axes, None).unwrap();
-    // Kinds are texts, and absent where a pose is infeasible.
+    // Kinds are text columns, without values where a pose is infeasible.
     let quantities = ["tension-max", "first-kind", "tensions"].map(|name| name.parse::<Quantity>().unwrap());
     let options = Options { highest_hz: 1e-3, ..Options::default() };
     let plan = Plan::new(&points, &robot, &quantities, &options).unwrap();
@@ -61,8 +61,8 @@ fn complete(mut job: Box<Job>, chunks: &[Chunk], end: usize) {
     job.finish().unwrap();
 }
 
-/// A file of one run.
-fn whole(path: &Path, record: &Record, chunks: &[Chunk]) -> Vec<u8> {
+/// Writes a complete file in one run and returns its bytes.
+fn complete_file(path: &Path, record: &Record, chunks: &[Chunk]) -> Vec<u8> {
     complete(open(path, record, Begin::Anew).unwrap(), chunks, record.range().end);
     fs::read(path).unwrap()
 }
@@ -78,11 +78,11 @@ fn message(result: Result<Box<Job>, FilesError>) -> String {
 }
 
 #[test]
-fn a_journal_torn_or_damaged_anywhere_leads_to_the_same_file() {
+fn a_journal_cut_off_or_damaged_anywhere_leads_to_the_same_file() {
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     for ending in ["parquet", "csv", "vti"] {
-        let expected = whole(&folder.path().join("whole").with_extension(ending), &record, &chunks);
+        let expected = complete_file(&folder.path().join("whole").with_extension(ending), &record, &chunks);
         let path = folder.path().join("torn").with_extension(ending);
         let mut job = open(&path, &record, Begin::Anew).unwrap();
         chunks[..40].iter().for_each(|chunk| job.add(chunk).unwrap());
@@ -93,7 +93,7 @@ fn a_journal_torn_or_damaged_anywhere_leads_to_the_same_file() {
             for damaged in [false, true] {
                 let mut bytes = journal.clone();
                 if damaged {
-                    // A byte that was never written: all behind it is lost, nothing before it.
+                    // A byte that was never written: everything after it is lost, nothing before it.
                     let Some(byte) = bytes.get_mut(cut).filter(|_| cut > 20) else { continue };
                     *byte ^= 0x55;
                 } else {
@@ -113,7 +113,7 @@ fn a_journal_torn_or_damaged_anywhere_leads_to_the_same_file() {
 }
 
 #[test]
-fn work_is_not_lost_unasked_and_not_mixed() {
+fn work_is_neither_discarded_without_request_nor_mixed() {
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
@@ -152,7 +152,7 @@ fn work_is_not_lost_unasked_and_not_mixed() {
 }
 
 #[test]
-fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
+fn an_interrupted_run_keeps_its_rows_and_replaces_no_complete_file() {
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
@@ -161,17 +161,17 @@ fn an_interrupted_run_leaves_its_rows_and_replaces_no_whole_file() {
         for chunk in &chunks[job.next()..][..more] {
             job.add(chunk).unwrap();
         }
-        assert!(job.interrupt().unwrap().ends_with("a.parquet has them, marked as incomplete"));
+        assert!(job.interrupt().unwrap().ends_with("a.parquet, marked as incomplete"));
     }
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
     assert_eq!(reader.metadata().file_metadata().num_rows(), 16 * 3);
-    let expected = whole(&folder.path().join("whole.parquet"), &record, &chunks);
+    let expected = complete_file(&folder.path().join("whole.parquet"), &record, &chunks);
     complete(open(&path, &record, Begin::Resume).unwrap(), &chunks, chunks.len());
     assert!(fs::read(&path).unwrap() == expected);
     let mut job = open(&path, &record, Begin::Discard).unwrap();
     job.add(&chunks[0]).unwrap();
     assert!(job.interrupt().unwrap().ends_with("a.parquet.partial"));
-    assert!(fs::read(&path).unwrap() == expected, "a whole file stays");
+    assert!(fs::read(&path).unwrap() == expected, "a complete file stays");
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let expected = whole(&at("whole.parquet"), &record, &chunks);
+    let expected = complete_file(&at("whole.parquet"), &record, &chunks);
     for of in [1, 3, 100] {
         let part = |number| {
             let record = Record { part: Some(Part { number, of }), ..record.clone() };
@@ -197,7 +197,7 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
     };
     assert!(refused(&["1-3", "3-3"]).contains("part 2/3 is missing: give all 3 parts"));
     assert!(refused(&["1-3", "2-3", "1-3", "3-3"]).contains("part 1/3 is given twice"));
-    assert!(refused(&["1-3", "2-100"]).contains("is part 2/100, others are parts of 3"));
+    assert!(refused(&["1-3", "2-100"]).contains("is part 2/100, but other files are parts of 3"));
     assert!(refused(&["1-3", "whole"]).contains("is no part"));
     let mut other = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
     other.plan.insert("mass_kg".to_owned(), json!(9));
@@ -227,7 +227,7 @@ fn complete_part(job: Box<Job>, chunks: &[Chunk], record: &Record) {
     complete(job, chunks, record.range().end);
 }
 
-/// A sweep of a few rows, short enough that each of its bytes can be damaged.
+/// Sweep of a few rows, small enough to damage each byte of its file.
 fn small() -> (Record, Vec<Chunk>) {
     let (record, chunks) = sweep();
     let columns = record.columns[..4].to_vec();
@@ -236,7 +236,7 @@ fn small() -> (Record, Vec<Chunk>) {
     (Record { robot_file: "name = \"a\"\n".to_owned(), columns, rows, chunk_rows: rows, ..record }, vec![chunk])
 }
 
-/// Why a file is not taken: by everything that reads files of sweeps.
+/// Refusals of a file by all readers of sweep files.
 fn refusals(path: &Path, record: &Record) -> Vec<String> {
     let merged = path.with_extension("merged.parquet");
     let refusals = [
@@ -255,7 +255,7 @@ fn a_file_with_one_wrong_bit_anywhere_is_refused_by_every_reader() {
     let record = Record { part: Some(Part { number: 1, of: 1 }), ..record };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
-    let good = whole(&path, &record, &chunks);
+    let good = complete_file(&path, &record, &chunks);
     assert!(matches!(Job::open(&path, record.clone(), Begin::Resume), Ok(Opened::Done)));
     assert_eq!(Table::read(&path).unwrap().rows(), record.rows);
     for at in 0..good.len() {
@@ -275,7 +275,7 @@ fn a_file_with_bytes_lost_added_or_blank_is_refused_by_every_reader() {
     let record = Record { part: Some(Part { number: 1, of: 1 }), ..record };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
-    let good = whole(&path, &record, &chunks);
+    let good = complete_file(&path, &record, &chunks);
     for at in (0..good.len() - 64).step_by(good.len() / 60).chain([good.len() - 65, good.len() - 64]) {
         let (before, behind) = good.split_at(at);
         let mut swapped = good.clone();
@@ -293,7 +293,7 @@ fn a_file_with_bytes_lost_added_or_blank_is_refused_by_every_reader() {
         }
     }
 
-    // Nor is a damaged file that was complete replaced by what an interrupted run has.
+    // An interrupted run does not replace a damaged file that was complete.
     let mut bytes = good.clone();
     bytes[100] ^= 1;
     fs::write(&path, &bytes).unwrap();
@@ -312,11 +312,11 @@ fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_tak
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
-    let good = whole(&path, &record, &chunks);
+    let good = complete_file(&path, &record, &chunks);
     let again = folder.path().join("again.parquet");
     assert!(whole(&again, &record, &chunks) == good, "the same bytes each time");
 
-    // Read by the library alone, which knows nothing of checksums, and written anew with the same metadata or without.
+    // Read by the Parquet library alone, without checksums, and rewritten with the same metadata or without them.
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
     let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
     let schema = reader.schema().clone();
@@ -332,7 +332,7 @@ fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_tak
         SweepFile::open(&path).err().expect("refused").to_string()
     };
     let said = rewritten(&|_| true);
-    assert!(said.contains("is damaged, or another program has written it anew: its checksum is not that"), "{said}");
+    assert!(said.contains("is damaged, or another program has rewritten it: its checksum does not match"), "{said}");
     let said = rewritten(&|pair| pair.key != "funicular.checksum");
     assert!(said.contains("lack the checksum: another program or an older version wrote it"), "{said}");
     assert!(rewritten(&|_| false).contains("was not written by a sweep of funicular"));
@@ -343,7 +343,7 @@ fn a_parquet_file_holds_the_rows_their_units_the_robot_and_the_plan() {
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
-    whole(&path, &record, &chunks);
+    complete_file(&path, &record, &chunks);
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
     let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone()).unwrap();
@@ -390,7 +390,7 @@ fn images_need_grids_of_equal_steps() {
     assert!(message(open(&folder.path().join("no/a.csv"), &record, Begin::Anew)).contains("there is no directory"));
 }
 
-/// A map of 8,000 points whose rows cost little.
+/// Map of 8,000 points whose rows are cheap to compute.
 fn energies(robot: &Robot, evaluate: impl FnOnce(&Plan<'_>)) {
     let axis = |name: &str, from, to| (name.to_owned(), Steps::range(from, to, 20).unwrap());
     let axes = [axis("x", -4.0, 4.0), axis("y", -3.0, 3.0), axis("z", 0.5, 3.0)];
@@ -401,7 +401,7 @@ fn energies(robot: &Robot, evaluate: impl FnOnce(&Plan<'_>)) {
 }
 
 #[test]
-fn rows_are_the_same_bits_on_any_number_of_threads() {
+fn rows_are_bit_identical_for_any_number_of_threads() {
     energies(&Robot::from_toml(ROBOT).unwrap(), |plan| {
         assert!(plan.chunks() > 20, "{}", plan.chunks());
         let run = |threads| {
@@ -414,14 +414,14 @@ fn rows_are_the_same_bits_on_any_number_of_threads() {
             assert_eq!(outcome, Ok(Outcome::Complete));
             all
         };
-        // No value is NaN, so that equality is equality of bits.
+        // No value is NaN, so equal values are equal bits.
         let alone: Vec<Chunk> = (0..plan.chunks()).map(|index| plan.evaluate(index, || false).unwrap()).collect();
         assert!(run(1) == alone && run(2) == alone && run(7) == alone);
     });
 }
 
 #[test]
-fn a_run_that_is_cancelled_or_refused_ends_behind_whole_chunks() {
+fn a_run_that_is_cancelled_or_refused_delivers_complete_chunks() {
     energies(&Robot::from_toml(ROBOT).unwrap(), |plan| {
         let (cancel, three) = (AtomicBool::new(false), NonZeroUsize::new(3).unwrap());
         let mut seen = Vec::new();

@@ -3,7 +3,7 @@
 use crate::arrays::TextKeyed;
 use crate::errors;
 use crate::interrupt::{check_signals, interruptible};
-use funicular_files::atomic_file::{Temporary, is_regular_or_new};
+use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;
 use funicular_study::import::{self, SourceFile};
@@ -167,7 +167,7 @@ pub(crate) fn write_file(path: PathBuf, text: &str) -> PyResult<()> {
         if !is_regular_or_new(&target) {
             return fs::OpenOptions::new().write(true).open(&target)?.write_all(text.as_bytes());
         }
-        let mut file = Temporary::beside(&target)?;
+        let mut file = TemporaryFile::beside(&target)?;
         file.as_file_mut().write_all(text.as_bytes())?;
         file.persist(&target)
     };

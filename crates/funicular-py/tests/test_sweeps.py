@@ -191,7 +191,7 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
     with pytest.raises(funicular.FileError, match="robot file, line"):
         robot.with_(mass_kg=20).map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, resume=True)
     Path(f"{path}.partial").write_text("no journal")
-    with pytest.raises(funicular.FileError, match="begin anew with `discard=True`"):
+    with pytest.raises(funicular.FileError, match="start again with `discard=True`"):
         robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path)
     assert len(robot.map({"x": [0, 1], "y": 0, "z": 0.5}, file=path, discard=True)) == 2
     os.mkfifo(tmp_path / "pipe.csv")
@@ -264,7 +264,7 @@ def test_a_full_disk_is_explained_and_what_was_written_goes_on(robot: funicular.
     line = [sys.executable, "-c", FULL, str(path)]
     done = subprocess.run(line, cwd=Path(__file__).parent, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and "panicked" not in done.stderr, done.stderr
-    assert "cannot write" in done.stdout and "mend that, then go on with `resume=True`" in done.stdout
+    assert "cannot write" in done.stdout and "fix the cause, then continue with `resume=True`" in done.stdout
     begun: list[int] = []
     workers.ask_long(robot, file=path, resume=True, progress=lambda done, _: begun.append(done))
     workers.ask_long(robot, file=whole)

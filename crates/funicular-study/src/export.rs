@@ -1,4 +1,4 @@
-//! The robot at rest as files of other programs; docs/export.md says what each file holds.
+//! Export of a robot at equilibrium to files of other programs; docs/export.md describes the content of each file.
 
 pub(crate) mod chain;
 pub(crate) mod moordyn;
@@ -14,10 +14,10 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::{self, LowestError, Modes};
 use funicular::statics::StaticModel;
 
-/// Most modes that a file takes: each is a field of the whole robot, or a row of a table.
+/// Maximum number of modes in a file: each mode is a field of the whole robot, or a row of a table.
 const MAX_MODES: usize = 500;
 
-/// Programs that files are written for.
+/// Programs that robots can be exported to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportFormat {
     /// Python script for OpenSeesPy.
@@ -41,22 +41,22 @@ impl Named for ExportFormat {
     }
 }
 
-/// A file for another program.
+/// File for another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exported {
-    /// The file.
+    /// Text of the file.
     pub text: String,
-    /// Sentences that the user should know before trusting it.
+    /// Caveats about the file, one sentence each.
     pub warnings: Vec<String>,
 }
 
-/// Maximum number of elements of a cable.
+/// Maximum number of elements per cable.
 pub const MAX_SEGMENTS: usize = 1000;
 
-/// The robot at rest as a file of another program.
+/// Writes the robot at equilibrium as a file of another program.
 ///
 /// # Errors
-/// A request that the program's files cannot answer, a slack cable, or no equilibrium of the catenary.
+/// A request that the file format cannot hold, a slack cable, or no equilibrium with catenaries.
 pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exported> {
     let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
@@ -70,13 +70,13 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     Ok(Exported { text, warnings })
 }
 
-/// Refuses a request that no file can answer, before any work.
+/// Refuses a request that no file can hold, before any computation.
 ///
 /// # Errors
-/// What to leave out or to change.
+/// The option to leave out or to change.
 pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     if request.state.static_model != StaticModel::Catenary {
-        bail!("export writes cables that hang: leave out ⟪static_model⟫");
+        bail!("export writes cables with the catenary model only: leave out ⟪static_model⟫");
     }
     if request.to == ExportFormat::Moordyn && request.modes_below_hz.is_some() {
         bail!("MoorDyn has no modes: leave out ⟪modes_below_hz⟫");
@@ -90,7 +90,7 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     Ok(())
 }
 
-/// All modes of catenary-dynamic cables below a frequency [Hz].
+/// Finds all modes with the model catenary-dynamic below a frequency [Hz].
 fn modes_below(at_rest: &AtRest, below_hz: f64, warnings: &mut Vec<String>) -> Result<(Dynamics, Modes)> {
     let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
     let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, below_hz)?;
@@ -100,16 +100,18 @@ fn modes_below(at_rest: &AtRest, below_hz: f64, warnings: &mut Vec<String>) -> R
     Ok((dynamics, found))
 }
 
-/// The lowest natural frequencies of catenary-dynamic cables [Hz], and no more of them than there are.
+/// Finds the lowest natural frequencies with the model catenary-dynamic [Hz]: `count` of them, or fewer if there are
+/// fewer.
 fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>) -> Result<Vec<f64>> {
-    // A robot has fewer modes than requested only if its cables are massless; those that it has are not far up.
+    // Upper limit of the search. A robot has fewer modes than requested only if its cables are massless; the modes that
+    // it does have are far below this limit.
     const MAX_HZ: f64 = 1e4;
     let lowest = |count| {
         let AtRest { robot, equilibrium, .. } = at_rest;
         modes::lowest(robot, equilibrium, Linearisation::default(), count, MAX_HZ)
     };
     let (_, list) = match lowest(count) {
-        // A cable without tension keeps its own error, which says that there is no solution.
+        // A cable without tension keeps its own error, which reports that there is no solution.
         Err(LowestError::Dynamics(error)) => return Err(error.into()),
         Err(LowestError::TooFew { found, .. }) => lowest(found)?,
         Ok(found) => found,
@@ -118,7 +120,7 @@ fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>)
     Ok(list.modes.iter().take(count).map(|mode| mode.frequency_hz).collect())
 }
 
-/// A text of the user on one line, for titles and comments.
+/// Puts a text of the user on one line, for titles and comments.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,7 +1,7 @@
-//! Files of other programs, read into a `Draft` of a robot file.
+//! Import of files of other programs into a `Draft` of a robot file.
 //!
-//! A reader takes over facts and leaves the rest: it makes nothing up, says at which line a file is wrong, and lists
-//! what a robot file cannot hold. docs/import.md has the meaning of every element that is read.
+//! A reader takes over only facts from the source. It names the line of an error and lists the facts that a robot file
+//! cannot hold. docs/import.md explains every element that is read.
 
 pub(crate) mod caspr;
 pub(crate) mod draft;
@@ -18,23 +18,23 @@ use anyhow::{Result, bail};
 use draft::Draft;
 use xml::Xml;
 
-/// A robot file made from files of another program.
+/// Robot file made from files of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
-    /// The robot file.
+    /// Text of the robot file.
     pub text: String,
-    /// Facts that the sources leave open, and how they were read.
+    /// Assumptions made where the sources are not clear.
     pub assumed: Vec<String>,
     /// Facts of the sources that a robot file cannot hold.
     pub lost: Vec<String>,
 }
 
-/// Makes a robot file from the files of a request; options are named as a front end writes them.
+/// Makes a robot file from the files of a request. `words` names the options in messages as the front end writes them.
 ///
 /// # Errors
-/// The file, the line, the value and what to do; or why the robot is none that a robot file can hold.
+/// The file, the line, the value and the next step; or the reason why a robot file cannot hold the robot.
 pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
-    let mut draft = read(&request.files, &Wanted { cable_set: request.cable_set.as_deref() })?;
+    let mut draft = read(&request.files, &ReadOptions { cable_set: request.cable_set.as_deref() })?;
     draft.complete(&request.ropes, &request.platform)?;
     let text = worded(&draft.to_toml()?, words);
     let in_words = |texts: &[String]| texts.iter().map(|text| worded(text, words)).collect();
@@ -42,34 +42,34 @@ pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
 }
 
 /// Options of a request besides the files.
-pub(crate) struct Wanted<'a> {
-    /// One of the sets of cables of a CASPR file.
+pub(crate) struct ReadOptions<'a> {
+    /// Name of the cable set to read from a CASPR file.
     pub(crate) cable_set: Option<&'a str>,
 }
 
-/// Reads the files of one robot. Which program they belong to is seen from what is in them, not from their names.
+/// Reads the files of one robot. The content of the files, not their names, tells which program wrote them.
 ///
 /// # Errors
 ///
-/// The file, the line, the value and what to do; or why the robot is none that a robot file can hold.
-pub(crate) fn read(files: &[SourceFile], wanted: &Wanted) -> Result<Draft> {
+/// The file, the line, the value and the next step; or the reason why a robot file cannot hold the robot.
+pub(crate) fn read(files: &[SourceFile], options: &ReadOptions) -> Result<Draft> {
     let mut sources = Sources::default();
     for file in files {
         sources.sort_in(file)?;
     }
-    let mut draft = sources.read(wanted)?;
+    let mut draft = sources.read(options)?;
     draft.assumed.splice(0..0, files.iter().filter_map(SourceFile::caveat));
     Ok(draft)
 }
 
-/// The files by what they are.
+/// Files sorted by program and content.
 #[derive(Default)]
 struct Sources<'a> {
     bodies: Vec<Xml<'a>>,
     cables: Vec<Xml<'a>>,
     wirex: Vec<Xml<'a>>,
     moordyn: Vec<&'a SourceFile>,
-    /// Files of CASPR that say nothing of the robot itself.
+    /// Files of CASPR that do not describe the robot itself.
     aside: Vec<String>,
 }
 
@@ -78,8 +78,8 @@ impl<'a> Sources<'a> {
         if !file.text.trim_start().starts_with('<') {
             if !moordyn::is_input(&file.text) {
                 bail!(
-                    "{}: it is neither XML, as the files of CASPR and WireX are, nor a MoorDyn input file, which has \
-                     sections such as `--- LINE TYPES ---`",
+                    "{}: it is neither XML (CASPR, WireX) nor a MoorDyn input file, which has sections such as \
+                     `--- LINE TYPES ---`",
                     file.path
                 );
             }
@@ -95,26 +95,27 @@ impl<'a> Sources<'a> {
                 self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
             }
             other => bail!(
-                "{}: the outermost element is <{other}>: CASPR's are <bodies_system> and <cables>, WireX's is <models>",
+                "{}: the outermost element is <{other}>; CASPR files have <bodies_system> or <cables>, WireX files \
+                 <models>",
                 xml.place(xml.root())
             ),
         }
         Ok(())
     }
 
-    fn read(self, wanted: &Wanted) -> Result<Draft> {
+    fn read(self, options: &ReadOptions) -> Result<Draft> {
         let Self { bodies, cables, wirex, moordyn, aside } = self;
         let is_caspr = !bodies.is_empty() || !cables.is_empty() || !aside.is_empty();
         if [is_caspr, !wirex.is_empty(), !moordyn.is_empty()].into_iter().filter(|given| *given).count() > 1 {
-            bail!("the files are of more than one program; give the files of one robot");
+            bail!("the files belong to more than one program; give the files of one robot");
         }
-        if !is_caspr && wanted.cable_set.is_some() {
-            bail!("⟪cable_set⟫ chooses among the sets of a CASPR cables file, and there is none; leave it out");
+        if !is_caspr && options.cable_set.is_some() {
+            bail!("⟪cable_set⟫ chooses among the sets of a CASPR cables file, and no such file is given; leave it out");
         }
         if is_caspr {
             let bodies = one(&bodies, "CASPR bodies file (<bodies_system>)")?;
             let cables = one(&cables, "CASPR cables file (<cables>)")?;
-            let mut draft = caspr::read(bodies, cables, wanted.cable_set)?;
+            let mut draft = caspr::read(bodies, cables, options.cable_set)?;
             draft.lost.extend(aside.into_iter().map(|file| format!("{file}: it does not describe the robot")));
             return Ok(draft);
         }
@@ -128,11 +129,11 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// The one file of a kind.
+/// Returns the only file of a kind.
 fn one<'f, 'a>(files: &'f [Xml<'a>], kind: &str) -> Result<&'f Xml<'a>> {
     match files {
         [file] => Ok(file),
-        [] => bail!("there is no {kind} among the files; a CASPR robot is a bodies file and a cables file, give both"),
+        [] => bail!("there is no {kind} among the files; a CASPR robot needs a bodies file and a cables file"),
         [first, second, ..] => {
             bail!("{} and {} are both a {kind}; give the files of one robot", first.path(), second.path())
         }
@@ -146,7 +147,7 @@ mod tests {
     use std::path::Path;
     use std::sync::LazyLock;
 
-    /// The example robot in every format: names and texts of its files.
+    /// Example robot in every format: names and texts of its files.
     static EXAMPLES: LazyLock<[Vec<(&str, &str)>; 3]> = LazyLock::new(|| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/import");
         [&["tripod_bodies.xml", "tripod_cables.xml"][..], &["tripod.wcrfx"], &["tripod.txt"]].map(|names| {
@@ -155,23 +156,24 @@ mod tests {
         })
     });
 
-    fn whole(files: &[(&str, &str)]) -> Result<String> {
+    fn imported(files: &[(&str, &str)]) -> Result<String> {
         let files = files
             .iter()
             .map(|(name, text)| SourceFile::decode((*name).to_owned(), text.as_bytes()))
             .collect::<Result<Vec<_>>>()?;
-        let mut draft = read(&files, &Wanted { cable_set: None })?;
+        let mut draft = read(&files, &ReadOptions { cable_set: None })?;
         let ropes = ImportRopes { mass_kg_per_m: Some(0.05), axial_stiffness_n: Some(1e6), ..ImportRopes::default() };
         let platform = ImportPlatform::default();
         draft.complete(&ropes, &platform)?;
         draft.to_toml()
     }
 
-    /// One text of an example replaced. What comes out is a robot or one line of message.
+    /// Imports an example with one file's text replaced. True if the result is a robot, false if it is a one-line
+    /// message.
     fn with(files: &[(&str, &str)], which: usize, text: &str) -> bool {
         let mut files = files.to_vec();
         files[which].1 = text;
-        match whole(&files) {
+        match imported(&files) {
             Ok(_) => true,
             Err(error) => {
                 let message = format!("{error:#}");
@@ -184,11 +186,11 @@ mod tests {
     #[test]
     fn a_file_that_ends_anywhere_is_read_or_refused() {
         for files in EXAMPLES.iter() {
-            whole(files).unwrap();
+            imported(files).unwrap();
             for (which, (name, text)) in files.iter().enumerate() {
                 let read =
                     (0..text.len()).filter(|end| text.is_char_boundary(*end) && with(files, which, &text[..*end]));
-                // XML that is cut is no XML; of MoorDyn's file the end says little.
+                // Truncated XML is not XML; the end of a MoorDyn file holds little.
                 let is_xml = text.starts_with('<');
                 assert!(read.count() < if is_xml { 3 } else { text.len() / 3 }, "{name}");
             }
@@ -196,8 +198,8 @@ mod tests {
     }
 
     #[test]
-    fn no_value_that_bad_luck_puts_into_a_file_makes_a_reader_panic() {
-        const LUCK: [&str; 14] = [
+    fn no_bad_value_in_a_file_makes_a_reader_panic() {
+        const BAD: [&str; 14] = [
             "",
             "nan",
             "-inf",
@@ -219,8 +221,8 @@ mod tests {
                 while let Some(begin) = text[at..].find(|c: char| c.is_ascii_digit()).map(|i| at + i) {
                     let rest = &text[begin..];
                     let end = begin + rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-                    for luck in LUCK {
-                        with(files, which, &[&text[..begin], luck, &text[end..]].concat());
+                    for bad in BAD {
+                        with(files, which, &[&text[..begin], bad, &text[end..]].concat());
                     }
                     at = end;
                 }
@@ -230,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn no_line_that_is_lost_or_doubled_makes_a_reader_panic() {
+    fn no_missing_or_doubled_line_makes_a_reader_panic() {
         for files in EXAMPLES.iter() {
             for (which, (_, text)) in files.iter().enumerate() {
                 let lines: Vec<&str> = text.lines().collect();
@@ -245,12 +247,12 @@ mod tests {
     }
 
     #[test]
-    fn line_ends_and_marks_change_nothing() {
+    fn line_ends_and_byte_order_marks_change_nothing() {
         for files in EXAMPLES.iter() {
             let windows: Vec<(&str, String)> =
                 files.iter().map(|(name, text)| (*name, format!("\u{feff}{}", text.replace('\n', "\r\n")))).collect();
             let windows: Vec<(&str, &str)> = windows.iter().map(|(name, text)| (*name, text.as_str())).collect();
-            assert_eq!(whole(&windows).unwrap(), whole(files).unwrap());
+            assert_eq!(imported(&windows).unwrap(), imported(files).unwrap());
         }
     }
 
@@ -264,7 +266,7 @@ mod tests {
         let deep = "<models>".repeat(1_000_000);
         let wide = format!("<models>{}</models>", "<a/>".repeat(2_000_000));
         for text in [&bomb, &deep, &wide] {
-            let error = whole(&[("a.wcrfx", text)]).unwrap_err().to_string();
+            let error = imported(&[("a.wcrfx", text)]).unwrap_err().to_string();
             assert!(error.contains("not well-formed XML"), "{error}");
         }
     }

@@ -1,7 +1,7 @@
-//! Pages in HTML that open offline: one file with its figures, its numbers and the library that draws them.
+//! HTML pages that work offline: one file with figures, numbers and the library that draws the figures.
 //!
-//! A page is a template of prose ([`report`], [`paper`], [`plot`]) into which figures and tables are set.
-//! Nothing on it depends on the time, on chance or on the network: two runs write the same bytes.
+//! A page is a text template ([`report`], [`paper`], [`plot`]) with figures and tables. It does not depend on the time,
+//! on random numbers or on the network: two runs write the same bytes.
 
 pub(crate) mod figure;
 pub mod paper;
@@ -15,14 +15,14 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::Write as _;
 
-/// plotly.js, [`packed`] when the program was built.
+/// plotly.js, [`packed`] at build time.
 const PLOTLY: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.js.gz.base64"));
 
-/// What every page has around its own content.
+/// Common parts of every page around its own content.
 pub(crate) struct Shell {
     /// Title of the page.
     pub(crate) title: String,
-    /// (id, name) of the sections, for the list of contents.
+    /// Sections (id, name) for the list of contents.
     pub(crate) contents: &'static [(&'static str, &'static str)],
     version: &'static str,
     style: &'static str,
@@ -31,7 +31,7 @@ pub(crate) struct Shell {
 }
 
 impl Shell {
-    /// Of a page with this title and these sections.
+    /// Shell of a page with this title and these sections.
     pub(crate) fn new(title: String, contents: &'static [(&'static str, &'static str)]) -> Self {
         Self {
             title,
@@ -44,9 +44,9 @@ impl Shell {
     }
 }
 
-/// Bytes as the page's script unpacks them: gzip, as text in base64, which no element of a page can be ended by.
+/// Packs bytes for the page's script: gzip in base64. Base64 text cannot end an element of the page.
 pub(crate) fn packed(bytes: &[u8]) -> String {
-    const INTO_MEMORY: &str = "memory takes all that is written";
+    const INTO_MEMORY: &str = "writing to memory cannot fail";
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes).expect(INTO_MEMORY);
     BASE64.encode(encoder.finish().expect(INTO_MEMORY))
@@ -108,7 +108,7 @@ mod tests {
         .html
     }
 
-    /// The page without plotly.js, after a check that it is there once.
+    /// Page without plotly.js, after a check that plotly.js is there exactly once.
     fn own_part(page: &str) -> String {
         let parts: Vec<&str> = page.split(PLOTLY).collect();
         assert_eq!(parts.len(), 2, "plotly.js is on the page once");
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn plotly_is_packed_whole_and_alone() {
+    fn plotly_is_packed_completely_and_without_anything_else() {
         let script = String::from_utf8(unpacked(PLOTLY)).unwrap();
         assert!(script.trim_start().starts_with("/**\n* plotly.js v"), "{}", &script[..80]);
         assert!(script.contains("scatter3d") && !script.contains("MathJax = {"));
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_report_carries_all_it_needs_and_has_every_section() {
+    fn a_report_is_self_contained_and_has_every_section() {
         for text in [YUAN, COGIRO, POINT_MASS] {
             let page = page_of(text, StaticModel::Catenary);
             assert!(page.len() < 5_000_000, "{}", page.len());
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn the_paper_carries_all_it_needs_and_has_every_section() {
+    fn the_paper_is_self_contained_and_has_every_section() {
         let page = paper("funicular paper".to_owned()).unwrap();
         assert!(page.len() < 5_000_000, "{}", page.len());
         let own = own_part(&page);
@@ -173,7 +173,7 @@ mod tests {
         let own = own_part(&page_of(&text, StaticModel::Catenary));
         assert!(!own.contains("<script>alert") && !own.contains("<b>"));
         assert!(own.contains("&#60;script&#62;alert(1)"));
-        // Every element that a figure's description opens is closed by its own end tag.
+        // Every script element is closed by its own end tag.
         assert_eq!(own.matches("<script").count(), own.matches("</script>").count());
     }
 
@@ -184,33 +184,33 @@ mod tests {
         for cable_model in CableModel::ALL {
             let linearisation = Linearisation { cable_model, in_plane_only: true, ..Linearisation::default() };
             let page = page_with(YUAN, StaticModel::Catenary, linearisation);
-            assert!(own_part(&page).contains("cables stiff in their planes only"), "{cable_model}");
+            assert!(own_part(&page).contains("cables with in-plane stiffness only"), "{cable_model}");
         }
-        // The closed form knows cable ends only; the page says what does better.
-        let closed_form = own_part(&page_of(YUAN, StaticModel::Catenary));
+        // The model shallow-dynamic has no motion along the cables; the page names a model that has.
+        let shallow_dynamic = own_part(&page_of(YUAN, StaticModel::Catenary));
         assert!(
-            closed_form.contains("Mode shapes are not shown")
-                && closed_form.contains("--cable-model catenary-dynamic</code>")
+            shallow_dynamic.contains("Mode shapes are not shown")
+                && shallow_dynamic.contains("--cable-model catenary-dynamic</code>")
         );
-        assert!(!closed_form.contains("id=\"shapes-data\""));
-        // Ideal cables have no stiffness of their own; the model that needs none of statics takes them.
+        assert!(!shallow_dynamic.contains("id=\"shapes-data\""));
+        // Ideal cables have no stiffness of their own; of the models for modes only spring works with them.
         let linearisation = Linearisation { cable_model: CableModel::Spring, ..Linearisation::default() };
         let page = page_with(YUAN, StaticModel::Ideal, linearisation);
-        assert!(own_part(&page).contains("Ideal cables are rigid"));
+        assert!(own_part(&page).contains("Ideal cables are inextensible"));
     }
 
     #[test]
-    fn a_page_with_many_modes_is_cut_to_size_and_says_so() {
+    fn a_page_with_many_modes_limits_its_size_and_reports_it() {
         let robot = Robot::from_toml(YUAN).unwrap();
         let equilibrium = rest(&robot, StaticModel::Catenary);
         let dynamics = Dynamics::about(&robot, &equilibrium, Linearisation::default(), 150.0).unwrap();
         let found = modes::below(&dynamics, 150.0);
         let shapes = Shapes::new(&robot, &equilibrium, &dynamics, &found).unwrap().unwrap().to_string();
         assert!(shapes.len() < 2_000_000, "{}", shapes.len());
-        let note = shapes.split_once("room for the shapes of the lowest ").unwrap().1;
+        let note = shapes.split_once("shows the shapes of the lowest ").unwrap().1;
         let shown: usize = note.split(' ').next().unwrap().parse().unwrap();
         assert!(shown > 200 && shown < found.modes.len(), "{shown} of {}", found.modes.len());
-        assert!(note.starts_with(&format!("{shown} of {} modes.", found.modes.len())));
+        assert!(note.starts_with(&format!("{shown} of {} modes, to limit its size.", found.modes.len())));
     }
 
     #[test]

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""A cable robot at rest: its statics and its first natural frequencies by OpenSees, beside those of funicular.
+"""A cable robot at equilibrium: statics and first natural frequencies by OpenSees, compared with those of funicular.
 
 Written by `funicular export --to opensees`; needs openseespy from PyPI. SI units, world axes.
 
 Cables are chains of {{ segments }} equal corotational truss bars, weight in the joints, mass half consistent and half lumped.
-Such a chain cuts corners: its bars are a little shorter than the cable, and its weight a little other, so that it pulls
-at the platform as the cable does. The platform is points that have its mass, centre of mass and inertia, on a frame of
-stiff bars; a guide holds each of them across its plane, a moment is two couples of dead forces. Frequencies differ by a part that falls with the square of the number of bars: `funicular export --segments`.
+Such a chain cuts corners: its bars are a little shorter than the cable, and its weight differs a little, so that it pulls
+at the platform with the force of the cable. The platform consists of points with its mass, centre of mass and inertia on a
+frame of stiff bars. A guide holds each point along the normal of its plane; a moment is two couples of dead forces. The
+relative difference of the frequencies falls with the square of the number of bars: `funicular export --segments`.
 """
 
 import math
@@ -16,15 +17,15 @@ import openseespy.opensees as ops
 NAME = {{ name }}
 # Source of the robot: {{ source }}
 GRAVITY = {{ gravity }}  # m/s2
-# World axes of the coordinates here, and the one in which a guide holds the platform.
+# World axes of the coordinates used here, and the index of the coordinate that a guide holds.
 AXES = {{ axes }}
 GUIDED = {% if let Some(guided) = guided %}{{ guided }}{% else %}None{% endif %}
 # Points of the platform [m] and their masses [kg]: the centre of mass, then pairs along axes at right angles.
 PLATFORM = {{ platform }}
-# Dead forces on the platform: where [m], and what [N].
+# Dead forces on the platform: point of application [m] and force [N].
 LOADS = {{ loads }}
 SIZE = {{ size }}  # of the platform [m]
-TOUCHING = {{ touching|fmt("{:e}") }}  # points nearer than this are one [m]
+TOUCHING = {{ touching|fmt("{:e}") }}  # points nearer than this count as one point [m]
 FRAME_STIFFNESS = {{ frame_stiffness|fmt("{:e}") }}  # of each bar of the platform [N/m]
 # Each cable from the platform to its anchor: mass [kg], weight and wind of the chain [N], EA [N], lengths [m], joints
 # [m] where the chain is in equilibrium.
@@ -33,19 +34,19 @@ CABLES = [
 {{ "    " }}{{ cable }},
 {% endfor -%}
 ]
-# funicular's numbers.
+# Results of funicular.
 POSITION = {{ position }}  # of the platform's origin [m]
 TENSIONS_N = {{ tensions }}  # at the platform and at the anchor
-FREQUENCIES_HZ = {{ frequencies }}  # of catenary-dynamic cables
+FREQUENCIES_HZ = {{ frequencies }}  # with the cable model catenary-dynamic
 
 
 def inward(vector):
-    """Coordinates here of a vector in world axes."""
+    """Components of a world vector in the coordinates used here."""
     return [sum(a * x for a, x in zip(axis, vector)) for axis in AXES]
 
 
 def outward(vector):
-    """World axes of a vector in the coordinates here."""
+    """World components of a vector in the coordinates used here."""
     return [sum(axis[k] * x for axis, x in zip(AXES, vector)) for k in range(3)]
 
 
@@ -64,10 +65,11 @@ def displacement(tag):
 
 
 def bar(start, end, length, stiffness, mass):
-    """A bar of an unstrained length [m] and EA [N] between two nodes, with a mass [kg] that is spread over it."""
+    """Adds a bar between two nodes, with unstrained length [m], EA [N] and evenly distributed mass [kg]."""
     tag = len(ops.getEleTags()) + 1
     distance = math.dist(ops.nodeCoord(start), ops.nodeCoord(end))
-    # The element counts strain from this distance. With these two its tension is EA (distance - length) / length.
+    # The element measures strain from this distance. With these two materials its tension is EA (distance - length) /
+    # length.
     ops.uniaxialMaterial("Elastic", 2 * tag, stiffness * distance / length)
     ops.uniaxialMaterial("InitStrainMaterial", 2 * tag + 1, 2 * tag, 1.0 - length / distance)
     ops.element("corotTruss", tag, start, end, 1.0, 2 * tag + 1, "-rho", mass / distance, "-cMass", 1)
@@ -82,7 +84,7 @@ ops.wipe()
 ops.model("basic", "-ndm", 3, "-ndf", 3)
 forces, masses = {}, {}  # on nodes [N], of nodes [kg]
 
-# The platform: every point is joined with every other.
+# The platform: bars between all pairs of points.
 frame = []
 for point, mass in PLATFORM:
     frame.append(node(point))
@@ -92,7 +94,7 @@ points = list(frame)
 
 
 def point_at(where):
-    """The platform's node at a place, a new one if there is none."""
+    """Node of the platform at a place; adds a node if there is none."""
     near = [tag for tag in points if math.dist(place(tag), where) <= TOUCHING]
     if not near:
         points.append(node(where))
@@ -118,7 +120,8 @@ for cable, first in zip(CABLES, held):
     half = [0.5 * force for force in heavy]
     bars = []
     for start, end in zip(tags, tags[1:]):
-        # Waves are too fast with consistent mass and too slow with lumped mass, by the same: so half of each.
+        # Consistent mass makes waves too fast, lumped mass makes them too slow by the same amount: half of each is
+        # used.
         bars.append(bar(start, end, cable["bar_length"], cable["axial_stiffness"], 0.5 * mass))
         for tag in (start, end):
             forces[tag] = [a + b for a, b in zip(forces.get(tag, (0.0, 0.0, 0.0)), half)]
@@ -127,7 +130,7 @@ for cable, first in zip(CABLES, held):
 for tag, mass in masses.items():
     ops.mass(tag, mass, mass, mass)
 
-# Statics: the equilibrium of the bars, by Newton's method from funicular's.
+# Statics: the equilibrium of the bars by Newton's method, starting from funicular's equilibrium.
 ops.timeSeries("Constant", 1)
 ops.pattern("Plain", 1, 1)
 for tag, force in forces.items():
@@ -159,10 +162,11 @@ def direction(start, end):
 
 
 def motion():
-    """From funicular's pose to OpenSees': displacement of the platform's origin [m], rotation vector [rad], both small."""
+    """Motion from funicular's pose to OpenSees': displacement of the platform's origin [m] and rotation vector [rad], both small."""
     turn = [0.0, 0.0, 0.0]
     for minus, plus in zip(frame[1::2], frame[2::2]):
-        # Each of three axes says two components, so each component is said twice; as those about the normal by two axes.
+        # Each of three axes gives two components, so each component is found twice: take half the sum. In the planar
+        # case two axes give the component about the normal.
         part = cross(direction(place(minus), place(plus)), direction(moved(minus), moved(plus)))
         turn = [a + 0.5 * b for a, b in zip(turn, part)]
     arm = [a - b for a, b in zip(POSITION, place(frame[0]))]
@@ -170,7 +174,7 @@ def motion():
 
 
 def tension(tag, start, end, sign, half):
-    """At a cable's end: that of the bar beside it, and half a bar's weight and wind in between [N]."""
+    """Tension at a cable's end [N]: force of the adjacent bar plus half a bar's weight and wind."""
     force = ops.eleResponse(tag, "axialForce")[0]
     along = direction(moved(start), moved(end))
     return math.hypot(*(force * e + sign * w for e, w in zip(along, half)))

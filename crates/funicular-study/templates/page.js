@@ -1,13 +1,13 @@
 const page = (function () {
   "use strict";
-  // A narrow screen has no room for the buttons beside the legend.
+  // On a narrow screen there is no room for the buttons beside the legend.
   const config = { responsive: true, displayModeBar: window.innerWidth > 640 ? "hover" : false, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
   const plots = [];
 
-  // What the page carries packed: gzip in base64.
+  // Unpacks data of the page: gzip in base64.
   async function unpack(id) {
     if (typeof DecompressionStream === "undefined") {
-      throw new Error("this browser cannot unpack the figures of the page: it takes Chrome or Edge 80, Firefox 113, Safari 16.4, or a later one");
+      throw new Error("this browser cannot unpack the figures of the page; use Chrome or Edge 80, Firefox 113, Safari 16.4, or a later version");
     }
     const source = document.getElementById(id);
     const bytes = Uint8Array.from(atob(source.textContent.trim()), function (letter) { return letter.charCodeAt(0); });
@@ -27,7 +27,7 @@ const page = (function () {
       const library = document.createElement("script");
       library.textContent = await (await unpack("plotly")).text();
       document.head.append(library);
-      if (typeof Plotly === "undefined") { throw new Error("the library that draws the figures did not start"); }
+      if (typeof Plotly === "undefined") { throw new Error("the library for the figures did not start"); }
     } catch (error) {
       sources.forEach(function (source) { excuse(document.getElementById(source.dataset.plot), error); });
       return;
@@ -45,7 +45,7 @@ const page = (function () {
   function size(place) { return { width: place.clientWidth, height: place.clientHeight }; }
   window.addEventListener("beforeprint", function () {
     document.body.classList.add("printing");
-    // Hidden parts print too: a page on paper cannot be unfolded.
+    // Open the hidden parts, which cannot be opened on paper.
     document.querySelectorAll("details").forEach(function (part) { part.dataset.was = part.open; part.open = true; });
     plots.forEach(function (place) { Plotly.relayout(place, size(place)); });
   });
@@ -55,7 +55,7 @@ const page = (function () {
     plots.forEach(function (place) { Plotly.relayout(place, { width: null, height: null, autosize: true }); });
     redraw();
   });
-  // A figure of a page's own script, which waits for `drawn`; drawn anew where it is.
+  // Draws or updates a figure of a page's own script. The script has to wait for `drawn` before.
   function show(place, data, layout) {
     if (!plots.includes(place)) { plots.push(place); }
     return Plotly.react(place, data, layout, config);

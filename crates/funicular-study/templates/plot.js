@@ -1,20 +1,20 @@
 (async function () {
   "use strict";
   const place = document.getElementById("slices");
-  // Light to dark, as the mode shapes of a report; lines of contours stay visible on the dark end.
+  // Light to dark, as for the mode shapes of a report. Contour lines stay visible at the dark end.
   const COLOURS = ["#fdd56a", "#fdb52e", "#f89540", "#e97257", "#d5536f", "#b83289", "#8f0da4"];
   const SCALE = COLOURS.map(function (colour, i) { return [i / (COLOURS.length - 1), colour]; });
   const EMPTY = "#e4e4e4", INK = "#1b1b1b";
   let data, header, status, values;
   try {
     await page.drawn;
-    if (typeof Plotly === "undefined") { throw new Error("the library that draws the figures did not start"); }
+    if (typeof Plotly === "undefined") { throw new Error("the library for the figures did not start"); }
     data = await (await page.unpack("slices-data")).arrayBuffer();
     const length = new DataView(data).getUint32(0, true);
     header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
     const cells = header.axes.reduce(function (product, axis) { return product * axis.values.length; }, 1);
     status = new Uint8Array(data, 4 + length, cells);
-    // From a copy: numbers of four bytes begin at a multiple of four.
+    // The values are copied because numbers of four bytes have to begin at a multiple of four.
     const numbers = new Float32Array(data.slice(4 + length + cells));
     values = header.quantities.map(function (_, q) { return numbers.subarray(q * cells, (q + 1) * cells); });
   } catch (error) {
@@ -44,7 +44,7 @@
     }, more);
   }
 
-  // Colours by the number, or by its logarithm where all numbers are positive.
+  // Value for the colour: the number, or its logarithm on a logarithmic scale.
   function scaled(value) { return state.log ? Math.log10(value) : value; }
   function scale(least, greatest) {
     const quantity = header.quantities[state.quantity];
@@ -57,7 +57,7 @@
           if (Math.log10(value) >= low && Math.log10(value) <= high) { ticks.push(value); }
         });
       }
-      // Within a decade there may be hardly any of these: then round numbers between both ends.
+      // A range within one decade may have too few of these ticks: use round numbers instead.
       if (ticks.length < 3 && greatest > least) {
         const round = nice({ low: least, high: greatest }, (greatest - least) / 5);
         ticks.length = 0;
@@ -66,7 +66,7 @@
       bar.tickvals = ticks.map(Math.log10);
       bar.ticktext = ticks.map(short);
     }
-    // Where all numbers are one, the bar has it in its middle.
+    // If all numbers are equal, the number is in the middle of the colour bar.
     const room = high > low ? 0 : 0.05 * Math.abs(low) || 0.5;
     return { low: low - room, high: high + room, bar: bar };
   }
@@ -90,13 +90,13 @@
     });
     return { h: h, v: v, z: z, raw: raw, codes: codes, crosses: crosses };
   }
-  // Crosses and gaps between cells are for grids whose cells are many pixels wide; no more than some fifty crosses a side.
+  // Crosses and gaps are only useful if cells are many pixels wide: at most about fifty crosses per side are drawn.
   function thin(axis) { return Math.ceil(axes[axis].values.length / 50); }
   function known(code) { return header.statuses.find(function (one) { return one.code === code; }); }
   function infeasible(code) { const one = known(code); return one !== undefined && !one.feasible; }
-  function reason(code) { const one = known(code); return one ? one.name : "not in the file"; }
+  function reason(code) { const one = known(code); return one ? one.name : "missing in the file"; }
 
-  // One scale for both axes where they are lengths of like extent.
+  // Equal scales for both axes if they are lengths of similar extent.
   function proportion(h, v) {
     const span = function (k) { const list = axes[k].values; return Math.abs(list[list.length - 1] - list[0]); };
     const same = axes[h].unit === "m" && axes[v].unit === "m" && header.space !== null;
@@ -132,7 +132,7 @@
       showlegend: found.crosses.x.length > 0,
     }));
   }
-  // Contours at round numbers, about a dozen.
+  // About a dozen contours at round numbers.
   function nice(range, step) {
     const power = Math.pow(10, Math.floor(Math.log10(step))), part = step / power;
     const size = power * (part > 5 ? 10 : part > 2 ? 5 : part > 1 ? 2 : 1);
@@ -156,7 +156,7 @@
       plot_bgcolor: EMPTY, showlegend: true, xaxis: axis(axes[found.h].title, { constrain: "domain", range: ends(x) }), yaxis: axis(axes[found.v].title, Object.assign({ range: ends(y) }, proportion(found.h, found.v))),
     }));
   }
-  // From edge to edge of the cells.
+  // Range of an axis up to the outer edges of the cells.
   function ends(list) {
     const n = list.length;
     return [list[0] - 0.5 * (list[1] - list[0]), list[n - 1] + 0.5 * (list[n - 1] - list[n - 2])];
@@ -164,15 +164,15 @@
 
   function drawHistogram() {
     const quantity = header.quantities[state.quantity], n = quantity.bins.length, width = (quantity.max - quantity.min) / n;
-    // All rows with one value are one bar, with room at both sides.
+    // Equal values of all rows give a single bar, with space on both sides.
     const single = !(width > 0), room = Math.abs(quantity.min) || 1, none = quantity.count === 0;
     const middle = single ? [quantity.min] : quantity.bins.map(function (_, k) { return quantity.min + (k + 0.5) * width; });
     const bars = single ? [quantity.count] : quantity.bins;
-    const nothing = { text: "no row has this number", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 14 } };
+    const nothing = { text: "no row has a value", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 14 } };
     page.show(plot("histogram"), none ? [] : [{ type: "bar", x: middle, y: bars, width: single ? 0.02 * room : width, marker: { color: "#0072b2", line: { color: "#ffffff", width: 0.6 } }, hovertemplate: "about %{x:.4g}<br>%{y} rows<extra></extra>" }],
       layout({ xaxis: axis(quantity.title, none ? { showticklabels: false, ticks: "" } : single ? { range: [quantity.min - room / 4, quantity.min + room / 4] } : {}), yaxis: axis("rows", none ? { showticklabels: false, ticks: "" } : { rangemode: "tozero" }),
         annotations: none ? [nothing] : [], bargap: 0, showlegend: false, margin: { l: 62, r: 14, t: 34, b: 52 } }));
-    place.querySelector("[data-count]").textContent = quantity.count + (quantity.count === 1 ? " row has it." : " rows have it.");
+    place.querySelector("[data-count]").textContent = quantity.count + (quantity.count === 1 ? " row has a value." : " rows have a value.");
   }
 
   function drawSpace() {
@@ -222,13 +222,13 @@
       label.querySelector("output").textContent = short(list[at[k]]);
     });
     const others = axes.map(function (one, k) { return k === found.h || k === found.v ? "" : one.name + " = " + short(one.values[at[k]]) + (one.unit === "deg" ? "°" : one.unit === "1" ? "" : " " + one.unit); }).filter(Boolean);
-    place.querySelector("[data-where]").textContent = others.length ? "Here " + others.join(", ") + "." : "";
+    place.querySelector("[data-where]").textContent = others.length ? "In this slice " + others.join(", ") + "." : "";
     drawSlice(found);
     drawSet(found);
     drawHistogram();
     drawSpace();
   }
-  // Where numbers span decades, colours by their size tell nothing: logarithmic at first.
+  // If numbers span decades, linear colours show little: start with a logarithmic scale.
   function begin() {
     const quantity = header.quantities[state.quantity];
     control("log").checked = quantity.min > 0 && quantity.max > 30 * quantity.min;
@@ -243,7 +243,7 @@
   place.querySelectorAll("[data-axis]").forEach(function (label) {
     label.querySelector("input").addEventListener("input", function (event) { at[Number(label.dataset.axis)] = Number(event.target.value); draw(); });
   });
-  // In an incomplete file the middle may be missing: then the middle of what there is.
+  // In an incomplete file the middle of the grid may be missing: start at the middle of the existing rows.
   if (slice().raw.flat().every(function (value) { return value === null; })) {
     const there = [];
     values[0].forEach(function (value, cell) { if (!isNaN(value)) { there.push(cell); } });

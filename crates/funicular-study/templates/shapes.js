@@ -1,10 +1,11 @@
 (function () {
   "use strict";
   const PERIOD_MS = 1600;
-  // How large the motion is drawn at first: the largest displacement over the diagonal of the scene, unless short waves
-  // would be steeper than this or the platform turn by more radians, where linear motion visibly stretches it.
+  // Initial amplitude: largest displacement relative to the diagonal of the scene (REACH). It is reduced if waves would
+  // be steeper than SLOPE, or if the platform would rotate by more than TURN [rad], where linear rotation visibly
+  // distorts it.
   const REACH = 0.06, SLOPE = 0.9, TURN = 0.3;
-  // matplotlib's plasma from its gold to its blue: even in lightness, told apart by readers of every colour vision.
+  // Part of matplotlib's colour map plasma, gold to blue: uniform in lightness, distinguishable with any colour vision.
   const COLOURS = ["#fdc527", "#fca636", "#f2844b", "#e16462", "#cc4778", "#b12a90", "#8f0da4", "#6a00a8", "#41049d", "#0d0887"];
   const place = document.getElementById("shapes");
   const canvas = place.querySelector("canvas");
@@ -26,11 +27,11 @@
   }
   function plus(p, u, a) { return [p[0] + a * u[0], p[1] + a * u[1], p[2] + a * u[2]]; }
   function size(v) { return Math.hypot(v[0], v[1], v[2]); }
-  // Three significant digits, never as a power of ten.
+  // Number with three significant digits, never as a power of ten.
   function short(x) { return x >= 100 ? x.toFixed(0) : x > 0 ? x.toFixed(Math.max(0, 2 - Math.floor(Math.log10(x)))) : "0"; }
   function percent(share) { return (100 * share).toFixed(1) + " %"; }
 
-  // Between numbers at equal distances: cubics whose slopes are those of their neighbours.
+  // Cubic interpolation between equally spaced numbers, with slopes from the neighbours.
   function cubic(values, count) {
     const n = values.length - 1, ratio = count / n, all = [];
     const at = function (k) {
@@ -44,7 +45,7 @@
     }
     return all;
   }
-  // Displacements of every drawn point, axes of the world. The page carries second differences along each cable.
+  // Displacements of all drawn points in world axes. The page holds second differences along each cable.
   function expanded(number) {
     const mode = robot.modes[number], n = mode.intervals;
     let largest = 0, steepest = 0, where = "", read = offsets[number];
@@ -85,7 +86,7 @@
   }
   function amplitude() { return motion.start * Math.pow(10, Number(slider.value)); }
 
-  // Parallel lines of sight onto the middle of the scene.
+  // Parallel projection onto the middle of the scene.
   function camera() {
     const a = turn, b = tilt;
     const towards = [Math.cos(b) * Math.cos(a), Math.cos(b) * Math.sin(a), Math.sin(b)];
@@ -98,7 +99,8 @@
   function projection() {
     const width = canvas.clientWidth, height = canvas.clientHeight, eye = camera();
     const whole = plus(robot.low, plus(robot.high, robot.low, -1), 0.5), middle = close ? robot.platform.mass_centre : whole;
-    // The scale stays while the scene turns: what fits from the first direction, with room for the numbers.
+    // The scale does not change while the scene rotates. It fits the scene in the initial direction, with room for
+    // numbers.
     const first = { turn: turn, tilt: tilt };
     facing();
     const start = camera();
@@ -149,7 +151,7 @@
     for (let i = Math.ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; i++) { list.push(i * step); }
     return { list: list, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
   }
-  // Floor with its grid, numbers along the edges in front, heights along the edge at the left.
+  // Floor with its grid, numbers along the front edges, heights along the left edge.
   function axes(view) {
     const low = robot.low, high = robot.high, z = low[2], to = view.to;
     path([[low[0], low[1], z], [high[0], low[1], z], [high[0], high[1], z], [low[0], high[1], z]].map(to));
@@ -169,7 +171,7 @@
       const other = 1 - k, marks = ticks(k);
       const point = function (value, at) { const p = [0, 0, z]; p[k] = value; p[other] = at; return to(p); };
       const edge = [point(low[k], front[other]), point(high[k], front[other])];
-      // Square to the edge, away from the floor.
+      // Direction normal to the edge, away from the floor.
       let away = [edge[0][1] - edge[1][1], edge[1][0] - edge[0][0]];
       const long = Math.hypot(away[0], away[1]) || 1, side = away[0] * (edge[0][0] - middle[0]) + away[1] * (edge[0][1] - middle[1]);
       away = away.map(function (part) { return (side < 0 ? -part : part) / long; });
@@ -255,7 +257,7 @@
         }
       };
     });
-    // A point mass lies on its cables' ends.
+    // A point mass is drawn last, on top of its cables' ends.
     things.push({ depth: robot.platform.faces.length ? view.depth(centre) : Infinity, draw: function () { body(view, corners, centre, mode.platform); } });
     things.sort(function (one, other) { return one.depth - other.depth; }).forEach(function (thing) { thing.draw(); });
     anchors(view);
@@ -298,7 +300,7 @@
   function fact(name, text) { place.querySelector("[data-fact=" + name + "]").textContent = text; }
   function drawn() {
     const a = amplitude(), mode = robot.modes[chosen], rests = !mode.shape.some(function (s) { return s !== 0; });
-    fact("drawn", short(a) + (rests ? " × the motion of 1 kg of modal mass; " : " × the shape in the table; ") + "at most " + short(a * motion.largest) + "\u00a0m, " + motion.where);
+    fact("drawn", short(a) + (rests ? " × the shape with a modal mass of 1 kg; " : " × the shape in the table; ") + "at most " + short(a * motion.largest) + "\u00a0m, " + motion.where);
   }
   function shares(mode) {
     const names = ["platform"].concat(robot.cables.map(function (cable) { return "cable " + cable.name; }));
@@ -323,7 +325,7 @@
     const mode = robot.modes[chosen];
     place.querySelector(".which").textContent = "Mode " + (chosen + 1) + " of " + robot.total + ": " + mode.hz + "\u00a0Hz";
     fact("damping", mode.damping + " %");
-    fact("kind", mode.kind + (mode.multiplicity > 1 ? ", one of " + mode.multiplicity + " of this frequency" : ""));
+    fact("kind", mode.kind + (mode.multiplicity > 1 ? ", multiplicity " + mode.multiplicity : ""));
     fact("mass", mode.mass + " kg");
     drawn();
     shares(mode);
@@ -336,7 +338,7 @@
     show();
     run();
   }
-  // Scrolls the table alone: the page stays where its reader is.
+  // Scrolls only the table, not the page.
   function reveal(row) {
     const frame = row && row.closest(".table.tall");
     if (!frame) { return; }
@@ -401,7 +403,8 @@
     if (button("near")) { button("near").addEventListener("click", function () { approach(!close); }); }
     place.addEventListener("keydown", key);
     window.addEventListener("hashchange", asked);
-    // Before printing the view shows the largest motion, drawn finely; this runs after the page has taken its printed width.
+    // For printing the view shows the largest motion in high resolution. This runs after the page has got its printed
+    // width.
     window.addEventListener("beforeprint", function () { phase = 0; show(); });
     window.addEventListener("afterprint", show);
     new ResizeObserver(show).observe(canvas);
@@ -435,7 +438,7 @@
     }
     event.preventDefault();
   }
-  // A link to a mode: report.html#mode-12.
+  // Opens the mode of a link such as report.html#mode-12.
   function asked() {
     const found = /^#mode-(\d+)$/.exec(window.location.hash);
     if (found) { choose(Number(found[1]) - 1); place.scrollIntoView({ block: "center" }); }

@@ -1,4 +1,4 @@
-//! The user's jobs, one bench each, on one core; robot: robots/yuan2014-4mm.toml at 10.55 kg.
+//! Typical jobs of a user, one bench per job, on one core. The robot is robots/yuan2014-4mm.toml at 10.55 kg.
 #![allow(missing_docs)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -20,7 +20,7 @@ fn robot() -> (Robot, Vec<f64>) {
 }
 
 fn one_catenary(c: &mut Criterion) {
-    // Sixteen cables from taut to deep sag, so that no branch is learned by heart.
+    // Sixteen cables from taut to deep sag, so that the branch predictor cannot learn one of them.
     let ropes: Vec<(f64, f64, Rope)> = (0..16)
         .map(|i| {
             let rope = Rope {
@@ -52,17 +52,17 @@ fn statics_both_ways(c: &mut Criterion) {
     });
 }
 
-/// One pose an iteration, of a thousand all over the workspace of CoGiRo that its limits allow.
+/// One pose per iteration, from a thousand wrench-feasible poses all over the workspace of CoGiRo.
 fn tension_distribution(c: &mut Criterion) {
     let robot = Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot");
     let robot = robot.with_tension_limits(TensionLimits { minimum: Some(50.0), maximum: Some(1500.0) });
     let possible =
         |pose: &Pose| statics::distribute_tensions(&robot, pose, StaticModel::Catenary, &TensionRule::Lowest).is_ok();
-    let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
+    let entry = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
     let poses: Vec<Pose> = (0..4000)
         .map(|i| {
-            let (x, y, z) = (part(i, 2f64.sqrt()), part(i, 3f64.sqrt()), part(i, 5f64.sqrt()));
-            let turn = [7.0, 11.0, 13.0].map(|square: f64| 10.0 * part(i, square.sqrt()));
+            let (x, y, z) = (entry(i, 2f64.sqrt()), entry(i, 3f64.sqrt()), entry(i, 5f64.sqrt()));
+            let turn = [7.0, 11.0, 13.0].map(|square: f64| 10.0 * entry(i, square.sqrt()));
             Pose::new([6.0 * x, 4.0 * y, 2.0 + 1.5 * z], turn)
         })
         .filter(possible)
@@ -81,15 +81,15 @@ fn tension_distribution(c: &mut Criterion) {
     }
 }
 
-/// A thousand poses of the paper's robot, level or nearly, at which no cable sags by more than a quarter of its chord; and a
-/// thousand all over a box, more than half of which a cable without much tension holds.
+/// Two sets of a thousand poses of the paper's robot. In the first the platform is nearly level, and no cable sags by
+/// more than a quarter of its chord. The second fills a box; at more than half of its poses a cable has little tension.
 fn first_frequencies(c: &mut Criterion) {
     let (robot, _) = robot();
-    let part = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
+    let entry = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
     let held = |size: [f64; 3], turn: f64, steepest: f64| -> Vec<Pose> {
         let pose = |i: u32| {
-            let along = [2f64, 3.0, 5.0].map(|square| part(i, square.sqrt()));
-            let turns = [7f64, 11.0, 13.0].map(|square| turn * part(i, square.sqrt()));
+            let along = [2f64, 3.0, 5.0].map(|square| entry(i, square.sqrt()));
+            let turns = [7f64, 11.0, 13.0].map(|square| turn * entry(i, square.sqrt()));
             Pose::new([size[0] * along[0], size[1] * along[1], 1.0 + size[2] * along[2]], turns)
         };
         let taut = |state: &statics::CableState| {
@@ -106,7 +106,7 @@ fn first_frequencies(c: &mut Criterion) {
         [("", held([2.0, 1.0, 0.8], 1.0, 2.0)), (", slack cables too", held([3.0, 1.2, 1.0], 3.0, f64::INFINITY))];
     for (name, poses) in sets {
         assert_eq!(poses.len(), 1000);
-        c.bench_function(&format!("1,000 poses: statics, tensions, exact first frequency{name}"), |b| {
+        c.bench_function(&format!("1,000 poses: statics, tensions, first frequency{name}"), |b| {
             b.iter(|| {
                 let first = |pose: &Pose| {
                     let rest = statics::inverse(&robot, pose, StaticModel::Catenary).expect("possible");
@@ -120,8 +120,8 @@ fn first_frequencies(c: &mut Criterion) {
 
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
-    let closed_form = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
-    (Dynamics::about(robot, &rest, closed_form, 20.0).expect("taut"), rest.pose)
+    let shallow_dynamic = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
+    (Dynamics::about(robot, &rest, shallow_dynamic, 20.0).expect("taut"), rest.pose)
 }
 
 fn responses(c: &mut Criterion) {
@@ -141,7 +141,7 @@ fn responses(c: &mut Criterion) {
 fn natural_frequencies(c: &mut Criterion) {
     let (robot, lengths) = robot();
     let (dynamics, _) = linearised(&robot, &lengths);
-    c.bench_function("modes: all below 20 Hz, certified", |b| {
+    c.bench_function("shallow-dynamic: all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let found = modes::below(black_box(&dynamics), 20.0);
             assert!(found.certified);
@@ -150,14 +150,14 @@ fn natural_frequencies(c: &mut Criterion) {
     });
 }
 
-fn exact_cables(c: &mut Criterion) {
+fn catenary_dynamic_cables(c: &mut Criterion) {
     let (robot, lengths) = robot();
     let linearised = |up_to_hz| {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
         (Dynamics::about(&robot, &rest, Linearisation::default(), up_to_hz).expect("taut"), rest.pose)
     };
-    c.bench_function("exact: statics and set-up below 20 Hz", |b| b.iter(|| linearised(black_box(20.0))));
-    c.bench_function("exact: statics, set-up and all modes below 20 Hz, certified", |b| {
+    c.bench_function("catenary-dynamic: statics and set-up below 20 Hz", |b| b.iter(|| linearised(black_box(20.0))));
+    c.bench_function("catenary-dynamic: statics, set-up and all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let (dynamics, _) = linearised(black_box(20.0));
             let found = modes::below(&dynamics, 20.0);
@@ -167,7 +167,7 @@ fn exact_cables(c: &mut Criterion) {
     });
     let (dynamics, _) = linearised(20.0);
     let undamped = modes::below(&dynamics, 20.0);
-    c.bench_function("exact: damped partners of all modes below 20 Hz, certified", |b| {
+    c.bench_function("catenary-dynamic: damped partners of all modes below 20 Hz, certified", |b| {
         b.iter(|| {
             let found = modes::damped::damped_modes(black_box(&dynamics), &undamped);
             assert!(found.certified);
@@ -175,7 +175,7 @@ fn exact_cables(c: &mut Criterion) {
         });
     });
     let frequencies: Vec<f64> = (0..10_000).map(|i| 0.002 * f64::from(i + 1)).collect();
-    c.bench_function("exact: set-up and frf of 10,000 frequencies, all 36 entries", |b| {
+    c.bench_function("catenary-dynamic: set-up and frf of 10,000 frequencies, all 36 entries", |b| {
         b.iter(|| {
             let (dynamics, _) = linearised(black_box(20.0));
             response::receptances(&dynamics, &frequencies)
@@ -186,6 +186,6 @@ fn exact_cables(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, responses, natural_frequencies, exact_cables
+    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, responses, natural_frequencies, catenary_dynamic_cables
 }
 criterion_main!(jobs);

@@ -1,9 +1,9 @@
 //! Dynamic stiffness of one cable at its platform end, anchor held.
 //!
-//! Every model speaks in the local axes of theory, section 4: e along the chord from the platform to the anchor, n
+//! Every model uses the local axes of docs/theory.md, section 4: e along the chord from the platform to the anchor, n
 //! normal to it in the plane of the cable, upwards, b = e × n. In these axes
-//! `K = k_a eeᵀ + k_b (enᵀ + neᵀ) + k_c nnᵀ + k_o bbᵀ`, and one formula serves a cable that goes up from the platform
-//! and one that goes down. One file a model.
+//! `K = k_a eeᵀ + k_b (enᵀ + neᵀ) + k_c nnᵀ + k_o bbᵀ`. One formula serves cables that go up from the platform and
+//! cables that go down. There is one file per model.
 
 pub mod catenary_dynamic;
 mod damping;
@@ -15,34 +15,34 @@ use crate::catenary::space::any_normal;
 use crate::math::{Complex, Mat3, Vec3};
 use crate::robot::Robot;
 use crate::statics::CableState;
-use catenary_dynamic::ExactEnd;
+use catenary_dynamic::CatenaryDynamicEnd;
 use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
 use std::fmt;
 use thiserror::Error;
 
-/// How a cable answers motion of its platform end.
+/// Model of the stiffness of a cable at its platform end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CableModel {
-    /// A massless spring along the chord, EA/l, and nothing else.
+    /// Massless spring along the chord with stiffness EA/l; no stiffness in other directions.
     Spring,
-    /// Irvine's static stiffness of a shallow sagging cable; constant.
+    /// Irvine's static stiffness of a shallow sagging cable; independent of frequency.
     ShallowStatic,
-    /// The exact static stiffness of the elastic catenary; constant.
+    /// Exact static stiffness of the elastic catenary; independent of frequency.
     CatenaryStatic,
     /// Starossek's dynamic stiffness of a shallow sagging cable.
     ShallowDynamic,
-    /// Linear vibration about the elastic catenary, of any sag, with axial inertia.
+    /// Linear vibration about the elastic catenary: any sag, axial inertia included.
     #[default]
     CatenaryDynamic,
 }
 
 impl CableModel {
-    /// All of them, simplest first.
+    /// All models, the simplest first.
     pub const ALL: [Self; 5] =
         [Self::Spring, Self::ShallowStatic, Self::CatenaryStatic, Self::ShallowDynamic, Self::CatenaryDynamic];
 
-    /// Its name on the command line and in files.
+    /// Name of the model on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Spring => "spring",
@@ -53,7 +53,7 @@ impl CableModel {
         }
     }
 
-    /// The stiffness depends on frequency: the cable has resonances of its own.
+    /// True if the stiffness depends on frequency, so that the cable has resonances of its own.
     pub fn is_dynamic(self) -> bool {
         matches!(self, Self::ShallowDynamic | Self::CatenaryDynamic)
     }
@@ -72,27 +72,27 @@ pub struct LocalAxes {
     pub e: Vec3,
     /// Normal to the chord in the plane of chord and load, upwards; any normal for a vertical cable.
     pub n: Vec3,
-    /// e × n, out of plane.
+    /// Out of plane, e × n.
     pub b: Vec3,
 }
 
 impl LocalAxes {
-    /// Axes of the cable `i` of a robot; up is against its load per length.
+    /// Axes of cable `i` of a robot. Up is opposite to the cable's load per length.
     pub fn of_cable(robot: &Robot, i: usize, state: &CableState) -> Self {
         Self::of_chord(&state.attachment_w, &state.anchor_w, &robot.line_load(i, &state.chord_w()).up_w)
     }
 
-    /// Axes of the chord from `from_w` to `to_w`; `up_w` is the unit vector against the load.
+    /// Axes of the chord from `from_w` to `to_w`; `up_w` is the unit vector opposite to the load.
     pub fn of_chord(from_w: &Vec3, to_w: &Vec3, up_w: &Vec3) -> Self {
         let e = (to_w - from_w).normalize();
         let normal = up_w - e * e.dot(up_w);
-        // A chord within 1e-9 rad of the vertical has no plane of its own, and its stiffness needs none.
+        // A chord within 1e-9 rad of the vertical defines no plane, and its stiffness needs none.
         let n = if normal.norm() > 1e-9 { normal.normalize() } else { any_normal(&e) };
         Self { e, n, b: e.cross(&n) }
     }
 }
 
-/// The four numbers of an end stiffness in local axes [N/m]; `T` is real or complex.
+/// End stiffness in local axes as its four entries [N/m]; `T` is real or complex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalStiffness<T> {
     /// Along the chord.
@@ -106,7 +106,7 @@ pub struct LocalStiffness<T> {
 }
 
 impl LocalStiffness<f64> {
-    /// 3×3 in world axes [N/m].
+    /// Stiffness as a 3×3 matrix in world axes [N/m].
     pub fn in_world(&self, axes: &LocalAxes) -> Mat3 {
         let LocalAxes { e, n, b } = axes;
         let mixed = e * n.transpose();
@@ -117,7 +117,7 @@ impl LocalStiffness<f64> {
     }
 }
 
-/// The numbers of a shallow sagging cable that the closed form and the shallow-static share.
+/// Parameters of a shallow sagging cable, used by the shallow-static and the shallow-dynamic model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sag {
     /// Chord l [m].
@@ -128,20 +128,20 @@ pub struct Sag {
     pub axial_stiffness: f64,
     /// Mass per length m [kg/m].
     pub mass_per_length: f64,
-    /// ε = q l cos α/τ, load across the chord over tension; q is the weight m g per length where nothing else acts.
+    /// ε = q l cos α/τ: load normal to the chord over tension. q is the weight m g per length if no other load acts.
     pub epsilon: f64,
-    /// L_e = l (1 + 8 (d/l)²) [m].
+    /// Effective length L_e = l (1 + 8 (d/l)²) [m].
     pub effective_length: f64,
     /// Irvine's λ² = ε² EA l/(τ L_e).
     pub lambda2: f64,
 }
 
-/// Sag over chord above which the shallow-sag models leave their range (docs/theory.md, section 6).
+/// Ratio of sag to chord above which the shallow-sag models leave their range (docs/theory.md, section 6).
 pub const SHALLOW_SAG_LIMIT: f64 = 1.0 / 20.0;
 
 impl Sag {
-    /// Of the cable `i` of a robot in a static state. Straight cables (spring and ideal statics) get the sag that
-    /// their tension would leave.
+    /// Sag parameters of cable `i` at an equilibrium. A straight cable (spring or ideal statics) gets the sag that
+    /// follows from its tension.
     pub fn of(robot: &Robot, i: usize, state: &CableState) -> Self {
         let material = &robot.cables[i].material;
         let chord_w = state.chord_w();
@@ -155,8 +155,9 @@ impl Sag {
         Self::new(chord, cos_alpha, tension, material.axial_stiffness, material.mass_per_length, load.size)
     }
 
-    /// From chord [m], cosine of its inclination to what is level for the load, parallel tension [N], EA [N], mass per
-    /// length [kg/m], load per length [N/m], which is the weight m g where nothing else acts.
+    /// Sag parameters from chord [m], cosine of the angle between the chord and the plane normal to the load, parallel
+    /// tension [N], EA [N], mass per length [kg/m] and load per length [N/m]. The load is the weight m g per length if
+    /// nothing else acts.
     pub fn new(
         chord: f64,
         cos_alpha: f64,
@@ -172,7 +173,7 @@ impl Sag {
         Self { chord, tension, axial_stiffness, mass_per_length, epsilon, effective_length, lambda2 }
     }
 
-    /// Sag over chord d/l = ε/8.
+    /// Ratio of sag to chord, d/l = ε/8.
     pub fn ratio(&self) -> f64 {
         self.epsilon / 8.0
     }
@@ -182,7 +183,8 @@ impl Sag {
         (self.tension / self.mass_per_length).sqrt() / (2.0 * self.chord)
     }
 
-    /// First axial frequency √(EA/m)/(2l) of the cable [Hz], which no model here contains: they are valid well below.
+    /// First axial frequency √(EA/m)/(2l) of the cable [Hz]. Only the catenary-dynamic model contains axial waves; the
+    /// other models are valid well below this frequency.
     pub fn axial_frequency_hz(&self) -> f64 {
         (self.axial_stiffness / self.mass_per_length).sqrt() / (2.0 * self.chord)
     }
@@ -191,37 +193,37 @@ impl Sag {
 /// End stiffness of one cable in one model.
 #[derive(Debug, Clone, PartialEq)]
 pub enum EndStiffness {
-    /// Independent of frequency; 3×3 in world axes [N/m].
+    /// Stiffness independent of frequency; 3×3 in world axes [N/m].
     Constant(Mat3),
-    /// Depends on frequency.
+    /// Stiffness that depends on frequency.
     Dynamic(DynamicCable),
 }
 
-/// Why a cable has no stiffness in a model.
+/// Reason for which a cable has no stiffness in a model.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum NoStiffness {
-    /// It is rigid.
+    /// The cable is rigid.
     #[error("ideal cables are rigid: only the models `spring`, `shallow-static` and `shallow-dynamic` exist for them")]
     Rigid,
-    /// It carries no tension.
+    /// The cable carries no tension.
     #[error("it has no tension")]
     NoTension,
-    /// The catenary-dynamic model does not exist for it.
+    /// The catenary-dynamic model does not exist for the cable.
     #[error(transparent)]
-    CatenaryDynamic(#[from] catenary_dynamic::ExactError),
+    CatenaryDynamic(#[from] catenary_dynamic::CatenaryDynamicError),
 }
 
-/// The models whose stiffness depends on frequency; one interface, in the local axes that each names.
+/// Cable in a model whose stiffness depends on frequency. Each variant has its own local axes, [`DynamicCable::axes`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum DynamicCable {
-    /// Starossek's.
+    /// Starossek's closed form for shallow sag.
     ShallowDynamic(ShallowDynamic),
-    /// About the catenary.
-    CatenaryDynamic(Box<ExactEnd>),
+    /// Vibration about the elastic catenary.
+    CatenaryDynamic(Box<CatenaryDynamicEnd>),
 }
 
 impl DynamicCable {
-    /// Squares of the clamped frequencies below ω [rad²/s²], in no order.
+    /// Squares of the clamped frequencies below ω [rad²/s²], not sorted.
     pub(crate) fn poles_below(&self, omega: f64) -> Vec<f64> {
         match self {
             Self::ShallowDynamic(cable) => cable.clamped_frequencies_below(omega).into_iter().map(|f| f * f).collect(),
@@ -229,7 +231,7 @@ impl DynamicCable {
         }
     }
 
-    /// Its local axes.
+    /// Local axes of the cable.
     pub fn axes(&self) -> &LocalAxes {
         match self {
             Self::ShallowDynamic(cable) => &cable.axes,
@@ -253,7 +255,7 @@ impl DynamicCable {
         }
     }
 
-    /// Minus the derivative of the undamped stiffness by ω² [kg]; positive semidefinite as a 3×3.
+    /// Minus the derivative of the undamped stiffness by ω² [kg]; as a 3×3 matrix it is positive semidefinite.
     pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         match self {
             Self::ShallowDynamic(cable) => cable.effective_mass(omega),
@@ -269,7 +271,7 @@ impl DynamicCable {
         }
     }
 
-    /// The clamped-clamped frequencies below ω [rad/s], ascending, with multiplicity.
+    /// Clamped-clamped frequencies below ω [rad/s], ascending, with multiplicity.
     pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<f64> {
         match self {
             Self::ShallowDynamic(cable) => cable.clamped_frequencies_below(omega),
@@ -279,11 +281,13 @@ impl DynamicCable {
 }
 
 impl EndStiffness {
-    /// The cable `i` of a robot at a static state, good up to the frequency `up_to_hz` [Hz] (which only the catenary-dynamic model
-    /// asks for). `in_plane_only` leaves out all stiffness out of the cable's plane, as the paper does.
+    /// End stiffness of cable `i` of a robot at an equilibrium, valid up to the frequency `up_to_hz` [Hz]. Only the
+    /// catenary-dynamic model uses that frequency. `in_plane_only` leaves out all stiffness out of the cable's plane,
+    /// as the paper does.
     ///
     /// # Errors
-    /// [`NoStiffness`]: an ideal cable has no catenary-static, a cable without tension no sag stiffness.
+    /// [`NoStiffness`]: an ideal cable has no stiffness in the catenary models, a cable without tension none in the
+    /// models with sag.
     pub fn new(
         robot: &Robot,
         i: usize,
@@ -296,6 +300,7 @@ impl EndStiffness {
         let sag = Sag::of(robot, i, state);
         let material = &robot.cables[i].material;
 
+        // All models with sag divide by the tension.
         if sag.tension <= 0.0
             && matches!(model, CableModel::ShallowStatic | CableModel::ShallowDynamic | CableModel::CatenaryDynamic)
         {
@@ -318,7 +323,7 @@ impl EndStiffness {
                     return Ok(Self::Constant(without_b(hanging.tangent_w())));
                 }
                 let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
-                let cable = ExactEnd::new(hanging, m, damping, in_plane_only, limit)?;
+                let cable = CatenaryDynamicEnd::new(hanging, m, damping, in_plane_only, limit)?;
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })

@@ -1,4 +1,5 @@
-//! Cable models side by side: what each finds below a frequency, and the simplest that is good enough.
+//! Comparison of the cable models: natural frequencies of each below a limit, and the simplest model that is good
+//! enough.
 
 use crate::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
@@ -8,76 +9,78 @@ use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
 
-/// Relative difference of frequency up to which a model counts as good enough.
+/// Maximum relative difference of frequency for a model that is good enough.
 pub const TOLERANCE: f64 = 0.01;
 
-/// Correlation of platform shapes from which on two modes count as the same motion.
+/// Minimum MAC of the platform shapes of two modes that count as the same motion.
 pub const SAME_MOTION: f64 = 0.5;
 
-/// Two modes whose frequencies differ by more than this factor are not the same motion, however alike the platform
-/// moves: with 20 cable resonances in between, some shape always fits.
+/// Maximum ratio of the frequencies of two modes that count as the same motion. With 20 cable resonances in between,
+/// there is always a mode with a similar platform shape.
 const SAME_RANGE: f64 = 2.0;
 
-/// Relative difference of frequency up to which modes of two models with vibrating cables can be the same.
+/// Maximum relative difference of frequency for modes of two dynamic models that can be the same.
 const SAME_FREQUENCY: f64 = 0.2;
 
-/// All models at one equilibrium.
+/// Results of all models at one equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
-    /// The model the others are measured against.
+    /// Reference model, with which the others are compared.
     pub reference: CableModel,
-    /// One entry a model, in the order of [`CableModel::ALL`].
+    /// One result per model, in the order of [`CableModel::ALL`].
     pub models: Vec<ModelResult>,
-    /// Which one to use.
+    /// Recommended model.
     pub advice: Advice,
 }
 
-/// What one model finds.
+/// Results of one model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelResult {
-    /// The model.
+    /// Cable model.
     pub model: CableModel,
-    /// Its modes below the limit, or why there are none.
+    /// Modes below the limit, or the reason for which there are none.
     pub modes: Result<Modes, DynamicsError>,
-    /// Its modes that have a counterpart in the reference. Of constant stiffnesses: the mode that moves the platform most
-    /// alike, with a correlation of at least [`SAME_MOTION`] and a frequency within a factor of two. Of vibrating
-    /// cables, most of whose modes hardly move the platform: the nearest in frequency. None for the reference.
+    /// Modes that have a counterpart in the reference; empty for the reference itself.
+    ///
+    /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
+    /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
+    /// move the platform, it is the nearest in frequency.
     pub matches: Vec<Match>,
-    /// Modes of the reference that it has no counterpart of.
+    /// Number of modes of the reference without a counterpart.
     pub missed: usize,
-    /// First frequency of the reference that it lacks or has wrong by more than [`TOLERANCE`] [Hz].
+    /// First frequency of the reference that is missing or wrong by more than [`TOLERANCE`] [Hz].
     pub first_wrong_hz: Option<f64>,
 }
 
-/// A mode and its counterpart in the reference.
+/// Mode and its counterpart in the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Match {
     /// Frequency in this model [Hz].
     pub frequency_hz: f64,
     /// Frequency of the counterpart [Hz].
     pub reference_hz: f64,
-    /// Its place in the reference's list, from 0.
+    /// Index of the counterpart in the reference's list, from 0.
     pub reference_index: usize,
-    /// `frequency/reference − 1`.
+    /// Relative difference `frequency/reference − 1`.
     pub relative_difference: f64,
-    /// Correlation of the platform shapes in the mass metric, 0 to 1.
+    /// MAC of the platform shapes with the mass matrix, 0 to 1.
     pub correlation: f64,
 }
 
-/// The simplest model that is good enough.
+/// Simplest model that is good enough.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Advice {
-    /// The model.
+    /// Recommended model.
     pub model: CableModel,
-    /// A sentence or two: which, and why.
+    /// Recommendation with its reason, in one or two sentences.
     pub text: String,
 }
 
-/// Finds the modes below `below_hz` [Hz] with every model and measures each against the catenary-dynamic cable,
-/// or against the closed form where the catenary-dynamic cable would need more unknowns than it may have. The model in
-/// `linearisation` is ignored; assembly and plane hold for all.
+/// Finds the modes below `below_hz` [Hz] with every cable model and compares them with the catenary-dynamic model. If a
+/// catenary-dynamic cable would need too many unknowns, the reference is the shallow-dynamic model. The cable model in
+/// `linearisation` is ignored; its other options apply to all models.
 ///
 /// # Errors
 /// [`DynamicsError`] if the reference does not exist at this equilibrium (a cable without tension).
@@ -91,7 +94,8 @@ pub fn compare(
         |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
     let (reference, dynamics) = match with(CableModel::CatenaryDynamic) {
         Ok(dynamics) => (CableModel::CatenaryDynamic, dynamics),
-        // Too many unknowns for one cable; the next best is the closed form, which has no such limit.
+        // Too many unknowns for one cable: the next best reference is the shallow-dynamic model, which has no such
+        // limit.
         Err(DynamicsError::CatenaryDynamic { .. }) => (CableModel::ShallowDynamic, with(CableModel::ShallowDynamic)?),
         Err(other) => return Err(other),
     };
@@ -118,8 +122,8 @@ pub fn compare(
             let mut missed = hit.iter().filter(|h| !**h).count();
 
             if model.is_dynamic() {
-                // It has the cables' resonances, too; among dozens of them shapes of the platform tell little, and what
-                // counts is whether each frequency is there.
+                // A dynamic model also has the cables' resonances. Among dozens of them the platform shapes distinguish
+                // little; each frequency counts as right if the model has it.
                 right = frequencies_within(TOLERANCE, found, &truth.modes);
                 missed = truth.modes.len().saturating_sub(found.len());
             }
@@ -132,8 +136,8 @@ pub fn compare(
     Ok(Comparison { below_hz, reference, models, advice })
 }
 
-/// Which modes of the ascending list `truth` have one of their own in the ascending list `found`, within a relative
-/// tolerance of frequency.
+/// True for each mode of the ascending list `truth` that has its own partner in the ascending list `found`, within a
+/// relative tolerance of frequency.
 fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<bool> {
     let mut left = found.iter().peekable();
     truth
@@ -145,20 +149,20 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
         .collect()
 }
 
-/// Pairs every mode with the reference mode of the most similar platform motion, weighed by how much of that mode is
-/// the platform's; or, `by_frequency`, with the nearest. Each reference mode serves once.
+/// Pairs every mode with the reference mode of the most similar platform motion, weighted by the platform's energy
+/// fraction in that mode; with `by_frequency`, with the nearest in frequency. Each reference mode is used once.
 fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) -> Vec<Match> {
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
 
-    // Every pair that may be one motion, with a score.
+    // Every pair that may be the same motion, with a score.
     let mut candidates = Vec::new();
     for (i, ours) in found.iter().enumerate() {
         let x = vector(ours);
         for (j, theirs) in truth.iter().enumerate() {
             let y = vector(theirs);
             let (own, other) = (inner(&x, &x), inner(&y, &y));
-            // Two vibrations of cables beside a platform at rest are alike if their frequencies are.
+            // Two vibrations of cables with the platform at rest are the same motion if their frequencies agree.
             let both_at_rest = own == 0.0 && other == 0.0;
             if !(both_at_rest || own * other > 0.0 || by_frequency) {
                 continue;
@@ -172,7 +176,7 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
                 if distance > SAME_FREQUENCY {
                     continue;
                 }
-                // Two of nearly the same frequency: the more alike.
+                // For nearly equal frequencies the MAC decides.
                 -distance + 0.1 * TOLERANCE * correlation
             } else {
                 if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
@@ -204,6 +208,7 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
     done.into_iter().flatten().collect()
 }
 
+/// Recommends the simplest model that has all frequencies of the reference.
 fn advise(
     robot: &Robot,
     equilibrium: &Equilibrium,
@@ -217,19 +222,19 @@ fn advise(
     let ratio = sags[deepest].ratio();
     let lambda2 = sags.iter().map(|s| s.lambda2).fold(0.0, f64::max);
 
-    // What the cables do below the limit.
+    // Vibrations of the cables below the limit.
     let cable_modes = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).count();
     let clamped = dynamics.clamped_frequencies_below(below_hz * TAU);
     let string = match clamped.first() {
         Some((omega, cable)) => format!(
-            "the first cable resonance, {:.3} Hz of cable \"{}\", lies below the {below_hz} Hz asked",
+            "the first cable resonance, {:.3} Hz of cable \"{}\", lies below the limit of {below_hz} Hz",
             omega / TAU,
             robot.cables[*cable].name
         ),
-        None => format!("no cable resonance lies below the {below_hz} Hz asked"),
+        None => format!("no cable resonance lies below the limit of {below_hz} Hz"),
     };
 
-    // The simplest model that is right.
+    // The simplest model that has all frequencies.
     let reference = dynamics.linearisation.cable_model;
     let simplest = models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(reference, |m| m.model);
     let percent = 100.0 * TOLERANCE;
@@ -238,8 +243,8 @@ fn advise(
     let total = truth.modes.len();
 
     let constant = format!(
-        "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant cable \
-         stiffness misses {lost} of them"
+        "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant \
+         cable stiffness misses {lost} of them"
     );
 
     let choice = match simplest {
@@ -249,27 +254,29 @@ fn advise(
         model if model == reference => {
             let wrong = result(CableModel::ShallowDynamic).and_then(|m| m.first_wrong_hz);
             let closed = wrong.map_or(String::new(), |hz| {
-                format!("; the closed form lacks the one at {hz:.3} Hz or has it wrong by more than {percent} %")
+                format!("; `shallow-dynamic` lacks the mode at {hz:.3} Hz or has it wrong by more than {percent} %")
             });
             format!("Use `{model}`: {constant}{closed}")
         }
         CableModel::ShallowDynamic => {
             format!(
-                "Use `shallow-dynamic`, which has all {total} within {percent} % of the {reference} ones: {constant}"
+                "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
+                 `{reference}`; {constant}"
             )
         }
         _ => format!(
-            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of the {reference} ones; {string}"
+            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
+             `{reference}`; {string}"
         ),
     };
 
     let range = if ratio > SHALLOW_SAG_LIMIT {
-        " The sag is beyond d/l = 1/20, the range of the closed form: take its cable resonances as approximate."
+        " The maximum sag is beyond d/l = 1/20, the range of `shallow-dynamic`: its cable resonances are approximate."
     } else {
         ""
     };
     let cable = &robot.cables[deepest].name;
     let text =
-        format!("{choice} (largest sag d/l = {ratio:.4} at cable \"{cable}\", largest λ² = {lambda2:.1}).{range}");
+        format!("{choice} (maximum sag d/l = {ratio:.4} at cable \"{cable}\", maximum λ² = {lambda2:.1}).{range}");
     Advice { model: simplest, text }
 }

@@ -1,5 +1,5 @@
-//! The robot linearised about a static equilibrium: stiffness at a frequency, mass, and the number of natural
-//! frequencies below a frequency.
+//! Robot linearised about a static equilibrium: stiffness at a frequency, mass, and the number of natural frequencies
+//! below a frequency.
 
 mod blocks;
 mod complex_frequency;
@@ -10,7 +10,7 @@ mod null_vectors;
 pub(crate) use blocks::{CableBlocks, PlatformBlocks};
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::ExactError;
+use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
@@ -18,25 +18,26 @@ use crate::robot::{Damping, PlatformMotion, Robot};
 use crate::statics::{CableState, Equilibrium};
 use thiserror::Error;
 
-/// Distance of ω² to a pole of a catenary-dynamic cable, relative, below which that pole's mode stands in the matrices as an unknown
-/// of its own. Counts and modes are the same at 1e-2 and at 1e-6.
-const POLE_PART: f64 = 1e-3;
+/// Relative distance of ω² to a pole of a catenary-dynamic cable below which the pole's mode is a separate unknown of
+/// the matrices. Counts and modes are the same at 1e-2 and at 1e-6.
+const NEAR_POLE_FRACTION: f64 = 1e-3;
 
-/// Which terms of the tangent stiffness are summed.
+/// Choice of the terms of the tangent stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Assembly {
-    /// All: the cables' end stiffness and the turning of static forces on their lever arms. Symmetric at equilibrium.
+    /// All terms: the cables' end stiffness and the geometric stiffness of static forces on their lever arms. Symmetric
+    /// at an equilibrium.
     #[default]
     Consistent,
-    /// The cables' end stiffness only, as the paper's equation (11) prints it.
+    /// Only the cables' end stiffness, as the paper's equation (11) prints it.
     WithoutGeometricStiffness,
 }
 
 impl Assembly {
-    /// Both.
+    /// Both choices.
     pub const ALL: [Self; 2] = [Self::Consistent, Self::WithoutGeometricStiffness];
 
-    /// Its name on the command line and in files.
+    /// Name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
@@ -45,7 +46,7 @@ impl Assembly {
     }
 }
 
-/// How a robot is linearised.
+/// Options of the linearisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Linearisation {
     /// Model of the cables.
@@ -56,16 +57,16 @@ pub struct Linearisation {
     pub in_plane_only: bool,
 }
 
-/// Why a robot cannot be linearised.
+/// Reason for which a robot cannot be linearised.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
-    /// A cable has no exact dynamic stiffness.
+    /// A cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
         /// Name of the cable.
         cable: String,
-        /// Why.
-        reason: ExactError,
+        /// Reason.
+        reason: CatenaryDynamicError,
     },
     /// A cable carries no tension.
     #[error(
@@ -75,16 +76,19 @@ pub enum DynamicsError {
     NoTension {
         /// Name of the cable.
         cable: String,
-        /// The model asked.
+        /// Requested model.
         model: CableModel,
     },
-    /// An ideal equilibrium has no tangent.
-    #[error("ideal cables are rigid: they have no catenary-static; use the static model `catenary` or `spring`")]
+    /// An equilibrium with ideal cables has no tangent stiffness.
+    #[error(
+        "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use \
+         the static model `catenary` or `spring`"
+    )]
     Rigid,
 }
 
 impl DynamicsError {
-    /// Why the cable of this name has no stiffness in a model.
+    /// Error for the cable of this name, which has no stiffness in a model.
     pub fn of_cable(name: &str, model: CableModel, reason: NoStiffness) -> Self {
         let cable = name.to_owned();
         match reason {
@@ -95,10 +99,10 @@ impl DynamicsError {
     }
 }
 
-/// A robot linearised about an equilibrium.
+/// Robot linearised about an equilibrium.
 ///
-/// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all are in N/m and kg. They are in the platform's
-/// coordinates ([`PlatformMotion::reduced`]), zero beyond their number.
+/// Scaled quantities act on `S x`, with rotations multiplied by ℓ, so that all units are N/m and kg. They are in the
+/// platform's coordinates ([`PlatformMotion::reduced`]); entries beyond their number are zero.
 #[derive(Debug, Clone)]
 pub struct Dynamics {
     coordinates: Coordinates,
@@ -109,13 +113,13 @@ pub struct Dynamics {
     /// Scaled viscous damping of the platform [N s/m].
     platform_damping: Mat6,
     terms: Vec<DynamicCableAt>,
-    /// How it was made.
+    /// Options with which it was made.
     pub linearisation: Linearisation,
     /// Damping and mass per length [kg/m] of each cable.
     damping: Vec<(Damping, f64)>,
 }
 
-/// A cable whose stiffness depends on frequency: its local axes as scaled 6-vectors (u; r × u/ℓ).
+/// Cable whose stiffness depends on frequency, with its local axes as scaled 6-vectors (u; r × u/ℓ).
 #[derive(Debug, Clone)]
 pub(crate) struct DynamicCableAt {
     cable: usize,
@@ -126,17 +130,18 @@ pub(crate) struct DynamicCableAt {
 }
 
 impl DynamicCableAt {
-    /// Which cable it is, file order.
+    /// Index of the cable, in the order of the file.
     pub(crate) fn cable(&self) -> usize {
         self.cable
     }
 
-    /// Stiffness of its end in local axes.
+    /// Dynamic stiffness of its end in local axes.
     pub(crate) fn form(&self) -> &DynamicCable {
         &self.form
     }
 
-    /// Scaled 6-vectors of its axes (e, n, b): a platform that moves by x displaces the end by their products with x.
+    /// Scaled 6-vectors of its axes (e, n, b). Their products with the platform's motion x are the displacement of the
+    /// end.
     pub(crate) fn axes(&self) -> [&Vec6; 3] {
         [&self.along, &self.normal, &self.out]
     }
@@ -146,18 +151,18 @@ impl DynamicCableAt {
         self.axes().map(|axis| axis.dot(x))
     }
 
-    /// The scaled 6-vector of a direction (e, n, b).
+    /// Scaled 6-vector of a direction (e, n, b).
     fn vector(&self, [e, n, b]: [f64; 3]) -> Vec6 {
         self.along * e + self.normal * n + self.out * b
     }
 }
 
 impl Dynamics {
-    /// Linearises a robot about an equilibrium, for frequencies up to `up_to_hz` [Hz]: catenary-dynamic cables are resolved as finely
-    /// as these ask for, the other models do not need the number.
+    /// Linearises a robot about an equilibrium, for frequencies up to `up_to_hz` [Hz]. Catenary-dynamic cables are
+    /// discretised as finely as these frequencies require; the other models do not use the number.
     ///
     /// # Errors
-    /// [`DynamicsError`] if a cable has no stiffness in the model asked.
+    /// [`DynamicsError`] if a cable has no stiffness in the requested model.
     ///
     /// # References
     /// docs/theory.md, equations (13) to (16).
@@ -170,7 +175,7 @@ impl Dynamics {
         let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
         let coordinates = Coordinates::of(robot);
 
-        // Cables: constant ones into the stiffness, the others as terms.
+        // Cables: a constant stiffness is added to the matrix, the others become terms.
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -194,7 +199,7 @@ impl Dynamics {
 
         Ok(Self {
             coordinates,
-            // Symmetric to rounding at an equilibrium; exactly so for what follows.
+            // Symmetric to rounding at an equilibrium; the methods below need exact symmetry.
             constant: coordinates.reduce_symmetric(&constant),
             mass: coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose)),
             platform_damping: coordinates.reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose)),
@@ -204,7 +209,7 @@ impl Dynamics {
         })
     }
 
-    /// With a few modes in place of the clamped ones of catenary-dynamic cables from ω [rad/s] on.
+    /// Copy in which a few modes replace the clamped modes of catenary-dynamic cables from ω [rad/s] on.
     pub(crate) fn with_poles_below(&self, omega: f64) -> Self {
         let mut cut = self.clone();
         for term in &mut cut.terms {
@@ -215,7 +220,7 @@ impl Dynamics {
         cut
     }
 
-    /// Some cable with mass is damped in constant ratio.
+    /// True if a cable with mass has a constant damping ratio.
     pub(crate) fn has_damping_ratios(&self) -> bool {
         self.terms.iter().any(|term| matches!(self.damping[term.cable].0, Damping::Ratio(xi) if xi > 0.0))
     }
@@ -225,12 +230,12 @@ impl Dynamics {
         self.coordinates.count()
     }
 
-    /// Coordinates of the platform, with its length ℓ.
+    /// Coordinates of the platform, with the length ℓ.
     pub(crate) fn coordinates(&self) -> &Coordinates {
         &self.coordinates
     }
 
-    /// Number of cables, those without mass included.
+    /// Number of cables, including those without mass.
     pub(crate) fn cable_count(&self) -> usize {
         self.damping.len()
     }
@@ -240,7 +245,8 @@ impl Dynamics {
         &self.terms
     }
 
-    /// Scaled stiffness that does not depend on frequency [N/m]: static forces on their lever arms, cables without mass.
+    /// Scaled stiffness that does not depend on frequency [N/m]: static forces on their lever arms, cables without
+    /// mass.
     pub(crate) fn constant_stiffness(&self) -> &Mat6 {
         &self.constant
     }
@@ -255,8 +261,8 @@ impl Dynamics {
         &self.platform_damping
     }
 
-    /// Stiffness with all damping at ω [rad/s], about the platform origin, world axes, 6×6 [N/m, N, N·m]; zero for motions
-    /// that the platform does not have.
+    /// Complex 6×6 stiffness with all damping at ω [rad/s], about the platform origin, world axes [N/m, N, N·m]. It is
+    /// zero for motions that the platform does not have.
     pub fn stiffness(&self, omega: f64) -> CMat6 {
         self.unscaled(&self.scaled_stiffness(omega))
     }
@@ -267,29 +273,30 @@ impl Dynamics {
         Mat6::from_fn(|i, j| mass[(i, j)] * scale[i] * scale[j])
     }
 
-    /// ℓ or 1: factors from scaled forces to wrench components.
+    /// Factors from scaled forces to wrench components: 1 for forces, ℓ for moments.
     pub(crate) fn scale(&self) -> [f64; 6] {
         let ell = self.coordinates.ell();
         [1.0, 1.0, 1.0, ell, ell, ell]
     }
 
-    /// ℓ or 1: factor of each of the platform's coordinates.
+    /// Factors of the platform's coordinates: 1 for translations, ℓ for rotations.
     fn coordinate_scale(&self) -> [f64; 6] {
         std::array::from_fn(|k| if self.coordinates.motion().is_rotation(k) { self.coordinates.ell() } else { 1.0 })
     }
 
-    /// A matrix over motions in world axes, still scaled, of one over the platform's coordinates.
+    /// Expands a matrix over the platform's coordinates to motions in world axes; the result is still scaled.
     pub(crate) fn expanded(&self, matrix: &CMat6) -> CMat6 {
         let motion = self.coordinates.motion();
         match motion {
             PlatformMotion::Rigid | PlatformMotion::PointMass => *matrix,
             PlatformMotion::Planar(_) => {
-                let parts = [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|part| motion.expanded_matrix(&part));
-                parts[0].zip_map(&parts[1], Complex::new)
+                let [re, im] = [matrix.map(|z| z.re), matrix.map(|z| z.im)].map(|real| motion.expanded_matrix(&real));
+                re.zip_map(&im, Complex::new)
             }
         }
     }
 
+    /// Matrix over motions in world axes [m, rad] of a scaled one over the platform's coordinates.
     fn unscaled(&self, matrix: &CMat6) -> CMat6 {
         let (scale, matrix) = (self.scale(), self.expanded(matrix));
         CMat6::from_fn(|i, j| matrix[(i, j)] * (scale[i] * scale[j]))
@@ -319,8 +326,8 @@ impl Dynamics {
         total
     }
 
-    /// Scaled mass that moves with a unit motion of the platform, `M − dK/dω²` [kg], and each cable's share for the
-    /// scaled motion `x`.
+    /// Scaled moving mass of the platform, and of each cable (`−dK/dω²`), for the scaled motion `x` of the platform
+    /// [kg].
     pub(crate) fn effective_masses(&self, omega: f64, x: &Vec6) -> (f64, Vec<f64>) {
         let platform = x.dot(&(self.mass * x));
         let mut cables = vec![0.0; self.cable_count()];
@@ -332,12 +339,12 @@ impl Dynamics {
         (platform, cables)
     }
 
-    /// Viscous damping of the platform for a unit scaled motion x, `xᵀCx` [N s/m].
+    /// Viscous damping of the platform along a scaled motion x, `xᵀCx` [N s/m].
     pub(crate) fn platform_damping_along(&self, x: &Vec6) -> f64 {
         x.dot(&(self.platform_damping * x))
     }
 
-    /// Damping ratio of cable `i` for a vibration that is its own, at ω [rad/s].
+    /// Damping ratio of a vibration of cable `i` alone, at ω [rad/s].
     pub(crate) fn cable_damping_ratio(&self, i: usize, omega: f64) -> f64 {
         let (damping, mass_per_length) = self.damping[i];
         damping.ratio_at(omega, mass_per_length)
@@ -350,26 +357,26 @@ impl Dynamics {
         Complex::new(re, im)
     }
 
-    /// Complex frequency ω [rad/s] at which cable `i` vibrates alone, from its undamped one, with the fraction `losses` of
-    /// its damping.
+    /// Complex frequency ω [rad/s] at which cable `i` vibrates alone, from its undamped frequency, with its damping
+    /// multiplied by `losses`.
     pub(crate) fn cable_zero(&self, i: usize, undamped: f64, losses: f64) -> Complex {
         let (damping, mass_per_length) = self.damping[i];
         damping.times(losses).zero(undamped, mass_per_length)
     }
 
-    /// Mass per length of cable `i` where its stiffness depends on frequency, else zero: its model has no mass [kg/m].
+    /// Mass per length of cable `i` in its model [kg/m]: zero if its stiffness does not depend on frequency.
     pub(crate) fn moving_mass_per_length(&self, i: usize) -> f64 {
         if self.terms.iter().any(|term| term.cable == i) { self.damping[i].1 } else { 0.0 }
     }
 
-    /// Whether every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped frequencies below
-    /// 1e-9; true for the models that are not discretised.
+    /// True if every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped
+    /// frequencies of at most 1e-9. Also true for the models that are not discretised.
     pub fn resolves(&self, omega: f64) -> bool {
         self.terms.iter().all(|term| match &term.form {
             DynamicCable::ShallowDynamic(_) => true,
-            // Frequencies pass through Hz and back.
-            DynamicCable::CatenaryDynamic(cable) => {
-                omega <= cable.exact.limit * (1.0 + 1e-12) && cable.exact.error <= RESOLUTION
+            // Conversions to Hz and back leave rounding errors of the limit.
+            DynamicCable::CatenaryDynamic(end) => {
+                omega <= end.cable.limit * (1.0 + 1e-12) && end.cable.error <= RESOLUTION
             }
         })
     }
@@ -389,7 +396,7 @@ impl Dynamics {
 /// Estimated relative error of the clamped frequencies up to which a catenary-dynamic cable counts as resolved.
 const RESOLUTION: f64 = 1e-9;
 
-/// Adds the stiffness of a cable in local axes, `times(k, product)` being k times an entry.
+/// Adds the stiffness of a cable in local axes; `times(k, product)` multiplies k by a product of axis components.
 fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
     total: &mut Matrix6<T>,
     term: &DynamicCableAt,
@@ -408,7 +415,7 @@ fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
     }
 }
 
-/// Stiffness by the turning of static forces, those of the cables and the loads, on their lever arms; not scaled.
+/// Geometric stiffness: static forces of cables and loads, whose lever arms turn with the platform; not scaled.
 fn static_terms(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
     let mut terms = Mat6::zeros();
     for state in &equilibrium.cables {
@@ -418,16 +425,16 @@ fn static_terms(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
     terms
 }
 
-/// A robot without the end stiffness of its cables; scaled, in the platform's coordinates.
+/// Terms of the linearised robot without the end stiffness of its cables; scaled, in the platform's coordinates.
 pub(crate) struct PlatformTerms {
-    /// Stiffness by the turning of static forces [N/m].
+    /// Geometric stiffness of static forces on their lever arms [N/m].
     pub(crate) constant: Mat6,
     /// Mass of the platform [kg].
     pub(crate) mass: Mat6,
     pub(crate) coordinates: Coordinates,
 }
 
-/// What a robot has at an equilibrium whatever its cables' stiffness.
+/// Terms of a robot at an equilibrium that do not depend on the model of its cables.
 pub(crate) fn platform_terms(robot: &Robot, equilibrium: &Equilibrium) -> PlatformTerms {
     let coordinates = Coordinates::of(robot);
     let constant = coordinates.reduce_symmetric(&static_terms(robot, equilibrium));

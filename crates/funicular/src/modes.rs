@@ -1,8 +1,8 @@
-//! All natural frequencies below a frequency, none missed, each with its kind.
+//! All natural modes below a frequency, none missed.
 //!
-//! Between two neighbouring clamped frequencies of the cables (the poles of D) the eigenvalues of D(ω) fall with ω,
-//! so the count J tells how many natural frequencies lie there, and bisection on J separates them. What J jumps by
-//! across a pole beyond that are vibrations of cables with the platform at rest, which no pole-free search can see.
+//! Between two neighbouring clamped frequencies of the cables (the poles of D) the eigenvalues of D(ω) fall with ω. So
+//! the count J gives the number of natural frequencies there, and bisection on J separates them. An increase of J at a
+//! pole itself means vibrations of cables with the platform at rest, which a search between the poles cannot find.
 
 mod certificate;
 pub mod damped;
@@ -16,25 +16,25 @@ pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, lowest};
 pub use mac::mac;
 
-pub use certificate::{MOST, TooMany, check_count, damped_partners};
+pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
 
 use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};
 use std::f64::consts::TAU;
 
-/// Whose vibration a mode is, by kinetic energy.
+/// Kind of a mode by kinetic energy: vibration of the platform, of the cables, or of both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// The platform has at least three quarters of the energy.
     Platform,
     /// The cables have at least three quarters of the energy.
     Cable,
-    /// Neither.
+    /// Neither the platform nor the cables have three quarters of the energy.
     Mixed,
 }
 
 impl Kind {
-    /// Share of the kinetic energy from which on a mode belongs to one side.
+    /// Minimum fraction of the kinetic energy for which a mode belongs to the platform or to the cables.
     pub const SHARE: f64 = 0.75;
 
     fn of(platform_fraction: f64) -> Self {
@@ -47,7 +47,7 @@ impl Kind {
         }
     }
 
-    /// Its name in files.
+    /// Name of the kind in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Platform => "platform",
@@ -57,61 +57,62 @@ impl Kind {
     }
 }
 
-/// One natural mode. A frequency of multiplicity m appears m times.
+/// Natural mode. A frequency of multiplicity m appears m times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
     /// Natural frequency, undamped [Hz].
     pub frequency_hz: f64,
-    /// How many modes share this frequency.
+    /// Number of modes at this frequency.
     pub multiplicity: usize,
     /// Damping ratio to first order in the cables' damping.
     pub damping_ratio: f64,
-    /// Whose vibration it is.
+    /// Kind of the mode: vibration of the platform, of the cables, or of both.
     pub kind: Kind,
-    /// Kinetic energy of the platform over that of the robot.
+    /// Fraction of the kinetic energy that the platform has.
     pub platform_energy_fraction: f64,
-    /// Kinetic energy of each cable over that of the robot, file order.
+    /// Fraction of the kinetic energy that each cable has, in the order of the file.
     pub cable_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
-    /// Mass that moves with `shape` [kg]: platform and cables, `Σ ∫ |u|² dm`. With the platform at rest the motion of
-    /// the cables has a modal mass of 1 kg.
+    /// Modal mass of `shape` [kg], platform and cables: `Σ ∫ |u|² dm`. If the platform is at rest, the motion of the
+    /// cables is scaled to 1 kg.
     pub modal_mass: f64,
-    /// |xᵀ D x| over ω² times the moving mass, dimensionless: twice the relative change of the frequency that another
-    /// Newton step on the Rayleigh quotient would make.
+    /// Residual |xᵀ D x| over ω² times the moving mass, dimensionless: twice the relative change of the frequency by
+    /// another Newton step on the Rayleigh quotient.
     pub residual: f64,
-    /// Unit modal mass.
+    /// Motion with unit modal mass.
     pub(crate) motion: NullVector,
 }
 
 /// All modes below a frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
-    /// Ascending in frequency.
+    /// Modes, ascending in frequency.
     pub modes: Vec<Mode>,
-    /// The limit [Hz].
+    /// Frequency limit of the list [Hz].
     pub below_hz: f64,
-    /// J at the limit: number of natural frequencies below it by the Wittrick–Williams count.
+    /// Number of natural frequencies below the limit by the Wittrick–Williams count J.
     pub count_below: usize,
-    /// Directions in which the equilibrium is unstable; they are in the count and have no frequency.
+    /// Number of unstable directions of the equilibrium; they are counted, but have no frequency.
     pub unstable_directions: usize,
-    /// The list and the count agree, every mode's residual is below 1e-8, and catenary-dynamic cables are resolved up to the limit.
+    /// True if list and count agree, every residual is at most 1e-8, and catenary-dynamic cables are resolved up to the
+    /// limit.
     pub certified: bool,
 }
 
-/// Relative half width of the neighbourhood of a pole that counts as the pole. Modes in it are listed at the pole: the
-/// bound of their error. Rounding moves a pole by up to 1e-15.
+/// Relative half width of the neighbourhood of a pole that counts as the pole. Modes inside are listed at the pole, so
+/// this width bounds their error. Rounding moves a pole by up to 1e-15.
 const POLE_WIDTH: f64 = 1e-12;
-/// Relative width at which modes that the count still finds together are one multiple mode.
+/// Relative width of an interval in which several modes are one multiple mode.
 const MULTIPLE_WIDTH: f64 = 2e-13;
-/// Residual above which a zero of the determinant is sought again by counting: true ones have up to 1e-13, those that
-/// rounding makes beside a pole 1e-2.
+/// Residual above which a zero of the determinant is replaced by a search with the count. True zeros have residuals up
+/// to 1e-13; false zeros that rounding makes near a pole have 1e-2.
 const ZERO_RESIDUAL: f64 = 1e-11;
-/// Largest residual of a certified mode.
+/// Maximum residual of a certified mode.
 pub const RESIDUAL_LIMIT: f64 = 1e-8;
 
-/// All natural frequencies below `below_hz` [Hz], undamped, with multiplicity.
+/// All natural modes below `below_hz` [Hz], undamped, with multiplicity.
 ///
 /// # Example
 /// ```
@@ -132,7 +133,7 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     let count_below = dynamics.modes_below(limit);
     let poles = dynamics.clamped_frequencies_below(limit);
     let first = poles.first().map_or(limit, |p| p.0);
-    // Low enough that no frequency lies below: a billionth of the least pole, or of the limit.
+    // Start so low that no frequency lies below: at a billionth of the lowest pole or of the limit.
     let lowest = 1e-9 * first.min(limit);
     let unstable_directions = dynamics.modes_below(lowest);
 
@@ -140,6 +141,7 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     let (mut from, mut count) = (lowest, unstable_directions);
     let mut next = 0;
     while next < poles.len() {
+        // Poles that coincide form one cluster.
         let mut last = next;
         while last + 1 < poles.len() && poles[last + 1].0 <= poles[last].0 * (1.0 + 4.0 * POLE_WIDTH) {
             last += 1;
@@ -147,6 +149,8 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
         let cluster = &poles[next..=last];
         let (left, right) = (cluster[0].0 * (1.0 - POLE_WIDTH), cluster[cluster.len() - 1].0 * (1.0 + POLE_WIDTH));
         let right = right.min(limit);
+
+        // Modes between the cluster before and this one, then modes at this one.
         let (at_left, at_right) = (dynamics.modes_below(left), dynamics.modes_below(right));
         list.between(from, count, left, at_left);
         list.at_pole(cluster, at_left, at_right);
@@ -164,15 +168,16 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     Modes { modes, below_hz, count_below, unstable_directions, certified }
 }
 
+/// List of modes under construction.
 struct List<'a> {
     dynamics: &'a Dynamics,
     modes: Vec<Mode>,
-    /// The count never fell.
+    /// True as long as the count has not decreased with the frequency.
     consistent: bool,
 }
 
 impl List<'_> {
-    /// Modes in an interval without poles, whose counts at both ends are known.
+    /// Adds the modes in an interval without poles, whose counts at both ends are known.
     fn between(&mut self, low: f64, count_low: usize, high: f64, count_high: usize) {
         if count_high < count_low {
             self.consistent = false;
@@ -183,7 +188,7 @@ impl List<'_> {
             1 => self.single(low, high),
             several if high - low <= MULTIPLE_WIDTH * high => self.multiple(0.5 * (low + high), several),
             _ => {
-                // Geometric at first, since low frequencies are as dear as high ones.
+                // The geometric mean in wide intervals, because all frequencies need the same relative accuracy.
                 let middle = if low > 0.0 && high > 4.0 * low { (low * high).sqrt() } else { 0.5 * (low + high) };
                 let count = self.dynamics.modes_below(middle);
                 self.between(low, count_low, middle, count.clamp(count_low, count_high));
@@ -192,7 +197,7 @@ impl List<'_> {
         }
     }
 
-    /// One mode: the zero of det D, which changes sign once between neighbouring poles.
+    /// Adds a single mode: the zero of det D, which changes its sign once between neighbouring poles.
     fn single(&mut self, low: f64, high: f64) {
         let determinant = |omega: f64| self.determinant(omega);
         let (at_low, at_high) = (determinant(low), determinant(high));
@@ -202,7 +207,7 @@ impl List<'_> {
             omega = roots::brent(low, at_low, high, at_high, determinant);
             motions = self.dynamics.null_vectors(omega, 1);
         }
-        // Rounding beside a pole hides the sign, or makes zeros that are none; the count does neither.
+        // Near a pole rounding hides the sign or makes false zeros; the count is not affected.
         if motions.iter().all(|motion| motion.residual > ZERO_RESIDUAL) {
             omega = self.by_count(low, high);
             motions = self.dynamics.null_vectors(omega, 1);
@@ -210,7 +215,7 @@ impl List<'_> {
         self.add_all(omega, motions);
     }
 
-    /// Where the count grows, by bisection.
+    /// Frequency at which the count grows, by bisection.
     fn by_count(&self, mut low: f64, mut high: f64) -> f64 {
         let count_low = self.dynamics.modes_below(low);
         while high - low > 4.0 * f64::EPSILON * high {
@@ -224,9 +229,11 @@ impl List<'_> {
         0.5 * (low + high)
     }
 
+    /// Determinant of the undamped dynamic stiffness at ω.
     fn determinant(&self, omega: f64) -> f64 {
         let d = self.dynamics.dynamic_stiffness(omega);
-        // By elimination: the expansion of 3×3 would have the squares of a pole's large term cancel, and lose the sign.
+        // By elimination: in the expansion of a 3×3 determinant the squares of a pole's large term cancel, which loses
+        // the sign.
         if self.dynamics.dof() == 6 {
             d.determinant()
         } else {
@@ -234,12 +241,12 @@ impl List<'_> {
         }
     }
 
-    /// `several` modes at ω.
+    /// Adds `several` modes at ω.
     fn multiple(&mut self, omega: f64, several: usize) {
         self.add_all(omega, self.dynamics.null_vectors(omega, several));
     }
 
-    /// Modes that share ω.
+    /// Adds modes that share ω.
     fn add_all(&mut self, omega: f64, motions: Vec<NullVector>) {
         let several = motions.len();
         for motion in motions {
@@ -251,11 +258,12 @@ impl List<'_> {
         }
     }
 
-    /// One mode, whose platform moves by `shape` where `motion` has unit modal mass.
+    /// Adds one mode from its `motion` with unit modal mass. `shape` is the platform's motion with `modal_mass`.
     fn add(&mut self, omega: f64, several: usize, motion: NullVector, shape: [f64; 6], modal_mass: f64) {
         let NullVector { platform_energy, ref cable_energies, residual, .. } = motion;
-        let by_cables: f64 =
-            cable_energies.iter().enumerate().map(|(i, part)| part * self.dynamics.cable_damping_ratio(i, omega)).sum();
+        let by_cables: f64 = (cable_energies.iter().enumerate())
+            .map(|(i, fraction)| fraction * self.dynamics.cable_damping_ratio(i, omega))
+            .sum();
         let by_platform = self.dynamics.platform_damping_along(&motion.platform) / (2.0 * omega);
         self.modes.push(Mode {
             frequency_hz: omega / TAU,
@@ -271,7 +279,7 @@ impl List<'_> {
         });
     }
 
-    /// Modes with the platform at rest: what the count gains across a cluster of coinciding poles.
+    /// Adds the modes with the platform at rest: the increase of the count at a cluster of coinciding poles.
     fn at_pole(&mut self, cluster: &[(f64, usize)], count_left: usize, count_right: usize) {
         if count_right < count_left {
             self.consistent = false;
@@ -285,7 +293,7 @@ impl List<'_> {
         let omega = cluster.iter().map(|p| p.0).sum::<f64>() / cluster.len() as f64;
         let mut motions = self.dynamics.null_vectors(omega, several);
         if motions.iter().all(|motion| motion.near.is_empty()) {
-            // The closed form has no amplitudes of its poles: the cables of the cluster share the energy.
+            // The shallow-dynamic model has no amplitudes for its poles: the cables of the cluster share the energy.
             let mut cable_energies = vec![0.0; self.dynamics.cable_count()];
             for (_, cable) in cluster {
                 cable_energies[*cable] += 1.0 / cluster.len() as f64;

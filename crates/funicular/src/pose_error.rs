@@ -1,4 +1,4 @@
-//! How far the pose of simpler static models is off, over a range of platform masses (the paper's Fig. 6).
+//! Pose error of the simpler static models over a range of platform masses (the paper's Fig. 6).
 
 use crate::math::roots;
 use crate::robot::{Pose, Robot};
@@ -9,8 +9,8 @@ use crate::statics::{self, Equilibrium, StaticModel, StaticsError};
 pub struct PoseErrorPoint {
     /// Platform mass [kg].
     pub mass: f64,
-    /// Equilibrium with ideal cables, whose pose does not depend on the mass. An error with more cables than degrees of freedom,
-    /// where rigid cables of given lengths do not close, and where one of them would have to push.
+    /// Equilibrium with ideal cables, whose pose does not depend on the mass. It is an error if rigid cables of the
+    /// given lengths do not close, as with more cables than degrees of freedom, or if a cable would push.
     pub ideal: Result<Equilibrium, StaticsError>,
     /// Equilibrium with springs.
     pub spring: Result<Equilibrium, StaticsError>,
@@ -23,14 +23,14 @@ pub struct PoseErrorPoint {
 pub struct PoseDifference {
     /// Translation of the platform origin, world axes [m].
     pub translation: [f64; 3],
-    /// Its length [m].
+    /// Length of the translation [m].
     pub distance: f64,
-    /// Angle of the rotation between both [rad].
+    /// Angle of the rotation between both poses [rad].
     pub angle: f64,
 }
 
 impl PoseDifference {
-    /// From `from` to `to`.
+    /// Difference from the pose `from` to the pose `to`.
     pub fn between(from: &Pose, to: &Pose) -> Self {
         let translation = to.position_w - from.position_w;
         let angle = from.rot_wp.angle_to(&to.rot_wp);
@@ -51,17 +51,17 @@ impl PoseErrorPoint {
         }
     }
 
-    /// From the ideal pose to that of the springs.
+    /// Difference from the pose with ideal cables to the pose with springs.
     pub fn spring_from_ideal(&self) -> Option<PoseDifference> {
         difference(&self.ideal, &self.spring)
     }
 
-    /// From the ideal pose to that of the catenaries.
+    /// Difference from the pose with ideal cables to the pose with catenaries.
     pub fn catenary_from_ideal(&self) -> Option<PoseDifference> {
         difference(&self.ideal, &self.catenary)
     }
 
-    /// From the pose of the catenaries to that of the springs: the error of the spring model.
+    /// Difference from the pose with catenaries to the pose with springs: the error of the spring model.
     pub fn spring_from_catenary(&self) -> Option<PoseDifference> {
         difference(&self.catenary, &self.spring)
     }
@@ -74,20 +74,20 @@ fn difference(
     Some(PoseDifference::between(&from.as_ref().ok()?.pose, &to.as_ref().ok()?.pose))
 }
 
-/// From which mass on the spring model is good enough.
+/// Range of platform masses in which the spring model is good enough.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Threshold {
-    /// At every mass of the range.
+    /// Good enough at every mass of the range.
     Everywhere,
-    /// From this mass [kg] to the end of the range; below it lies at least one mass where it is not.
+    /// Good enough from this mass [kg] to the end of the range, but not at every mass below.
     From(f64),
-    /// Not at the end of the range.
+    /// Not good enough at the end of the range.
     Nowhere,
 }
 
-/// The mass [kg] from which on the spring pose stays within `tolerance` [m] of the catenary pose, up to the last of
-/// `points`, which ascend in mass. Refined between two points to 1e-6 of the mass. A mass at which one of both has no
-/// equilibrium counts as not good enough.
+/// Minimum mass [kg] above which the spring pose stays within `tolerance` [m] of the catenary pose, up to the last of
+/// `points`, which ascend in mass. The mass is refined between two points to 1e-6 of its value. A mass without an
+/// equilibrium of both models counts as not good enough.
 pub fn threshold(robot: &Robot, lengths: &[f64], points: &[PoseErrorPoint], tolerance: f64) -> Threshold {
     let excess =
         |point: &PoseErrorPoint| point.spring_from_catenary().map_or(f64::INFINITY, |d| d.distance - tolerance);

@@ -1,9 +1,10 @@
-//! A small second-order model of the whole robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
+//! Small second-order model of the robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
 //!
-//! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. In them the catenary-dynamic cable is
-//! no approximation (K is block diagonal, M couples the platform to each amplitude); what is approximated is that three
-//! modes of each cable stand for all those above the limit, and that damping in proportion to frequency has to become
-//! viscous. Both errors are measured against the full model. Derivation: docs/theory.md, section 13.
+//! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. They represent
+//! catenary-dynamic cables without approximation: K is block diagonal, M couples the platform to each amplitude. The
+//! model has two approximations. Three modes of each cable replace all modes above the limit, and a constant damping
+//! ratio is replaced by viscous damping. Both errors are measured against the full model. Derivation: docs/theory.md,
+//! section 13.
 
 use crate::cable::DynamicCable;
 use crate::cable_motion::CableMotionError;
@@ -16,93 +17,95 @@ use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// What stands for damping in constant ratio, which no matrix C can be at every frequency.
+/// Viscous replacement of constant damping ratios, which no matrix C can represent at every frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DampingAt {
-    /// By (46) of docs/theory.md: right at every natural frequency of its own.
+    /// Equation (46) of docs/theory.md: correct at every natural frequency of the model.
     NaturalFrequencies,
-    /// `C = 2ξω M_c`: right at this one frequency [Hz].
+    /// `C = 2ξω M_c`: correct at this one frequency [Hz].
     Hz(f64),
 }
 
-/// What a reduced model has to be good for.
+/// Requirements for a reduced model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wanted {
     /// Highest frequency [Hz].
     pub below_hz: f64,
-    /// Largest relative error of the responses by modes left out.
+    /// Maximum relative error of the responses by modes left out.
     pub tolerance: f64,
     /// Treatment of constant damping ratios.
     pub damping_at: DampingAt,
 }
 
-/// What a coordinate of the model is.
+/// Meaning of a coordinate of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Coordinate {
     /// Coordinate of the platform's motion about its origin ([m] or [rad]), in the order of
-    /// [`coordinate_names`](crate::robot::PlatformMotion::coordinate_names): of a rigid body δp and δθ in world axes.
+    /// [`coordinate_names`](crate::robot::PlatformMotion::coordinate_names); for a rigid body δp and δθ in world axes.
     Platform(usize),
     /// Amplitude of a clamped mode of a cable, of unit modal mass [m √kg].
     Clamped {
-        /// Which cable, file order.
+        /// Index of the cable, in the order of the file.
         cable: usize,
-        /// Out of the cable's plane.
+        /// True for a mode out of the cable's plane.
         out_of_plane: bool,
-        /// Its clamped frequency [Hz]; the last ones of a cable stand for all the others.
+        /// Clamped frequency [Hz]; the last modes of a cable replace all the others.
         frequency_hz: f64,
     },
 }
 
-/// The model.
+/// Reduced model in second-order form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SecondOrder {
-    /// M, symmetric positive definite, n×n.
+    /// Mass matrix M, symmetric positive definite, n×n.
     pub mass: DMat,
-    /// C, symmetric positive semidefinite, n×n.
+    /// Damping matrix C, symmetric positive semidefinite, n×n.
     pub damping: DMat,
-    /// K, symmetric, n×n.
+    /// Stiffness matrix K, symmetric, n×n.
     pub stiffness: DMat,
-    /// B, n×inputs.
+    /// Input matrix B, n×inputs.
     pub input: DMat,
-    /// L, outputs×n: displacements and rotations.
+    /// Output matrix L, outputs×n: displacements and rotations.
     pub output: DMat,
-    /// What each output measures of its motion.
+    /// Quantity of each output: displacement, velocity or acceleration.
     pub quantities: Vec<Quantity>,
-    /// The n coordinates.
+    /// Meaning of the n coordinates.
     pub coordinates: Vec<Coordinate>,
-    /// Highest frequency it is for [Hz].
+    /// Highest frequency for which the model is made [Hz].
     pub below_hz: f64,
-    /// Largest relative error of a natural frequency below the limit.
+    /// Maximum relative error of the natural frequencies below the limit.
     pub frequency_error: f64,
-    /// Largest relative error of the responses up to the limit by modes left out: at each frequency over the largest
-    /// entry. `None` where an undamped robot has no finite response.
+    /// Maximum error of the responses up to the limit by modes left out, at each frequency relative to the largest
+    /// entry there. `None` if an undamped robot has no finite response.
     pub truncation_error: Option<f64>,
-    /// The same by making constant damping ratios viscous, at natural frequencies; zero for viscous damping.
+    /// Maximum error of the responses by the viscous replacement of constant damping ratios, at natural frequencies,
+    /// each relative to the largest entry there; zero for viscous damping.
     pub damping_error: Option<f64>,
 }
 
-/// `ẋ = A x + B f`, `y = C x + D f`, the state being motion and velocity.
+/// State space `ẋ = A x + B f`, `y = C x + D f`, whose state is motion and velocity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateSpace {
-    /// 2n×2n.
+    /// Matrix A, 2n×2n.
     pub a: DMat,
-    /// 2n×inputs.
+    /// Matrix B, 2n×inputs.
     pub b: DMat,
-    /// outputs×2n.
+    /// Matrix C, outputs×2n.
     pub c: DMat,
-    /// outputs×inputs.
+    /// Matrix D, outputs×inputs.
     pub d: DMat,
 }
 
-/// Why there is no reduced model.
+/// Reason for which there is no reduced model.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ReductionError {
-    /// A cable is not exact.
+    /// A cable is in the shallow-dynamic model.
     #[error(
-        "the reduced model is made of the modes of catenary-dynamic cables: choose the model `catenary-dynamic` (or one without vibration)"
+        "the reduced model consists of the modes of catenary-dynamic cables: choose the cable model \
+         `catenary-dynamic`, or a model without vibration"
     )]
     Model,
-    /// A point on a cable.
+    /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),
     /// The full model has no response to compare with.
@@ -115,13 +118,13 @@ pub enum ReductionError {
     Mass,
 }
 
-/// Parts of the limit up to which clamped modes are kept as they are, tried in turn until the error is small enough.
+/// Ratios to the limit up to which clamped modes are kept unchanged, tried in turn until the error is small enough.
 const KEPT: [f64; 7] = [1.1, 1.5, 2.0, 3.0, 5.0, 8.0, f64::INFINITY];
 
-/// Frequencies at which the error of modes left out is measured, besides the natural ones.
+/// Number of frequencies at which the error of modes left out is measured, in addition to the natural frequencies.
 const GRID: usize = 1000;
 
-/// A reduced model of a robot linearised about an equilibrium.
+/// Reduced model of a robot linearised about an equilibrium.
 ///
 /// # Errors
 /// [`ReductionError`].
@@ -139,11 +142,12 @@ pub fn reduce(
     if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
         return Err(ReductionError::Model);
     }
-    // The answer of a cable to a force on itself has a kink, which the modes that are kept do not.
+
+    // The response of a cable to a force on itself has a kink, which the kept modes cannot represent.
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
     let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
 
-    // What the reduced model has to answer.
+    // Natural frequencies and responses of the full model, for comparison.
     let listed = modes::below(dynamics, wanted.below_hz);
     let natural: Vec<f64> = listed.modes.iter().map(|mode| mode.frequency_hz).collect();
     let mut frequencies: Vec<f64> =
@@ -152,8 +156,8 @@ pub fn reduce(
     let reference = full.responses(dynamics, &frequencies).ok();
 
     // As few clamped modes as the tolerance allows.
-    for part in KEPT {
-        let cut = dynamics.with_poles_below(part * wanted.below_hz * TAU);
+    for ratio in KEPT {
+        let cut = dynamics.with_poles_below(ratio * wanted.below_hz * TAU);
         let truncation_error = reference.as_ref().and_then(|reference| {
             let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
             Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?))
@@ -162,7 +166,7 @@ pub fn reduce(
         let reduced = modes::below(&cut, wanted.below_hz * (1.0 + 1e-9));
         let frequency_error = relative_error(&natural, &reduced.modes);
 
-        if truncation_error.unwrap_or(frequency_error) <= wanted.tolerance || part.is_infinite() {
+        if truncation_error.unwrap_or(frequency_error) <= wanted.tolerance || ratio.is_infinite() {
             let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
             let mut model = assembled(&cut, &channels, outputs, wanted)?;
             (model.frequency_error, model.truncation_error) = (frequency_error, truncation_error);
@@ -173,19 +177,19 @@ pub fn reduce(
             return Ok(model);
         }
     }
-    unreachable!("the last part keeps all modes")
+    unreachable!("the last ratio keeps all modes")
 }
 
-/// Largest relative difference of frequencies; infinite if there are not as many.
+/// Maximum relative difference of frequencies; infinite if their numbers differ by more than one.
 fn relative_error(natural: &[f64], others: &[modes::Mode]) -> f64 {
-    // One at the limit itself may lie on its other side.
+    // A frequency at the limit may lie on different sides of it.
     if others.len().abs_diff(natural.len()) > 1 {
         return f64::INFINITY;
     }
     natural.iter().zip(others).map(|(a, b)| (b.frequency_hz / a - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Largest difference over frequencies, each over the largest entry there.
+/// Maximum difference of the responses over all frequencies, at each frequency relative to the largest entry there.
 fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>]) -> f64 {
     let count = reference.first().map_or(0, Vec::len);
     (0..count)
@@ -197,7 +201,7 @@ fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>]) -> f6
         .fold(0.0, f64::max)
 }
 
-/// Inputs and outputs on the linearised robot.
+/// Ports of the inputs and outputs on the linearised robot.
 struct Channels {
     inputs: Vec<Port>,
     outputs: Vec<Port>,
@@ -218,7 +222,7 @@ impl Channels {
         Ok(Self { inputs: inputs_first, outputs })
     }
 
-    /// Displacements of every output by every input.
+    /// Displacement of every output per force at every input, at all frequencies.
     fn responses(&self, dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<Vec<Complex>>, ResponseError> {
         let pairs = self.outputs.iter().flat_map(|output| self.inputs.iter().map(move |input| (input, output)));
         pairs
@@ -226,7 +230,7 @@ impl Channels {
             .collect()
     }
 
-    /// The row of a port over the coordinates.
+    /// Row of a port over the coordinates.
     fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
         let mut row = vec![0.0; layout.coordinates.len()];
         let coordinates = |vector: &Vec6| dynamics.coordinates().motion().reduced(vector);
@@ -247,7 +251,7 @@ impl Channels {
     }
 }
 
-/// Which coordinate stands where: the platform's, then for each cable its clamped modes in plane and across.
+/// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane.
 struct Layout {
     dof: usize,
     first_of_term: Vec<usize>,
@@ -275,13 +279,13 @@ struct Matrices {
     mass: DMat,
     /// Viscous damping.
     damping: DMat,
-    /// Loss of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
+    /// Damping of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
     ratio: DMat,
     stiffness: DMat,
 }
 
 impl Matrices {
-    /// The platform alone, with n coordinates in all.
+    /// Matrices of the platform alone, with n coordinates in total.
     fn of_platform(platform: &PlatformBlocks, n: usize) -> Self {
         let f = platform.mass.nrows();
         let at_corner = |block: &DMat| {
@@ -297,19 +301,19 @@ impl Matrices {
         }
     }
 
-    /// Adds a cable whose clamped modes have the coordinates from number `from` on.
+    /// Adds a cable; the coordinates of its clamped modes start at index `from`.
     fn add_cable(&mut self, cable: &CableBlocks, from: usize) {
         let f = cable.end_mass.nrows();
         let n = self.mass.nrows();
 
-        // Stiffness: of the end, and ω_k² of each clamped mode.
+        // Stiffness of the end, and ω_k² of each clamped mode.
         let mut at_end = self.stiffness.view_mut((0, 0), (f, f));
         at_end += &cable.end_stiffness;
         for (k, mode) in cable.modes.iter().enumerate() {
             self.stiffness[(from + k, from + k)] = mode.pole;
         }
 
-        // Mass: of the end, 1 of each clamped mode, and between both how the mode takes part.
+        // Mass of the end, 1 for each clamped mode, and the participation of the mode between both.
         let mut mass = DMat::zeros(n, n);
         mass.view_mut((0, 0), (f, f)).copy_from(&cable.end_mass);
         for (k, mode) in cable.modes.iter().enumerate() {
@@ -329,7 +333,7 @@ impl Matrices {
         self.mass += mass;
     }
 
-    /// Viscous damping with what stands for constant ratios.
+    /// Viscous damping, including the replacement of constant ratios.
     fn all_damping(&self, at: DampingAt) -> Result<DMat, ReductionError> {
         let by_ratio = match at {
             DampingAt::Hz(hz) => &self.ratio * (2.0 * TAU * hz),
@@ -339,7 +343,7 @@ impl Matrices {
     }
 }
 
-/// The matrices of a robot whose cables have the poles that are to be kept.
+/// Reduced model from a linearised robot whose cables have only the poles to be kept.
 fn assembled(
     dynamics: &Dynamics,
     channels: &Channels,
@@ -383,13 +387,14 @@ fn assembled(
     })
 }
 
-/// The viscous matrix that stands for `2ω R`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `2 MΦ W ΦᵀM` with
-/// `W_jk = √ω_j (ΦᵀRΦ)_jk √ω_k`, which is right where ω = ω_j = ω_k, also for the coupling of close modes.
+/// Viscous damping matrix that replaces `2ω R`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `2 MΦ W ΦᵀM` with
+/// `W_jk = √ω_j (ΦᵀRΦ)_jk √ω_k`. It is correct at ω = ω_j = ω_k, also for the coupling of close modes.
 fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result<DMat, ReductionError> {
     let factor = mass.clone().cholesky().ok_or(ReductionError::Mass)?.l();
     let half = factor.solve_lower_triangular(stiffness).ok_or(ReductionError::Mass)?;
     let standard = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
     let eigen = standard.symmetric_eigen();
+
     // MΦ = L U; Φᵀ R Φ = Uᵀ L⁻¹ R L⁻ᵀ U.
     let half = factor.solve_lower_triangular(ratio).ok_or(ReductionError::Mass)?;
     let inner = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
@@ -405,16 +410,19 @@ fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result
     Ok(symmetric_part(&damping))
 }
 
-/// Largest relative error of the responses by viscous damping in place of constant ratios, at natural frequencies.
+/// Maximum relative error of the responses by the viscous replacement of constant ratios, at natural frequencies.
 fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, natural: &[f64]) -> Option<f64> {
-    // A full elimination a frequency; peaks show damping most, and these are spread over all of them.
-    const MOST: f64 = 48.0;
-    // Operations of all of them.
-    const WORK: f64 = 2e9;
-    let most = (WORK / (model.mass.nrows() as f64).powi(3)).clamp(4.0, MOST) as usize;
-    let every = natural.len().div_ceil(most).max(1);
+    // Maximum number of frequencies, spread over all natural frequencies, where the effect of damping is largest. Each
+    // needs a full elimination.
+    const MAX_FREQUENCIES: f64 = 48.0;
+    // Maximum number of operations of all eliminations.
+    const MAX_OPERATIONS: f64 = 2e9;
+    let max = (MAX_OPERATIONS / (model.mass.nrows() as f64).powi(3)).clamp(4.0, MAX_FREQUENCIES) as usize;
+    let every = natural.len().div_ceil(max).max(1);
     let frequencies: Vec<f64> = natural.iter().copied().step_by(every).collect();
     let reference = channels.responses(dynamics, &frequencies).ok()?;
+
+    // Responses of the reduced model at these frequencies.
     let mut of_model = vec![Vec::new(); reference.len()];
     for frequency_hz in &frequencies {
         let receptance = model.receptance(frequency_hz * TAU)?;
@@ -427,7 +435,7 @@ fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, 
 }
 
 impl SecondOrder {
-    /// `L (K + iωC − ω²M)⁻¹ B`, displacements, at ω [rad/s]; `None` at an undamped resonance.
+    /// Receptance `L (K + iωC − ω²M)⁻¹ B` of displacements at ω [rad/s]; `None` at an undamped resonance.
     pub fn receptance(&self, omega: f64) -> Option<CDMat> {
         let d = self
             .stiffness
@@ -436,7 +444,8 @@ impl SecondOrder {
         Some(complex(&self.output) * d.lu().solve(&complex(&self.input))?)
     }
 
-    /// As a state space; an output that is a velocity or an acceleration is one there, too.
+    /// State space of the model, with outputs of displacement, velocity or acceleration as in
+    /// [`quantities`](Self::quantities).
     pub fn state_space(&self) -> StateSpace {
         let (n, inputs, outputs) = (self.mass.nrows(), self.input.ncols(), self.output.nrows());
 

@@ -1,7 +1,8 @@
-//! Frequency responses of the platform: receptance, mobility, accelerance; and their peaks.
+//! Frequency responses (receptance, mobility, accelerance) and their peaks.
 //!
-//! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are worked on side by side in vector registers
-//! (the kernel); the plain version, [`receptance`], is its oracle and takes over where it is not accurate.
+//! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are computed side by side in vector registers (the
+//! kernel). The plain version, [`receptance`], is the oracle of the kernel and replaces it where the kernel is not
+//! accurate.
 
 mod kernel;
 mod peaks;
@@ -16,7 +17,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// What is measured of a motion.
+/// Quantity of a motion in a response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Displacement [m] or rotation [rad].
@@ -27,10 +28,10 @@ pub enum Quantity {
     Acceleration,
 }
 
-/// Why there is no response.
+/// Reason for which there is no response.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ResponseError {
-    /// An undamped robot at its natural frequency.
+    /// The robot is undamped and the frequency is a natural one.
     #[error(
         "the response at {frequency_hz} Hz is not finite: an undamped natural frequency lies there; give the ropes \
          damping or choose other frequencies"
@@ -39,16 +40,16 @@ pub enum ResponseError {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
-    /// A force on a cable and a point of the same cable, whose own answer is not known.
+    /// Input and output are on the same cable, whose response to a force on itself is not known.
     #[error(
-        "the answer of a cable to a force on itself needs the model `catenary-dynamic`, a cable with mass, and both points among \
-         the same loaded stations"
+        "the response of a cable to a force on itself needs the model `catenary-dynamic`, a cable with mass, and both \
+         points among the same loaded stations"
     )]
     SameCable,
 }
 
-/// Response of one output to one input at each frequency [Hz]: motion per force [m/N] or moment, and so on by the
-/// kinds of both.
+/// Response of one output to one input at each frequency [Hz]: displacement per force [m/N], rotation per moment
+/// [rad/(N·m)], and so on, by the kinds of input and output.
 ///
 /// `input` and `output` come from [`along`] or [`about`].
 ///
@@ -67,10 +68,12 @@ pub fn frf(
     finished(kernel::one_entry(dynamics, frequencies_hz, input, output), frequencies_hz, quantity)
 }
 
-/// The same between any two ports: `v_outᵀ X v_in`, with vectors that depend on frequency where a port is on a cable.
+/// Response between any two ports at each frequency [Hz]: `v_outᵀ X v_in`, with vectors that depend on frequency if a
+/// port is on a cable.
 ///
 /// # Errors
-/// [`ResponseError`]; a force and a motion on the same cable must be given as stations of one [`CableStations`], loaded.
+/// [`ResponseError`]; a force and a motion on the same cable must be stations of one
+/// [`CableStations`](crate::cable_motion::CableStations), made for forces (`loaded`).
 ///
 /// # References
 /// docs/theory.md, section 11.
@@ -85,13 +88,13 @@ pub fn between(
         return frf(dynamics, frequencies_hz, input, output, quantity);
     }
 
-    // A force on a cable moves that cable itself, too, not only the platform.
+    // A force on a cable moves not only the platform, but also that cable itself.
     let own = match (input, output) {
         (
             Port::Cable { stations, station: loaded, direction_w: force_w },
             Port::Cable { stations: of_output, station, direction_w },
         ) if stations.cable == of_output.cable => {
-            if !(Arc::ptr_eq(stations, of_output) && stations.is_exact()) {
+            if !(Arc::ptr_eq(stations, of_output) && stations.has_own_receptance()) {
                 return Err(ResponseError::SameCable);
             }
             Some((stations, (*station, direction_w), (*loaded, force_w)))
@@ -108,7 +111,7 @@ pub fn between(
     finished(all.iter().zip(frequencies_hz).map(entry).collect(), frequencies_hz, quantity)
 }
 
-/// Receptances as the quantity asked.
+/// Converts receptances to the requested quantity.
 fn finished(
     mut values: Vec<Complex>,
     frequencies_hz: &[f64],
@@ -143,7 +146,7 @@ pub fn receptances(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<CM
 
 /// Receptance at one angular frequency ω [rad/s], by elimination with pivots; not finite at an undamped resonance.
 ///
-/// Motions that the platform does not have have zero rows and columns, if they are along axes.
+/// Rows and columns are zero for motions along axes that the platform does not have.
 pub fn receptance(dynamics: &Dynamics, omega: f64) -> CMat6 {
     let mut d = dynamics.damped_dynamic_stiffness(omega);
     for i in dynamics.dof()..6 {

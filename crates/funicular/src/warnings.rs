@@ -1,4 +1,5 @@
-//! Where a model leaves its range: each warning says which cable, the number, the limit and what to do.
+//! Warnings about results outside the range of a model or a limit: each names the cable, the value, the limit and a
+//! remedy.
 
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
@@ -8,101 +9,102 @@ use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticMode
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// Something the user should know before trusting a result.
+/// Caveat that the user should know before using a result.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// A cable without force.
+    /// A cable carries no force.
     Slack {
         /// Name of the cable.
         cable: String,
     },
-    /// A rope beyond its breaking load.
+    /// A tension is above the breaking load of the rope.
     Breaks {
         /// Name of the cable.
         cable: String,
-        /// Its greatest tension [N].
+        /// Maximum tension of the cable [N].
         tension: f64,
-        /// What its rope breaks at [N].
+        /// Breaking load of the rope [N].
         breaking_load: f64,
     },
-    /// A tension beyond a limit that the robot file has.
+    /// A tension is beyond a limit of the robot file.
     BeyondLimit {
         /// Name of the cable.
         cable: String,
-        /// Its least or greatest tension [N].
+        /// Minimum or maximum tension of the cable [N].
         tension: f64,
-        /// Which limit.
+        /// Limit that is violated.
         limit: Limit,
-        /// The limit [N].
+        /// Value of the limit [N].
         value: f64,
     },
-    /// Wind, and ropes of which the file does not say how it pulls at them.
+    /// There is wind, but the file gives no drag coefficient of some ropes.
     NoDrag {
         /// Names of the ropes.
         ropes: Vec<String>,
     },
-    /// A pose near one at which the cables do not hold the platform.
+    /// The pose is near a singular pose, at which the cables cannot resist a force in some direction.
     NearlySingular {
-        /// Tension per worst unit wrench, [`crate::statics::tension_gain`]; infinite at a singular pose.
+        /// Largest tension needed per unit wrench, [`crate::statics::tension_gain`]; infinite at a singular pose.
         gain: f64,
     },
-    /// An equilibrium that the platform leaves by itself.
+    /// The equilibrium is not stable.
     Unstable {
-        /// Directions that are not opposed.
+        /// Number of directions without a restoring force.
         directions: usize,
-        /// Least eigenvalue of the scaled stiffness [N/m].
+        /// Minimum eigenvalue of the scaled stiffness [N/m].
         min_stiffness: f64,
     },
-    /// A pose asked that fewer cables than degrees of freedom cannot hold.
+    /// The cables, fewer than the degrees of freedom, cannot hold the requested pose.
     Elsewhere {
-        /// Cables of the robot.
+        /// Number of cables.
         cables: usize,
-        /// Degrees of freedom of the platform.
+        /// Number of degrees of freedom of the platform.
         dof: usize,
-        /// How far the platform is from where it was asked to be [m].
+        /// Distance of the platform from the requested position [m].
         translation: f64,
-        /// How far it is turned from what was asked [degrees].
+        /// Angle between the platform and the requested orientation [degrees].
         turn_deg: f64,
-        /// Both together [m], [`crate::statics::distance`].
+        /// Distance from the requested pose, translation and rotation together [m], [`crate::statics::distance`].
         distance: f64,
     },
-    /// A shallow-sag model on cables that sag deeper.
+    /// Cables sag deeper than a shallow-sag model allows.
     DeepSag {
-        /// The cables, file order.
+        /// Cables that sag too deep, in the order of the file.
         cables: Vec<DeepSag>,
-        /// The model.
+        /// Shallow-sag model.
         model: CableModel,
     },
-    /// Wind whose drag turns with the cables, which the symmetric stiffness of vibration leaves out.
+    /// The drag of the wind turns with the cables, which the symmetric stiffness of vibration leaves out.
     DragTurns {
-        /// Largest relative change of the static displacement under a small load, [`crate::statics::drag_effect`].
+        /// Maximum relative change of the static displacement under a small load, [`crate::statics::drag_effect`].
         effect: f64,
     },
-    /// Frequencies near a cable's first axial resonance, which no model here contains.
+    /// Frequencies are near a cable's first axial resonance, which the model leaves out.
     AxialWaves {
-        /// Name of the cable with the lowest one.
+        /// Name of the cable with the lowest axial frequency.
         cable: String,
         /// First axial frequency [Hz].
         axial_hz: f64,
-        /// Highest frequency asked [Hz].
+        /// Highest requested frequency [Hz].
         below_hz: f64,
     },
 }
 
-/// A cable that sags deeper than a shallow-sag model allows.
+/// Cable that sags deeper than a shallow-sag model allows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeepSag {
     /// Name of the cable.
     pub cable: String,
-    /// Sag over chord.
+    /// Ratio of sag to chord.
     pub ratio: f64,
-    /// How far the model is off at this cable, against the exact one: its first clamped frequency in plane if it has
-    /// frequencies, or its stiffness along the chord at rest. `None` where there is no exact one.
+    /// Relative error of the model at this cable: of the first clamped frequency in plane against the catenary-dynamic
+    /// model, or of the static stiffness along the chord against the catenary. `None` if the comparison is not
+    /// possible.
     pub error: Option<f64>,
 }
 
 impl DeepSag {
-    /// Of cable `i` at a static state, if it sags too deep for the model.
+    /// Sag and error of cable `i` at an equilibrium, if it sags too deep for the model.
     pub fn of(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Self> {
         let sag = Sag::of(robot, i, state);
         let shallow = matches!(model, CableModel::ShallowStatic | CableModel::ShallowDynamic);
@@ -123,25 +125,27 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
     }
     let m = sag.mass_per_length;
     let axes = LocalAxes::of_cable(robot, i, state);
-    // The first root of the sagging string lies below its third, 3π/l.
+
+    // The first frequency of the sagging string lies below the third of the straight one.
     let highest = TAU * 3.0 * sag.string_frequency_hz();
-    let closed = ShallowDynamic::new(sag, axes, robot.cables[i].material.damping, true);
-    let first = *closed.clamped_frequencies_below(highest).first()?;
-    let exact = CatenaryDynamic::new(&hanging.catenary, m, highest).ok()?;
-    Some(first / exact.in_plane.poles.first()?.sqrt() - 1.0)
+    let shallow = ShallowDynamic::new(sag, axes, robot.cables[i].material.damping, true);
+    let first = *shallow.clamped_frequencies_below(highest).first()?;
+    let catenary = CatenaryDynamic::new(&hanging.catenary, m, highest).ok()?;
+    Some(first / catenary.in_plane.poles.first()?.sqrt() - 1.0)
 }
 
-/// Tension per worst unit wrench from which a pose is called nearly singular: ten times the largest at the poses of the
-/// library's robots, which have 0.9 to 3.1.
+/// Tension per unit wrench above which a pose counts as nearly singular: ten times the largest value at the poses of
+/// the library's robots, which have 0.9 to 3.1.
 pub const SINGULAR_GAIN: f64 = 30.0;
 
-/// Relative change of static displacements from which the turn of the drag is warned of; a drag coefficient is hardly known
-/// to one per cent.
+/// Relative change of static displacements above which the turning drag causes a warning; a drag coefficient is hardly
+/// known to one per cent.
 pub const DRAG_TURN_LIMIT: f64 = 0.01;
 
-/// Part of the first axial frequency from which on axial inertia is warned of: the axial stiffness of a taut cable, which
-/// is `φ cot φ` times the static one with φ = π/3 there, is then taken two thirds too stiff, and 4 % at a third of that.
-pub const AXIAL_PART: f64 = 1.0 / 3.0;
+/// Fraction of the first axial frequency above which axial inertia causes a warning. The axial stiffness of a taut
+/// cable is `φ cot φ` times the static one. At this frequency φ = π/3, so that the static one is two thirds too stiff;
+/// at a third of it the error is 4 %.
+pub const AXIAL_FRACTION: f64 = 1.0 / 3.0;
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -149,58 +153,59 @@ impl fmt::Display for Warning {
             Self::Slack { cable } => write!(
                 f,
                 "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
-                 choose the static model `catenary`, which knows its weight"
+                 choose the static model `catenary`, which includes its weight"
             ),
             Self::Breaks { cable, tension, breaking_load } => write!(
                 f,
-                "cable \"{cable}\" has {tension:.1} N, and its rope breaks at {breaking_load} N: this state cannot be; \
-                 choose a stronger rope, another pose or less load"
+                "cable \"{cable}\" has a tension of {tension:.1} N, but its rope breaks at {breaking_load} N: choose a \
+                 stronger rope, another pose or less load"
             ),
             Self::BeyondLimit { cable, tension, limit, value } => {
-                let (most, side, name) = match limit {
-                    Limit::Minimum => ("as little as", "less", "minimum_tension_n"),
-                    Limit::Maximum => ("up to", "more", "maximum_tension_n"),
+                let (range, side, name) = match limit {
+                    Limit::Minimum => ("only", "below", "minimum_tension_n"),
+                    Limit::Maximum => ("up to", "above", "maximum_tension_n"),
                 };
                 write!(
                     f,
-                    "cable \"{cable}\" has {most} {tension:.1} N, {side} than its `{name}`, {value} N: choose another \
-                     pose, load or lengths, or another limit"
+                    "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: \
+                     choose another pose, load or lengths, or another limit"
                 )
             }
             Self::NoDrag { ropes } => {
                 let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
                 write!(
                     f,
-                    "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope has \
-                     1.0 to 1.2), or 0 for none",
+                    "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope \
+                     has 1.0 to 1.2), or 0 for none",
                     ropes.join(", ")
                 )
             }
             Self::NearlySingular { gain } if gain.is_infinite() => write!(
                 f,
-                "the pose is singular: in some direction no tensions of the cables resist a force; choose a pose from \
-                 which the cables pull in more directions"
+                "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which \
+                 the cables pull in more directions"
             ),
             Self::NearlySingular { gain } => write!(
                 f,
-                "the pose is nearly singular: in its weakest direction a force of 1 N takes {gain:.0} N of tension (warned \
-                 of from {SINGULAR_GAIN}); choose a pose from which the cables pull in more directions"
+                "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension \
+                 (limit {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
             ),
             Self::Unstable { directions, min_stiffness: 0.0 } => write!(
                 f,
-                "the equilibrium is indifferent: in {directions} of its directions nothing holds the platform, which has \
-                 natural frequencies of zero there; add a cable, or another point to pull at"
+                "the equilibrium is indifferent: in {} nothing holds the platform, and its natural frequency there is \
+                 zero; add a cable, or another attachment point",
+                crate::counted(*directions, "direction")
             ),
             Self::Unstable { directions, min_stiffness } => write!(
                 f,
-                "the equilibrium is not stable: {directions} of its directions {} not opposed (least scaled stiffness \
-                 {min_stiffness:.3e} N/m); the robot would leave it",
-                if *directions == 1 { "is" } else { "are" }
+                "the equilibrium is not stable: {} without a restoring force (minimum scaled stiffness \
+                 {min_stiffness:.3e} N/m); the robot would leave this pose",
+                crate::counted(*directions, "direction")
             ),
             Self::Elsewhere { cables, dof, translation, turn_deg, distance } => write!(
                 f,
-                "{} for {dof} degrees of freedom cannot hold the pose asked by any lengths: this is the nearest \
-                 that can be held, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
+                "{} for {dof} degrees of freedom cannot hold the requested pose with any lengths: this is the nearest \
+                 pose that they can hold, {:.3} mm and {turn_deg:.4}° away (nearest_pose_distance_m {distance:.6})",
                 crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
@@ -210,71 +215,77 @@ impl fmt::Display for Warning {
                 let one = |DeepSag { cable, ratio, error }: &DeepSag| {
                     let error =
                         error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
-                    format!("\"{cable}\" sags by {ratio:.4}{error}")
+                    format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
                 };
                 write!(
                     f,
-                    "cable {} of the chord, more than 1/20: the {model} model is outside its range; use the model \
+                    "cable {}, the limit is 1/20: the {model} model is outside its range; use the model \
                      `catenary-dynamic`, or raise the tension",
                     cables.iter().map(one).collect::<Vec<_>>().join(", ")
                 )
             }
             Self::DragTurns { effect } => write!(
                 f,
-                "the drag of the wind turns with the cables and changes the static displacement under a small load by up \
-                 to {:.1} % (rotations times the platform's size); this stiffness, symmetric and with the drag held, leaves \
-                 it out: take static displacements from `stiffness` at 0 Hz without a cable model, which has it",
+                "the drag of the wind turns with the cables and changes the static displacement under a small load by \
+                 up to {:.1} % (rotations times the platform's size); the symmetric stiffness used here leaves this \
+                 out: take static displacements from `stiffness` at 0 Hz without a cable model, which includes it",
                 100.0 * effect
             ),
             Self::AxialWaves { cable, axial_hz, below_hz } => write!(
                 f,
-                "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \"{cable}\": \
-                 axial waves, which this model leaves out, matter there; lower the limit"
+                "{below_hz} Hz is more than a third of the first axial frequency {axial_hz:.1} Hz of cable \
+                 \"{cable}\": axial waves, which this model leaves out, matter there; lower the limit, or use the \
+                 cable model `catenary-dynamic`"
             ),
         }
     }
 }
 
-/// Where a cable is beyond the limits that the file has, or beyond what its rope bears; the worst only.
+/// Warning about a cable beyond the breaking load of its rope or beyond a limit of the file; only the most serious one.
 fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning> {
     let (cable, limits) = (&robot.cables[i], robot.cables[i].limits());
     let name = cable.name.clone();
     if let Some(breaking_load) = cable.material.breaking_load.filter(|load| margin.max > *load * (1.0 + 1e-6)) {
         return Some(Warning::Breaks { cable: name, tension: margin.max, breaking_load });
     }
-    // Within a millionth is within: that is what tensions are found to.
-    if let Some(value) = limits.maximum.filter(|most| margin.max > *most * (1.0 + 1e-6)) {
+    // The tolerance of a millionth is the accuracy of the tensions.
+    if let Some(value) = limits.maximum.filter(|max| margin.max > *max * (1.0 + 1e-6)) {
         return Some(Warning::BeyondLimit { cable: name, tension: margin.max, limit: Limit::Maximum, value });
     }
     let value = limits.minimum.filter(|min| margin.min < *min * (1.0 - 1e-6))?;
     Some(Warning::BeyondLimit { cable: name, tension: margin.min, limit: Limit::Minimum, value })
 }
 
-/// Distance from the pose asked, over the size of the platform, up to which it is that pose: what forward statics leaves.
+/// Maximum distance from the requested pose, over the size of the platform, at which the pose counts as reached; the
+/// error of forward statics is smaller.
 const HELD: f64 = 1e-7;
 
-/// That an equilibrium is not at the pose asked, where it is the nearest that the cables hold
+/// Warning that an equilibrium is not at the requested pose, but at the nearest pose that the cables can hold
 /// ([`Solution::requested_pose`](crate::statics::Solution::requested_pose)).
-pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, asked: &Pose, distance: f64) -> Option<Warning> {
+pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, requested: &Pose, distance: f64) -> Option<Warning> {
     let found = &equilibrium.pose;
     (distance > HELD * robot.platform_length()).then(|| Warning::Elsewhere {
         cables: robot.cables.len(),
         dof: robot.platform.motion.count(),
-        translation: (found.position_w - asked.position_w).norm(),
-        turn_deg: found.rot_wp.angle_to(&asked.rot_wp).to_degrees(),
+        translation: (found.position_w - requested.position_w).norm(),
+        turn_deg: found.rot_wp.angle_to(&requested.rot_wp).to_degrees(),
         distance,
     })
 }
 
-/// Warnings about a static state.
+/// Warnings about an equilibrium.
 pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     let mut warnings = Vec::new();
+
+    // Tensions of the cables.
     for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
         if equilibrium.model != StaticModel::Ideal && state.is_slack() {
             warnings.push(Warning::Slack { cable: cable.name.clone() });
         }
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
     }
+
+    // Wind on ropes without a drag coefficient.
     if robot.wind.velocity_w.norm() > 0.0 {
         let mut ropes: Vec<String> = Vec::new();
         for material in robot.cables.iter().map(|cable| &cable.material).filter(|rope| rope.drag_width.is_none()) {
@@ -286,6 +297,8 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
             warnings.push(Warning::NoDrag { ropes });
         }
     }
+
+    // Singularity and stability.
     if statics::tension_gain_exceeds(robot, equilibrium, SINGULAR_GAIN)
         && let Some(gain) = statics::tension_gain(robot, equilibrium)
     {
@@ -297,22 +310,28 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     warnings
 }
 
-/// Warnings about a cable model at a static state for frequencies up to `below_hz` [Hz].
+/// Warnings about a cable model at an equilibrium for frequencies up to `below_hz` [Hz].
 pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, below_hz: f64) -> Vec<Warning> {
     let mut warnings = Vec::new();
+
+    // Sag beyond the range of the model.
     let sags: Vec<Sag> = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect();
     let states = equilibrium.cables.iter().enumerate();
     let cables: Vec<DeepSag> = states.filter_map(|(i, state)| DeepSag::of(robot, i, state, model)).collect();
     if !cables.is_empty() {
         warnings.push(Warning::DeepSag { cables, model });
     }
+
+    // Drag that turns with the cables.
     if let Some(effect) = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT) {
         warnings.push(Warning::DragTurns { effect });
     }
+
+    // Frequencies near the first axial one.
     let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
     if let Some(i) = lowest {
         let axial_hz = sags[i].axial_frequency_hz();
-        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_PART * axial_hz {
+        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz {
             warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
         }
     }

@@ -1,12 +1,12 @@
 //! `reduce`: text, CSV and the files of the matrices.
 
-use crate::output::{self, Content, Printed, Target};
+use crate::output::{Content, Printed, Target};
 use crate::table::{Table, counted, decimals};
 use anyhow::{Context, Result, bail};
 use funicular::math::DMat;
 use funicular::reduced_model::{SecondOrder, StateSpace};
-use funicular_files::Guard;
 use funicular_files::endings::Kind;
+use funicular_files::{Guard, atomic_file};
 use funicular_study::analyses::Found;
 use funicular_study::analyses::reduce::{ChannelRow, Reduced};
 use funicular_study::json;
@@ -165,21 +165,16 @@ fn npy(matrix: &DMat) -> Vec<u8> {
     bytes
 }
 
-/// A folder that takes its name when it is complete.
+/// Writes a folder with one CSV file per matrix and the description. The folder appears only when it is complete.
 fn folder(path: &Path, matrices: &[(&str, &DMat)], description: &[u8]) -> Result<()> {
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let made = tempfile::Builder::new().prefix(".funicular-").tempdir_in(parent)?;
-    for (name, matrix) in matrices {
-        let mut table = csv::Writer::from_path(made.path().join(format!("{name}.csv")))?;
-        for row in matrix.row_iter() {
-            table.serialize(row.iter().collect::<Vec<_>>())?;
+    atomic_file::write_folder(path, |folder| {
+        for (name, matrix) in matrices {
+            let mut table = csv::Writer::from_path(folder.join(format!("{name}.csv")))?;
+            for row in matrix.row_iter() {
+                table.serialize(row.iter().collect::<Vec<_>>())?;
+            }
+            table.flush()?;
         }
-        table.flush()?;
-    }
-    std::fs::write(made.path().join("description.json"), description)?;
-    output::open_to_all(made.path())?;
-    // An empty folder is replaced; a folder with files is not.
-    std::fs::rename(made.path(), path)?;
-    let _ = made.keep();
-    Ok(())
+        Ok(std::fs::write(folder.join("description.json"), description)?)
+    })
 }

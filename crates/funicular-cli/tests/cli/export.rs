@@ -1,8 +1,8 @@
-//! `export`: files for other programs. What those programs make of them is the matter of scripts/cross-check.
+//! Tests of `export`: files for other programs. scripts/cross-check runs these programs on the files.
 
 use super::{robot, run, run_with, stderr, stdout, succeed, yuan};
 
-/// The pose that a robot file has by lengths.
+/// Position of the robot in a file with lengths.
 fn position(text: &str) -> Vec<f64> {
     let output = run_with(&["statics", "-", "--format", "json"], text);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -11,13 +11,13 @@ fn position(text: &str) -> Vec<f64> {
 }
 
 #[test]
-fn what_is_exported_to_moordyn_and_imported_again_rests_at_the_same_place() {
-    // Cogiro's lengths have more than one equilibrium: which is found depends on the platform's frame.
+fn a_robot_exported_to_moordyn_and_imported_again_has_the_same_equilibrium() {
+    // CoGiRo's lengths have several equilibria; the platform's frame decides which one is found.
     for name in ["yuan2014-4mm.toml", "cogiro.toml", "sap2000-8-cable-point-mass.toml", "nist-robocrane.toml"] {
         let directory = tempfile::tempdir().unwrap();
         let input = directory.path().join("robot.txt");
         let path = input.to_str().unwrap();
-        // With 400 segments the lines are as long as the cables to a tenth of a micrometre.
+        // With 400 segments the lengths of lines and cables agree to a tenth of a micrometre.
         succeed(&["export", &robot(name), "--to", "moordyn", "--segments", "400", "-o", path]);
         let imported = succeed(&["import", path]);
         let ours = position(&std::fs::read_to_string(robot(name)).unwrap());
@@ -33,7 +33,8 @@ fn ropes_whose_long_names_begin_alike_stay_apart_in_moordyn_and_on_the_way_back(
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("robot.txt");
     let rope = "rope ".repeat(1000);
-    // Each cable has a rope of its own, with its own mass; the names differ in their last letter, hyphens begin sections.
+    // Each cable has its own rope with its own mass. The names differ only in their last letter; hyphens begin
+    // sections.
     let mut text = yuan();
     let begin = text.find("[materials.rope-4mm]").unwrap();
     let end = begin + text[begin..].find("\n[[").unwrap_or(text[begin..].len());
@@ -52,7 +53,7 @@ fn ropes_whose_long_names_begin_alike_stay_apart_in_moordyn_and_on_the_way_back(
     let again = run_with(&["statics", "-"], &imported);
     assert_eq!(again.status.code(), Some(0), "{}", stderr(&again));
 
-    // A file of another program, whose own names are long and differ at their ends.
+    // A file of another program with long names that differ only at their ends.
     let long = "x".repeat(3000);
     let mut file = std::fs::read_to_string(&path).unwrap();
     for i in 1..=6 {
@@ -68,7 +69,7 @@ fn ropes_whose_long_names_begin_alike_stay_apart_in_moordyn_and_on_the_way_back(
 }
 
 #[test]
-fn a_script_for_opensees_has_the_robot_its_numbers_and_the_frequencies_asked_for() {
+fn a_script_for_opensees_has_the_robot_its_numbers_and_the_requested_frequencies() {
     let script = succeed(&["export", "ROBOT", "--to", "opensees", "--segments", "3"]);
     assert!(script.starts_with("#!/usr/bin/env python3\n") && script.ends_with(")\n"));
     let line = |start: &str| script.lines().find(|line| line.starts_with(start)).unwrap().to_owned();
@@ -128,7 +129,7 @@ fn a_script_for_opensees_has_the_guide_and_the_load() {
         &[&["export", &robot("kntu-planar.toml"), "--to", "opensees", "--modes-below-hz", "20"], &load[..]].concat(),
     );
     assert_eq!(line(&script, "GUIDED"), "GUIDED = 2");
-    // The force, and two couples about the normal.
+    // The force and two couples about the normal.
     assert_eq!(rows(&script).len(), 5);
     let script = succeed(&[&["export", "ROBOT", "--to", "opensees", "--modes-below-hz", "1"], &load[..]].concat());
     assert_eq!(line(&script, "GUIDED"), "GUIDED = None");
@@ -137,7 +138,7 @@ fn a_script_for_opensees_has_the_guide_and_the_load() {
 }
 
 #[test]
-fn what_cannot_be_exported_is_refused_with_the_reason() {
+fn robots_that_cannot_be_exported_are_refused_with_the_reason() {
     let sideways = yuan().replace("[platform]", "gravity_m_s2 = [0.1, 0.0, -9.81]\n[platform]");
     let planar = std::fs::read_to_string(robot("kntu-planar.toml")).unwrap();
     let massless = yuan().replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.0");

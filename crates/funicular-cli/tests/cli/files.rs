@@ -43,7 +43,7 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         ),
         ("modes ROBOT --below-hz 1", "parquet", "would hold text, and .parquet means a Parquet file"),
         ("modes ROBOT --below-hz 1", "PDF", "would hold text, and .pdf means printed pages"),
-        ("statics ROBOT", "parquet.partial", "would hold text, and .partial means rows of a sweep on their way"),
+        ("statics ROBOT", "parquet.partial", "would hold text, and .partial means rows of an unfinished sweep"),
         (
             "statics ROBOT --format json",
             "csv",
@@ -73,8 +73,8 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         ("export ROBOT --to moordyn", "py", "would hold an input file of MoorDyn, and .py means a Python script"),
         ("export ROBOT --to vtk", "vtk", "and .vtk means another format of VTK; choose a name that ends in .vtp"),
         ("validate", "xlsx", "means a spreadsheet"),
-        ("map ROBOT --grid x=0:1:2", "xlsx", "names no format: .parquet, .csv or .vti"),
-        ("merge ROWS", "xlsx", "names no format: .parquet, .csv or .vti"),
+        ("map ROBOT --grid x=0:1:2", "xlsx", "names no format: choose .parquet, .csv or .vti"),
+        ("merge ROWS", "xlsx", "names no format: choose .parquet, .csv or .vti"),
     ] {
         let path = at(&format!("out.{ending}"));
         let words = arguments.split(' ').map(|word| match word {

@@ -1,4 +1,4 @@
-//! `import`: the same robot from every format, what is asked for, what is lost.
+//! Tests of `import`: one robot from every format, required options, losses and assumptions.
 
 mod refused;
 
@@ -36,7 +36,7 @@ fn imported(arguments: &[&str]) -> String {
     stdout(&output).to_owned()
 }
 
-/// What `funicular COMMAND - …` finds for a robot file.
+/// Results of `funicular COMMAND - …` for a robot file.
 fn json(command: &str, robot: &str, more: &[&str]) -> Value {
     let arguments = [&[command, "-", "--format", "json"], more].concat();
     let output = super::run_with(&arguments, robot);
@@ -53,7 +53,7 @@ fn assert_close(a: &[f64], b: &[f64], tolerance: f64, what: &str) {
     assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance), "{what}: {a:?} and {b:?}");
 }
 
-/// An example with changes, in a folder of its own.
+/// Example with changes, in a separate folder.
 struct Changed {
     folder: tempfile::TempDir,
 }
@@ -112,20 +112,20 @@ fn one_robot_is_the_same_in_every_format() {
         assert_eq!(robot["gravity_m_s2"], reference["gravity_m_s2"], "{what}");
         for (a, b) in robot["cables"].as_array().unwrap().iter().zip(reference["cables"].as_array().unwrap()) {
             assert_eq!((&a["name"], &a["anchor_m"]), (&b["name"], &b["anchor_m"]), "{what}");
-            // From the centre of mass and back is rounding.
+            // The shift from the centre of mass and back only causes rounding errors.
             assert_close(&numbers(&a["attachment_m"]), &numbers(&b["attachment_m"]), 1e-15, what);
         }
         assert_eq!(robot["materials"][0]["axial_stiffness_n"], 1e6, "{what}");
         assert_eq!(robot["materials"][0]["mass_kg_per_m"], 0.05, "{what}");
     }
-    // As the file of cables has it.
+    // Values of the file of cables.
     let fourth = &reference["cables"][3];
     assert_eq!(numbers(&fourth["anchor_m"]), [-3.3891, -2.1299, 5.03]);
     assert_eq!(numbers(&fourth["attachment_m"]), [0.0, -0.8, 0.1]);
 }
 
 #[test]
-fn the_home_pose_is_where_the_source_says_and_the_tensions_balance_there() {
+fn the_home_pose_is_that_of_the_source_with_tensions_in_equilibrium() {
     let [bodies, cables] = caspr();
     let robot = imported(&[&[bodies.as_str(), &cables], &ROPES[..]].concat());
     let found = json("statics", &robot, &[]);
@@ -179,10 +179,10 @@ fn the_home_pose_is_where_the_source_says_and_the_tensions_balance_there() {
 }
 
 #[test]
-fn lengths_of_a_mooring_file_lead_back_to_the_pose_they_are_of() {
+fn lengths_of_a_moordyn_file_lead_back_to_their_pose() {
     let found = json("statics", &imported(&[&example("tripod.txt")]), &[]);
     assert_close(&numbers(&found["pose"]["position_m"]), &[0.1, -0.05, 1.5], 1e-10, "position");
-    // The lengths are given up for a pose.
+    // A pose replaces the lengths.
     let output = import(&[&example("tripod.txt"), "--pose", "0,0,1.5"]);
     assert!(stderr(&output).contains("not carried over: the unstrained lengths"), "{}", stderr(&output));
     assert!(
@@ -191,7 +191,7 @@ fn lengths_of_a_mooring_file_lead_back_to_the_pose_they_are_of() {
 }
 
 #[test]
-fn what_a_source_lacks_is_asked_for_in_one_message() {
+fn missing_values_of_a_source_are_requested_in_one_message() {
     let [bodies, cables] = caspr();
     let lacking = |more: &[&str], expected: &[&str], absent: &[&str]| {
         let output = import(&[&[bodies.as_str(), &cables], more].concat());
@@ -230,14 +230,14 @@ fn modulus_and_diameter_are_a_stiffness_and_options_win_over_the_source() {
     let stiffness = robot["materials"][0]["axial_stiffness_n"].as_f64().unwrap();
     assert!((stiffness - 1e11 * std::f64::consts::PI * 4e-6).abs() < 1e-6, "{stiffness}");
     assert_eq!(robot["materials"][0]["mass_kg_per_m"], 0.1);
-    // WireX has a radius, and the file its own modulus.
+    // WireX gives a radius, and the file has its own modulus.
     let robot = json("check", &imported(&[&example("tripod.wcrfx")]), &[]);
     let stiffness = robot["materials"][0]["axial_stiffness_n"].as_f64().unwrap();
     assert!((stiffness - 5e10 * std::f64::consts::PI * 4e-6).abs() < 1e-6, "{stiffness}");
 }
 
 #[test]
-fn what_is_lost_or_assumed_is_said_twice_on_stderr_and_in_the_file() {
+fn losses_and_assumptions_are_reported_on_stderr_and_in_the_file() {
     let [bodies, cables] = caspr();
     let output = import(&[&[bodies.as_str(), &cables, "--cable-set", "springs"], &ROPES[..2]].concat());
     let (said, written) = (stderr(&output), stdout(&output).replace("\n#   ", " "));
@@ -260,11 +260,11 @@ fn what_is_lost_or_assumed_is_said_twice_on_stderr_and_in_the_file() {
     assert!(!stderr(&said).contains("which no rope has"));
     let thick = Changed::of(&["tripod.wcrfx"], &[(r#"radius="0.002""#, r#"radius="0.008""#)]);
     let said = thick.import(&[]);
-    assert!(stderr(&said).contains("a rope of 249 kg/m³") && stderr(&said).contains("--diameter-m 0.008"));
+    assert!(stderr(&said).contains("a density of 249 kg/m³") && stderr(&said).contains("--diameter-m 0.008"));
 }
 
 #[test]
-fn limits_of_tension_are_carried_over_where_they_mean_the_same() {
+fn tension_limits_are_kept_if_they_have_the_same_meaning() {
     let [bodies, cables] = caspr();
     for written in [
         imported(&[&[bodies.as_str(), &cables], &ROPES[..]].concat()),
@@ -273,11 +273,11 @@ fn limits_of_tension_are_carried_over_where_they_mean_the_same() {
         assert_eq!(written.matches("\nminimum_tension_n = 10.0\nmaximum_tension_n = 2000.0\n").count(), 6, "{written}");
     }
     assert!(imported(&[&example("tripod.wcrfx")]).contains("\nbreaking_load_n = 15000.0\n"));
-    // What no cable can be held between, and what a hanging cable cannot be at.
+    // Limits that no tension satisfies, and limits that a hanging cable cannot reach.
     let limits = "<force_min>10</force_min>\n        <force_max>2000</force_max>";
     for (other, says) in [
-        (limits.replace("10<", "0.1<"), "not slack"),
-        (limits.replace("10<", "-1<"), "not slack"),
+        (limits.replace("10<", "0.1<"), "from being slack"),
+        (limits.replace("10<", "-1<"), "from being slack"),
         (limits.replace("10<", "2000<"), "minimum, which is not below the maximum"),
         (limits.replace("2000<", "0<"), "maximum, which is not positive"),
     ] {
@@ -300,7 +300,7 @@ fn a_model_without_a_pose_is_a_robot_without_a_state() {
 }
 
 #[test]
-fn options_that_would_change_nothing_are_refused() {
+fn options_without_effect_are_refused() {
     let [bodies, cables] = caspr();
     let springs =
         [&bodies, cables.as_str(), "--cable-set", "springs", "--mass-kg-per-m", "0.05", "--diameter-m", "0.004"];
@@ -316,7 +316,7 @@ fn options_that_would_change_nothing_are_refused() {
 }
 
 #[test]
-fn of_a_planar_platform_the_moment_about_the_normal_is_enough() {
+fn for_a_planar_platform_the_moment_about_the_normal_is_enough() {
     let of = |changes: [(&str, &str); 2]| {
         let joint = "SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"";
         Changed::of(&CASPR, &[&[(joint, "PLANAR_XZ\" q_initial=\"0.1 1.5 0\"")], &changes[..]].concat()).import(&ROPES)
@@ -325,7 +325,7 @@ fn of_a_planar_platform_the_moment_about_the_normal_is_enough() {
     assert!(stdout(&whole).contains("\ninertia_kg_m2 = 5.0\n"), "{}{}", stdout(&whole), stderr(&whole));
     let without = of([("<Ixx>4.0", "<Ixx>4.0"), ("<Iyy>5.0", "<Iyy>0.0")]);
     assert_eq!(without.status.code(), Some(2));
-    assert!(stderr(&without).contains("the moment about the normal of its plane counts"), "{}", stderr(&without));
+    assert!(stderr(&without).contains("only the moment about the normal of its plane counts"), "{}", stderr(&without));
 }
 
 #[test]
@@ -366,7 +366,7 @@ fn a_platform_that_only_translates_is_a_point_mass_with_moved_anchors() {
     let output = wirex.import(&["--pose", "0,0,1,10,0,0"]);
     assert!(stderr(&output).contains("a point mass has no orientation"), "{}", stderr(&output));
 
-    // A free point that three lines hold.
+    // A free point held by three lines.
     let point = "a ball\n--- LINE TYPES ---\nn\nu\nrope 0.01 0.1 1e5 0 0 0 0 0 0\n--- POINTS ---\nn\nu\n1 Fixed 3 0 4 0 0 0 0\n\
                  2 Fixed -2 2 4 0 0 0 0\n3 Fixed -2 -2 4 0 0 0 0\n4 Free 0 0 1 25 0 0 0\n--- LINES ---\nn\nu\n\
                  1 rope 1 4 4.2 20 -\n2 rope 4 2 4.1 20 -\n3 rope 3 4 4.1 20 -\n--- OPTIONS ---\n9.80665 g\n0 rho\n";
@@ -398,7 +398,7 @@ fn inertia_about_the_joint_is_brought_to_the_centre_of_mass() {
     let platform = json("check", &changed.imported(&ROPES), &[])["platform"].clone();
     assert!((numbers(&platform["inertia_kg_m2"][0])[0] - (4.0 - 60.0 * (0.02 * 0.02 + 0.05 * 0.05))).abs() < 1e-12);
     assert!((numbers(&platform["inertia_kg_m2"][0])[1] - 60.0 * 0.01 * -0.02).abs() < 1e-12);
-    // An option's mass is not the one that this tensor belongs to.
+    // This tensor does not belong to the mass of the option.
     let massless = Changed::of(&CASPR, &[("ref=\"com\"", "ref=\"joint\""), ("<mass>60.0", "<mass>0")]);
     let output = massless.import(&[&ROPES[..], &["--mass-kg", "60"]].concat());
     assert!(output.status.code() == Some(2) && stderr(&output).contains("--inertia-kg-m2"), "{}", stderr(&output));
@@ -418,7 +418,7 @@ fn a_quaternion_and_its_angles_are_one_pose() {
 }
 
 #[test]
-fn names_are_made_unique_and_other_files_of_a_model_are_left_aside() {
+fn names_are_made_unique_and_other_files_of_a_model_are_reported() {
     let changed = Changed::of(&CASPR, &[("name=\"2\"", "name=\"1\""), ("name=\"3\"", "name=\"\"")]);
     fs::write(changed.folder.path().join("tripod_trajectories.xml"), "<trajectories/>").unwrap();
     let output = changed.import(&ROPES);
@@ -431,7 +431,7 @@ fn names_are_made_unique_and_other_files_of_a_model_are_left_aside() {
 }
 
 #[test]
-fn the_robot_file_is_written_as_a_whole_or_not_at_all() {
+fn the_robot_file_is_written_completely_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("robot.toml");
     let target = path.to_str().unwrap();

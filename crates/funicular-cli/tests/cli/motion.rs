@@ -100,7 +100,7 @@ fn of_a_pose_that_two_cables_cannot_hold_the_nearest_is_given_and_said() {
     let found = json_of(&["statics", "-"], &file);
     let distance = found["nearest_pose_distance_m"].as_f64().unwrap();
     assert!(distance > 1e-3 && distance < 0.1, "{distance}");
-    assert!(found["warnings"][0].as_str().unwrap().contains("cannot hold the pose asked"));
+    assert!(found["warnings"][0].as_str().unwrap().contains("cannot hold the requested pose"));
     // Asked for what was found, there is nothing to say.
     let position = numbers(&found["pose"]["position_m"]);
     let angles = numbers(&found["pose"]["roll_pitch_yaw_deg"]);

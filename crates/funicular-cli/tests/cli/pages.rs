@@ -1,4 +1,4 @@
-//! The pages: where they go, what they repeat, what they refuse.
+//! Tests of the pages: output files, repeated command lines, refusals.
 
 use super::{command, robot, run, stderr, stdout, succeed};
 use base64::Engine as _;
@@ -61,7 +61,7 @@ fn options_of_state_model_and_response_reach_the_page() {
         "straight elastic cables",
         "below 12 Hz",
         "as in Yuan et al. 2014",
-        "in their planes only",
+        "cables with in-plane stiffness only",
         "the velocity along x of the platform&#39;s point (0.000, 0.000, −0.200) m to a moment about z",
         "(m/s)/(N·m)",
     ] {
@@ -70,7 +70,7 @@ fn options_of_state_model_and_response_reach_the_page() {
 }
 
 #[test]
-fn pages_that_cannot_be_are_refused() {
+fn impossible_pages_are_refused() {
     for (line, code, expected) in [
         ("report --below-hz 1e6", 2, "lower the limit"),
         ("report --cable-model shallow-dynamic --below-hz 1e6", 2, "at most 2000 are listed"),
@@ -107,7 +107,7 @@ fn a_page_warns_on_stderr_too() {
     assert!(stdout(&output).contains("<ul class=\"warnings\">"));
 }
 
-/// Header and displacements of the mode shapes of a page, read as its script reads them: by mode, cable, axis, station.
+/// Header and displacements of the mode shapes of a page, read like its script: per mode, cable, axis and station.
 fn shapes_of(page: &str) -> (Value, Vec<Vec<Vec<Vec<f64>>>>) {
     let packed = page.split_once("id=\"shapes-data\" data-packed>").unwrap().1.split_once('<').unwrap().0;
     let mut bytes = Vec::new();
@@ -135,7 +135,7 @@ fn shapes_of(page: &str) -> (Value, Vec<Vec<Vec<Vec<f64>>>>) {
 }
 
 #[test]
-fn the_page_moves_cables_as_the_library_says_and_hangs_them_on_the_platform() {
+fn the_mode_shapes_of_a_page_are_those_of_the_library_and_fit_the_platform() {
     for (name, below_hz) in
         [("yuan2014-4mm.toml", 6.0), ("cogiro.toml", 12.0), ("sap2000-8-cable-point-mass.toml", 30.0)]
     {
@@ -165,12 +165,12 @@ fn the_page_moves_cables_as_the_library_says_and_hangs_them_on_the_platform() {
                 for (station, moved) in cable.in_mode(&dynamics, mode).iter().enumerate() {
                     for (axis, expected) in moved.iter().enumerate() {
                         let given = shapes[k][i][axis][station];
-                        // Rounded to whole steps.
+                        // Rounded to integer steps.
                         assert!((given - expected).abs() <= 0.5 * step * (1.0 + 1e-9), "{name} mode {k} cable {i}");
                         largest = largest.max(given.abs());
                     }
                 }
-                // The page's own numbers: a cable's first point goes where the platform's corner goes.
+                // In the page's numbers a cable's first point moves with the platform's corner.
                 let [dx, dy, dz, tx, ty, tz]: [f64; 6] = serde_json::from_value(described["shape"].clone()).unwrap();
                 let corner_w = Vec3::new(dx, dy, dz) + Vec3::new(tx, ty, tz).cross(&state.lever_w);
                 let axes: [[f64; 3]; 3] = serde_json::from_value(header["cables"][i]["axes"].clone()).unwrap();

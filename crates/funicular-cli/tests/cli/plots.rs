@@ -1,4 +1,4 @@
-//! `plot`: the page of a map or sweep.
+//! Tests of `plot`: the page of a map or sweep.
 
 use super::{command, robot, run, stderr, stdout, succeed};
 use base64::Engine as _;
@@ -9,14 +9,14 @@ use std::fs;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Most bytes of a page.
-const MOST: usize = 5_000_000;
+/// Maximum size of a page [bytes].
+const MAX_BYTES: usize = 5_000_000;
 
 fn text(path: &Path) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// The page of what a command line writes, and what `plot` says on stderr.
+/// Page of the rows that a command line writes, and the messages of `plot` on stderr.
 fn page_of(line: &str) -> (String, String) {
     let folder = tempfile::tempdir().unwrap();
     let file = text(&folder.path().join("rows.parquet"));
@@ -26,11 +26,11 @@ fn page_of(line: &str) -> (String, String) {
     let output = run(&["plot", &file, "-o", "-"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let page = stdout(&output).to_owned();
-    assert!(page.len() < MOST && page.trim_end().ends_with("</html>"), "{}", page.len());
+    assert!(page.len() < MAX_BYTES && page.trim_end().ends_with("</html>"), "{}", page.len());
     (page, stderr(&output).to_owned())
 }
 
-/// What the script draws slices from: the header, the status of every cell, every quantity's numbers.
+/// Data of the slices: header, status of every cell, values of every quantity.
 fn slices(page: &str) -> (Value, Vec<u8>, Vec<Vec<f32>>) {
     let packed = page.split_once("id=\"slices-data\" data-packed>").unwrap().1.split_once('<').unwrap().0;
     let mut bytes = Vec::new();
@@ -45,7 +45,7 @@ fn slices(page: &str) -> (Value, Vec<u8>, Vec<Vec<f32>>) {
     (header, status.to_vec(), numbers.chunks(cells).map(<[f32]>::to_vec).collect())
 }
 
-/// The description of a figure that the page has whole.
+/// Description of a figure in the page.
 fn figure(page: &str, id: &str) -> Value {
     let begin = format!("<script type=\"application/json\" data-plot=\"{id}-plot\">");
     let json = page.split_once(&begin).unwrap_or_else(|| panic!("{id}")).1.split_once("</script>").unwrap().0;
@@ -83,7 +83,7 @@ fn a_grid_becomes_slices_that_hold_its_rows() {
     }
     assert!(feasible > 10 && feasible < 50, "{feasible}");
     assert!(page.contains(&format!("<dt>feasible</dt><dd>{feasible} (")));
-    // Every row is in a bar of the histogram, and in a status.
+    // Every row counts in the histogram and in a status.
     let sum = |values: &Value| values.as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).sum::<u64>();
     assert_eq!(sum(&header["quantities"][0]["bins"]), feasible as u64);
     let of_status = header["statuses"].as_array().unwrap().iter().map(|one| one["rows"].as_u64().unwrap());
@@ -111,14 +111,14 @@ fn values_that_do_not_ascend_are_drawn_in_their_order_on_the_axis() {
 }
 
 #[test]
-fn a_page_of_a_large_grid_is_thinned_and_says_so() {
+fn a_page_of_a_large_grid_is_thinned_with_a_note() {
     let (page, notes) = page_of("map COGIRO --grid x=-1:1:701 --grid y=-1:1:401 --grid z=1 --quantity condition");
     assert!(notes.contains("values of x (") && notes.contains("of 281101 rows)"), "{notes}");
     let (header, status, _) = slices(&page);
     assert!(status.len() > 50_000 && status.len() < 281_101, "{}", status.len());
     assert_eq!(header["quantities"][0]["count"], 281_101);
-    assert!(page.contains("which is what the page has room for"));
-    // One axis of positions alone has no view in space.
+    assert!(page.contains("to limit the size of the page"));
+    // Without all three axes of positions there is no view in space.
     assert!(header["space"].is_null() && !page.contains("figure-space-plot"));
 }
 
@@ -133,7 +133,7 @@ fn a_sweep_of_one_value_becomes_curves_whose_modes_are_followed() {
     let points = modes["data"].as_array().unwrap().last().unwrap();
     assert_eq!(points["x"].as_array().unwrap().len(), 60 * 8);
     assert!(points["marker"]["color"].as_array().unwrap().iter().any(|share| share.as_f64().unwrap() > 75.0));
-    // A line for a branch; some begin or end where another mode comes under the limit of eight.
+    // One line per branch; some begin or end where another mode enters the lowest eight.
     let lines = modes["data"].as_array().unwrap().len() - 1;
     assert!((8..20).contains(&lines), "{lines}");
     let tensions = figure(&page, "figure-1");
@@ -152,7 +152,7 @@ fn a_trajectory_is_drawn_over_its_path_and_infeasible_rows_are_shaded() {
     succeed(&["map", "ROBOT", "--poses", &text(&poses), "--quantity", "tensions,first-kind", "-o", &file]);
     let output = command(&["plot", "path.parquet"]).current_dir(folder.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).contains("wrote path.html (") && stderr(&output).contains("no picture for first_kind"));
+    assert!(stderr(&output).contains("wrote path.html (") && stderr(&output).contains("no figure for first_kind"));
     let page = fs::read_to_string(folder.path().join("path.html")).unwrap();
     let figure = figure(&page, "figure-1");
     assert_eq!(figure["layout"]["xaxis"]["title"]["text"], "length of the path [m]");
@@ -216,13 +216,13 @@ fn a_part_is_drawn_with_a_note_of_what_is_missing() {
     let (_, status, numbers) = slices(stdout(&output));
     let there = status.iter().filter(|code| **code != u8::MAX).count();
     assert!(there > 100 && there < 200, "{there} of 400");
-    // In the middle of the grid, where its rows belong.
+    // The rows are in the middle of the grid, where they belong.
     assert!(status[0] == u8::MAX && status[399] == u8::MAX && numbers[0][200].is_finite());
     assert!(stdout(&output).contains("not in this file"));
 }
 
 #[test]
-fn what_is_no_file_of_a_sweep_is_refused() {
+fn files_that_are_no_sweep_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| text(&folder.path().join(name));
     fs::write(path("text.parquet"), "x_m,y_m\n1,2\n").unwrap();

@@ -80,7 +80,7 @@ fn tensions_of_a_redundant_robot_follow_the_rule_and_show_their_limits() {
 fn a_state_beyond_its_limits_is_warned_of_with_numbers() {
     let output = run(&["statics", "ROBOT", "--max-tension-n", "50"]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(stderr(&output).contains("more than its `maximum_tension_n`, 50 N"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("above its `maximum_tension_n` of 50 N"), "{}", stderr(&output));
     let rope = "materials.rope-4mm.breaking_load_n=52";
     let output = run(&["statics", "ROBOT", "--set", rope]);
     assert!(stderr(&output).contains("its rope breaks at 52 N"), "{}", stderr(&output));

@@ -185,7 +185,7 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
     let discarded = [&slow(&path)[..], &["--discard".to_owned()]].concat();
     assert!(started(&discarded).wait().unwrap().success());
     assert!(!journal.exists());
-    assert!(stderr(&again).contains("go on with --resume, or begin anew with --discard"), "{}", stderr(&again));
+    assert!(stderr(&again).contains("continue with --resume, or start again with --discard"), "{}", stderr(&again));
 }
 
 #[test]
@@ -255,7 +255,7 @@ fn broken_sweeps_are_refused_with_one_message() {
         ("map ROBOT --grid x=0:1:5 --quantity energy,energy", "would be there twice"),
         ("map ROBOT --grid x=0:1:5 --quantity stiffness --static-model ideal", "does not exist with the static model"),
         ("map ROBOT --grid x=0:1:5 --tension-rule lowest", "nothing to choose"),
-        ("map ROBOT --grid x=0:1:5 -o rows.txt", "names no format: .parquet, .csv or .vti"),
+        ("map ROBOT --grid x=0:1:5 -o rows.txt", "names no format: choose .parquet, .csv or .vti"),
         ("map ROBOT --grid x=0:1:5 -o no/such/folder/a.csv", "there is no directory"),
         ("map ROBOT --grid x=0:1:5 -o /dev/null", "names no format"),
         ("map ROBOT --grid x=0:1:5 -o -", "--format csv and without -o"),

@@ -4,7 +4,7 @@ use super::plan::PlanData;
 use super::table::PyTable;
 use crate::errors;
 use crate::threads::Threads;
-use funicular_files::table::{Growing, Table, unpack};
+use funicular_files::table::{Table, TableBuilder, unpack};
 use funicular_files::{Format, Job};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -15,7 +15,7 @@ use std::time::Instant;
 
 /// Destination of the rows.
 enum RowStore {
-    Memory(Growing),
+    Memory(TableBuilder),
     File(Box<Job>, PathBuf),
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct PyWork {
 
 impl PyWork {
     pub(crate) fn in_memory(data: Arc<PlanData>) -> Self {
-        let store = RowStore::Memory(Growing::new(data.record.clone()));
+        let store = RowStore::Memory(TableBuilder::new(data.record.clone()));
         Self { data, store: Some(store) }
     }
 
@@ -158,7 +158,7 @@ impl PyWork {
                 let table = if is_parquet(&path) {
                     None
                 } else {
-                    let mut rows = Growing::new(data.record.clone());
+                    let mut rows = TableBuilder::new(data.record.clone());
                     let mut added = Ok(());
                     job.each(&mut |chunk| {
                         if added.is_ok() {
@@ -190,7 +190,7 @@ fn is_parquet(path: &Path) -> bool {
     Format::of(path).is_ok_and(|format| format == Format::Parquet)
 }
 
-fn finished(rows: Growing) -> PyResult<PyTable> {
+fn finished(rows: TableBuilder) -> PyResult<PyTable> {
     let table: Table = rows.finish().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     Ok(PyTable::of(table))
 }

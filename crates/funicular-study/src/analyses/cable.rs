@@ -239,7 +239,7 @@ fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<
 
 /// What the core warns of, for this cable alone.
 fn warnings(robot: &Robot, i: usize, state: &CableState, sag: &Sag, model: CableModel, below_hz: f64) -> Vec<String> {
-    use funicular::warnings::{AXIAL_PART, DeepSag, Warning};
+    use funicular::warnings::{AXIAL_FRACTION, DeepSag, Warning};
     let cable = robot.cables[i].name.clone();
     let mut warnings = Vec::new();
     if state.is_slack() {
@@ -249,7 +249,7 @@ fn warnings(robot: &Robot, i: usize, state: &CableState, sag: &Sag, model: Cable
         warnings.push(Warning::DeepSag { cables: vec![deep], model });
     }
     let axial_hz = sag.axial_frequency_hz();
-    if model != CableModel::CatenaryDynamic && below_hz > AXIAL_PART * axial_hz {
+    if model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz {
         warnings.push(Warning::AxialWaves { cable, axial_hz, below_hz });
     }
     warnings.iter().map(ToString::to_string).collect()

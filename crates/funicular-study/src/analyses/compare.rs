@@ -84,7 +84,7 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
         in_plane_only: request.terms.in_plane_only,
     };
     let (reference, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
-    modes::check_count(&reference, request.below_hz, modes::MOST)?;
+    modes::check_count(&reference, request.below_hz, modes::MAX_MODES)?;
     let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation)?;
     let Comparison { below_hz, reference, models, advice } = found;
     for model in &models {

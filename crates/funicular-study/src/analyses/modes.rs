@@ -124,7 +124,7 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
     let signals = signals(&at_rest.robot, pair.as_ref(), request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
-    modes::check_count(&dynamics, request.below_hz, modes::MOST)?;
+    modes::check_count(&dynamics, request.below_hz, modes::MAX_MODES)?;
     let found = modes::below(&dynamics, request.below_hz);
     warnings.extend(found.caveat());
     let AtRest { robot, equilibrium, .. } = at_rest;

@@ -1,59 +1,63 @@
-//! A hanging cable as a chain of equal straight elastic bars with its weight in the joints.
+//! Model of a hanging cable as a chain of equal straight elastic bars with its weight in the joints.
 //!
-//! A chain of the cable's own length and weight pulls at the platform with another force than the cable: its bars cut
-//! corners, and its joints have their weight at other places than the cable between them. Both errors fall with the
-//! square of the number of bars, and both can be undone: the bars are shorter, their weight is another, by some 1e-5 of
-//! it for twenty bars, so that the force on the platform is the catenary's.
+//! A chain with the cable's own length and weight pulls at the platform with another force than the cable: its bars cut
+//! corners, and its weight is concentrated in the joints. Both errors fall with the square of the number of bars, and
+//! both can be corrected: the bars are shortened and the weight is changed (by about 1e-5 of it for twenty bars), so
+//! that the force on the platform equals the force of the catenary.
 
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::statics::Equilibrium;
 
-/// One cable as a chain.
+/// Chain of bars that replaces a cable.
 #[derive(Debug, Clone)]
 pub(crate) struct Chain {
     /// Unstrained length of each bar [m].
     pub(crate) bar_length: f64,
-    /// Weight (and other load along it) of the chain over that of the cable.
+    /// Ratio of the chain's weight (and other load along it) to the cable's.
     pub(crate) weight_factor: f64,
     /// Joints in equilibrium from the platform to the anchor, ends included, world axes [m].
     pub(crate) nodes_w: Vec<Vec3>,
 }
 
-/// What the chain is to stand for.
-struct Cable {
+/// Cable that a chain replaces.
+struct HangingCable {
     chord_w: Vec3,
     /// Force on the platform [N].
     force_w: Vec3,
-    /// With any other load along it [N].
+    /// Weight and any other load along the cable [N].
     weight_w: Vec3,
     axial_stiffness: f64,
 }
 
 impl Chain {
-    /// Cable `i` of a robot at rest as a chain of `count` bars; of one bar if it has no mass.
+    /// Replaces cable `i` of a robot at equilibrium by a chain of `count` bars, or by one bar if the cable has no mass.
     ///
     /// # Errors
-    /// A slack cable: nothing keeps a chain of bars in its place.
+    /// A slack cable, because nothing keeps a chain of bars in its place.
     pub(crate) fn of(robot: &Robot, equilibrium: &Equilibrium, i: usize, count: usize) -> Result<Self> {
         let (cable, state) = (&robot.cables[i], &equilibrium.cables[i]);
         let mass = cable.material.mass_per_length * state.unstrained_length;
         let weight_w = robot.line_load(i, &state.chord_w()).vector_w() * state.unstrained_length;
         if mass == 0.0 && weight_w != Vec3::zeros() {
-            bail!("cable \"{}\" has a load and no mass: joints of bars need a `mass_kg_per_m`", cable.name);
+            bail!(
+                "cable \"{}\" has a load but no mass: the joints of its bars need mass, so give its material a \
+                 `mass_kg_per_m`",
+                cable.name
+            );
         }
         let count = if mass > 0.0 { count } else { 1 };
-        let straight = Cable {
+        let cable_data = HangingCable {
             chord_w: state.anchor_w - state.attachment_w,
             force_w: state.force_on_platform_w,
             weight_w,
             axial_stiffness: cable.material.axial_stiffness,
         };
-        match straight.chain(state.attachment_w, count) {
+        match cable_data.chain(state.attachment_w, count) {
             Some(chain) if !state.is_slack() => Ok(chain),
             _ => bail!(
-                "cable \"{}\" is slack or hangs as a loop, and a chain of {count} bars does not stand for it: shorten it, \
+                "cable \"{}\" is slack or hangs as a loop, and a chain of {count} bars cannot replace it: shorten it, \
                  or give another pose",
                 cable.name
             ),
@@ -61,17 +65,19 @@ impl Chain {
     }
 }
 
-impl Cable {
+impl HangingCable {
     fn chain(&self, start_w: Vec3, count: usize) -> Option<Chain> {
-        const MOST: usize = 50;
+        // Newton's method converges in a few steps; the limit only stops a search that finds nothing.
+        const MAX_STEPS: usize = 50;
         let chord = self.chord_w.norm();
         let along = self.chord_w / chord;
-        // The one direction across the chord in which weight acts; of a vertical cable there is none.
+        // Direction normal to the chord in which weight acts; zero for a vertical cable.
         let across = self.weight_w - along * along.dot(&self.weight_w);
         let across = across.try_normalize(1e-9 * self.weight_w.norm()).unwrap_or_default();
+
         let mut factor = 1.0;
-        for _ in 0..MOST {
-            // The weight that brings the chain's end back to the chord.
+        for _ in 0..MAX_STEPS {
+            // Newton step for the weight factor: the chain's end has to lie on the chord.
             let (mut off, mut slope, mut scale) = (0.0, 0.0, 0.0);
             for (force, by_factor) in self.forces(factor, count) {
                 let (compliance, part) = (self.compliance(&force), force.dot(&across));
@@ -84,6 +90,8 @@ impl Cable {
             }
             factor -= off / slope;
         }
+
+        // Joints from the platform to the anchor.
         let steps: Vec<Vec3> = self.forces(factor, count).map(|(force, _)| force * self.compliance(&force)).collect();
         let bar_length = chord / steps.iter().sum::<Vec3>().dot(&along);
         let mut nodes_w = vec![start_w];
@@ -91,6 +99,7 @@ impl Cable {
             nodes_w.push(nodes_w[nodes_w.len() - 1] + step * bar_length);
         }
         nodes_w.push(start_w + self.chord_w);
+
         let last = nodes_w[count - 1] + steps[count - 1] * bar_length;
         let ends_there = (last - nodes_w[count]).norm() <= 1e-9 * chord;
         (bar_length > 0.0 && bar_length.is_finite() && ends_there).then_some(Chain {
@@ -100,8 +109,8 @@ impl Cable {
         })
     }
 
-    /// Force in each bar, towards the anchor [N], and its derivative by the weight factor: half of a bar's weight hangs at
-    /// each of its ends.
+    /// Force in each bar towards the anchor [N], and its derivative with respect to the weight factor. Half of a bar's
+    /// weight acts at each of its ends.
     fn forces(&self, factor: f64, count: usize) -> impl Iterator<Item = (Vec3, Vec3)> {
         let per_bar = self.weight_w / count as f64;
         (0..count).map(move |i| {
@@ -110,7 +119,7 @@ impl Cable {
         })
     }
 
-    /// Length per unstrained length and force of a bar [1/N].
+    /// Length of a bar per unstrained length and force [1/N].
     fn compliance(&self, force: &Vec3) -> f64 {
         1.0 / force.norm() + 1.0 / self.axial_stiffness
     }
@@ -145,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_bars_are_shorter_by_falls_with_the_square_of_their_number() {
+    fn the_shortening_of_bars_falls_with_the_square_of_their_number() {
         let (robot, rest) = rest();
         for (i, state) in rest.cables.iter().enumerate() {
             let less = |count: usize| {

@@ -1,8 +1,8 @@
-//! An input file of MoorDyn, version 2, in air.
+//! Export to a MoorDyn input file (version 2), in air.
 //!
-//! A line of MoorDyn is a chain of bars, see [`super::chain`]; each has its own type, for its own mass per length.
-//! MoorDyn has principal moments of inertia only, so its body has the platform's principal axes where these are not
-//! those of the platform frame. Its origin is the platform's.
+//! A line of MoorDyn is a chain of bars (see [`super::chain`]). Each line has its own line type, because each has its
+//! own mass per length. MoorDyn takes only principal moments of inertia, so the axes of its body are the platform's
+//! principal axes. The origin of the body is the origin of the platform.
 
 use super::chain::Chain;
 use super::one_line;
@@ -14,7 +14,7 @@ use funicular::robot::{Damping, Material, PlatformMotion, Robot};
 
 #[derive(Template)]
 #[template(path = "moordyn.txt", escape = "none")]
-struct Input {
+struct MoorDynFile {
     name: String,
     source: String,
     segments: usize,
@@ -24,7 +24,7 @@ struct Input {
     damping: bool,
     types: Vec<LineType>,
     body: Option<BodyRow>,
-    points: Vec<PointRow>,
+    points: Vec<MoorDynPointRow>,
     lines: Vec<LineRow>,
     step: f64,
     gravity: f64,
@@ -44,7 +44,7 @@ struct BodyRow {
     moments: Vec3,
 }
 
-struct PointRow {
+struct MoorDynPointRow {
     id: usize,
     attachment: &'static str,
     at: Vec3,
@@ -58,10 +58,10 @@ struct LineRow {
     unstrained_length: f64,
 }
 
-/// The input file.
+/// Writes the input file.
 ///
 /// # Errors
-/// A slack cable, or what MoorDyn has not: guides, loads, massless lines, gravity other than along −z.
+/// A slack cable, or a feature that MoorDyn lacks: guides, loads, massless lines, gravity in another direction than −z.
 pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
@@ -70,6 +70,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         PlatformMotion::Rigid => Some(Frame::of(at_rest)),
         PlatformMotion::PointMass | PlatformMotion::Planar(_) => None,
     };
+
     let mut points = Vec::new();
     let mut lines = Vec::new();
     let (mut step, mut shortened, mut heavier, mut lowest) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
@@ -80,6 +81,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         let mass_per_length =
             chain.weight_factor * cable.material.mass_per_length * (state.unstrained_length / unstrained_length);
         heavier = heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
+
         let name = type_name(&cable.material.name, i);
         let axial_stiffness = cable.material.axial_stiffness;
         types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
@@ -87,26 +89,29 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         step = step.min(STEP * chain.bar_length / wave);
         shortened = shortened.max(state.unstrained_length - unstrained_length);
         lowest = chain.nodes_w.iter().map(|node| node.z).fold(lowest, f64::min);
-        points.push(PointRow { id: i + 1, attachment: "Fixed", at: cable.anchor.reference_w(), mass: 0.0 });
+
+        points.push(MoorDynPointRow { id: i + 1, attachment: "Fixed", at: cable.anchor.reference_w(), mass: 0.0 });
         let mut end = cables + 1;
         if let Some(frame) = &body {
             end += i;
             let at = frame.axes_p.transpose() * cable.attachment_p;
-            points.push(PointRow { id: end, attachment: "Body1", at, mass: 0.0 });
+            points.push(MoorDynPointRow { id: end, attachment: "Body1", at, mass: 0.0 });
         }
         lines.push(LineRow { id: i + 1, kind: name, ends: [end, i + 1], unstrained_length });
     }
+
     if body.is_none() {
         let Robot { platform, .. } = robot;
         let at = equilibrium.pose.point_w(&platform.center_of_mass_p);
-        points.push(PointRow { id: cables + 1, attachment: "Free", at, mass: platform.mass });
+        points.push(MoorDynPointRow { id: cables + 1, attachment: "Free", at, mass: platform.mass });
     }
     points.sort_by_key(|point| point.id);
+
     let undamped = |material: &Material| {
         matches!(material.damping, Damping::Ratio(zeta) if zeta == 0.0)
             || matches!(material.damping, Damping::Viscous(c) if c == 0.0)
     };
-    let input = Input {
+    let input = MoorDynFile {
         name: without_section(&robot.name),
         source: without_section(&robot.source),
         segments,
@@ -123,13 +128,14 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         lines,
         step,
         gravity: -robot.gravity_w.z,
-        // Far below anything, for the seabed.
+        // The seabed lies far below the robot.
         depth: (-10.0 * lowest).max(1000.0),
     };
     Ok(input.render()? + "\n")
 }
 
-/// Time step over the time that a wave takes along a segment: a Runge-Kutta method of fourth order is stable up to √2.
+/// Ratio of the time step to the time that a wave takes along a segment. The Runge-Kutta method of fourth order is
+/// stable up to √2.
 const STEP: f64 = 0.5;
 
 fn refuse(robot: &Robot) -> Result<()> {
@@ -141,20 +147,25 @@ fn refuse(robot: &Robot) -> Result<()> {
     }
     if robot.load.force_w != Vec3::zeros() || robot.load.moment_w != Vec3::zeros() {
         bail!(
-            "a load acts on the platform: MoorDyn's input has no forces but weight and water (EXTERNAL LOADS is read by \
-             its Fortran edition only); leave out [loads], ⟪force_n⟫ and ⟪moment_n_m⟫, or export to OpenSees"
+            "a load acts on the platform: MoorDyn's input has no forces but weight and water (only its Fortran edition \
+             reads EXTERNAL LOADS); leave out [loads], ⟪force_n⟫ and ⟪moment_n_m⟫, or export to OpenSees"
         );
     }
     let along = robot.cables.iter().any(|cable| cable.load_per_length_w != Vec3::zeros());
     if robot.wind.velocity_w != Vec3::zeros() || along {
         bail!(
-            "wind or another load acts along the cables: MoorDyn's input has water, no wind; leave out [wind], \
+            "wind or another load acts along the cables: MoorDyn's input has water but no wind; leave out [wind], \
              `load_n_per_m`, ⟪wind_m_s⟫ and ⟪cable_load_n_per_m⟫, or export to OpenSees"
         );
     }
     let g = robot.gravity_w;
     if g.x != 0.0 || g.y != 0.0 || g.z > 0.0 {
-        bail!("gravity is ({}, {}, {}) m/s²: MoorDyn has it along -z only; turn the robot's world axes", g.x, g.y, g.z);
+        bail!(
+            "gravity is ({}, {}, {}) m/s²: MoorDyn has it along -z only; rotate the robot's world axes",
+            g.x,
+            g.y,
+            g.z
+        );
     }
     if let Some(cable) = robot.cables.iter().find(|cable| cable.material.mass_per_length == 0.0) {
         bail!("cable \"{}\" has no mass, and MoorDyn divides by it: give its material a `mass_kg_per_m`", cable.name);
@@ -162,21 +173,22 @@ fn refuse(robot: &Robot) -> Result<()> {
     Ok(())
 }
 
-/// Letters of a rope's name that the name of a line type takes: enough to recognise it, and few enough for readers that
-/// have room for a short word only.
+/// Maximum number of letters of a rope's name in the name of a line type: enough to recognise the rope, and few enough
+/// for readers that accept only short words.
 const MAX_ROPE_LETTERS: usize = 64;
 
-/// Name of the line type of cable `i`: the beginning of its rope's name without what ends a word or begins a section, and a
-/// number, since every cable has its own mass per length. The number makes it unique, however alike the ropes' names are.
+/// Name of the line type of cable `i`: the beginning of its rope's name and the number of the cable. Characters that
+/// end a word or begin a section are replaced. The number makes the name unique; every cable has its own mass per
+/// length.
 fn type_name(material: &str, i: usize) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() || "-.".contains(c) { c } else { '_' };
     let rope: String = material.chars().take(MAX_ROPE_LETTERS).map(letter).collect();
     format!("{}_{}", without_section(&rope), i + 1)
 }
 
-/// The body's frame.
+/// Frame of the MoorDyn body.
 struct Frame {
-    /// Its axes in the platform frame, as columns.
+    /// Axes of the body in the platform frame, as columns.
     axes_p: Mat3,
     row: BodyRow,
 }
@@ -208,14 +220,15 @@ impl Frame {
     }
 }
 
-/// Axes and their moments in the order and with the signs that turn them least: right-handed, of the largest trace. An
-/// eigenvalue solver leaves both open, and forward statics of an imported robot begins from its frame without rotation.
+/// Right-handed principal axes and their moments, in the order and with the signs that rotate the frame least (largest
+/// trace). An eigenvalue solver leaves order and signs open, and forward statics of an imported robot starts from its
+/// frame without rotation.
 fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
     let mut nearest = (Mat3::identity(), *moments);
     let mut largest = f64::NEG_INFINITY;
     for order in ORDERS {
-        // One sign too many is put on the axis that loses least by it.
+        // A left-handed frame needs one more sign change: on the axis that reduces the trace least.
         let mut frame = Mat3::from_columns(&order.map(|k| axes.column(k).into_owned()));
         for k in 0..3 {
             if frame[(k, k)] < 0.0 {
@@ -234,7 +247,7 @@ fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
     nearest
 }
 
-/// On one line, which begins no section: three hyphens would.
+/// Puts a text on one line without three hyphens in a row, which would begin a section.
 fn without_section(text: &str) -> String {
     let mut text = one_line(text);
     while text.contains("---") {
@@ -262,10 +275,10 @@ mod tests {
     }
 
     #[test]
-    fn of_all_principal_axes_those_are_taken_that_turn_the_frame_least() {
+    fn the_chosen_principal_axes_rotate_the_frame_least() {
         const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
         for case in 0..200 {
-            // Turns all around, and moments that are near each other too.
+            // All kinds of rotations, and moments that are close to each other, too.
             let angle = |step: f64| 3.0 * (step * f64::from(case)).sin();
             let turn = Vec3::new(angle(0.7), angle(1.3), angle(2.1));
             let rot = rotation::turned(&Rotation::identity(), &turn).to_rotation_matrix();

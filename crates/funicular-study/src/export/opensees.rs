@@ -1,16 +1,17 @@
-//! A script for OpenSeesPy: cables as chains of bars, the platform as masses on a frame of stiff bars.
+//! Export to a script for OpenSeesPy: cables as chains of bars, the platform as masses on a frame of stiff bars.
 //!
-//! Only bars, no beams and no rigid links: bars turn with their ends, so that a force on a platform that tilts keeps
-//! its point. A rigid link of OpenSees is linear and loses the moment of that; a frame of stiff beams has their own
-//! flexibility against bending.
+//! The model has only bars, neither beams nor rigid links. Bars rotate with their ends, so a force on a tilting
+//! platform keeps its point of application. A rigid link of OpenSees is linear and loses the moment of this rotation; a
+//! frame of stiff beams would add the bending flexibility of the beams.
 //!
-//! The guide of a planar platform holds every point of it across the plane. Points of a platform that moves in a plane keep
-//! their distance from it however far they go, so this is no linearisation. It needs the normal as a coordinate axis: where
-//! it is none, the whole model is turned.
+//! The guide of a planar platform holds every point of the platform along the normal of the plane. Points of a platform
+//! that moves in a plane keep their distance from it for any motion, so this is not a linearisation. The normal has to
+//! be a coordinate axis: otherwise the complete model is rotated.
 //!
-//! Nodes of bars take no moments; on beams OpenSees' moments stay fixed in the world and make its tangent unsymmetric. A
-//! moment is two couples of dead forces at right angles, half of it each: semi-tangential, with the stiffness ½\[m\]× of
-//! the theory (48), so that statics and frequencies are both those of funicular.
+//! Nodes of bars take no moments, and on beams OpenSees keeps moments fixed in the world, which makes the tangent
+//! unsymmetric. A moment is therefore written as two couples of dead forces at right angles, each with half of it. This
+//! moment is semi-tangential with the stiffness ½\[m\]× of the theory (48), so that both statics and frequencies agree
+//! with funicular.
 
 use super::chain::Chain;
 use super::{first_frequencies, modes_below, one_line};
@@ -21,14 +22,14 @@ use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Load, PlatformMotion, Robot};
 use serde::Serialize;
 
-/// Natural frequencies to compare with, unless a limit is given.
+/// Number of natural frequencies for the comparison, if no limit is given.
 const FREQUENCIES: usize = 10;
-/// Stiffness of a bar of the platform over that of the stiffest cable, EA/L. A tenth of it lowers CoGiRo's platform
-/// modes by 1e-6, ten times as much costs digits.
+/// Ratio of the stiffness of a platform bar to the stiffness EA/L of the stiffest cable. A tenth of it lowers CoGiRo's
+/// platform modes by 1e-6; ten times as much costs digits.
 const FRAME_STIFFNESS: f64 = 1e6;
-/// Relative error of the first frequency by rounding, above which the user is told.
+/// Relative rounding error of the first frequency above which the user is warned.
 const ROUNDING: f64 = 1e-5;
-/// Points nearer than this part of the frame's size are one.
+/// Points nearer than this fraction of the frame's size count as one point.
 const TOUCHING: f64 = 1e-9;
 
 #[derive(Template)]
@@ -51,7 +52,7 @@ struct Script {
     size: f64,
 }
 
-/// What the script knows of a cable.
+/// Data of a cable in the script.
 #[derive(Serialize)]
 struct CableData<'a> {
     name: &'a str,
@@ -65,10 +66,10 @@ struct CableData<'a> {
     nodes: Vec<[f64; 3]>,
 }
 
-/// The script.
+/// Writes the script.
 ///
 /// # Errors
-/// A slack cable; no equilibrium of catenary-dynamic cables, more modes than a table has rows.
+/// A slack cable, no modes with the model catenary-dynamic, or more modes than a table has rows.
 pub(crate) fn script(
     at_rest: &AtRest,
     segments: usize,
@@ -80,23 +81,26 @@ pub(crate) fn script(
         None => first_frequencies(at_rest, FREQUENCIES, warnings)?,
         Some(limit) => modes_below(at_rest, limit, warnings)?.1.modes.iter().map(|mode| mode.frequency_hz).collect(),
     };
-    let body = body(at_rest);
+
+    let body = mass_points(at_rest);
     let size = body.size;
     let platform: Vec<([f64; 3], f64)> = body.points.iter().map(|(point, mass)| ((*point).into(), *mass)).collect();
     let loads: Vec<[[f64; 3]; 2]> =
         body.loads(at_rest).iter().map(|(point, force)| [(*point).into(), (*force).into()]).collect();
     let (axes, guided) = axes(robot.platform.motion);
+
     let stiffest = |i: usize| robot.cables[i].material.axial_stiffness / equilibrium.cables[i].unstrained_length;
     let frame_stiffness = FRAME_STIFFNESS * (0..robot.cables.len()).map(stiffest).fold(0.0, f64::max);
     let lost = frequencies.first().map_or(0.0, |first_hz| rounding(&body, frame_stiffness, *first_hz));
     if lost > ROUNDING {
         warnings.push(format!(
-            "OpenSees will know the lowest frequencies to some {lost:.0e} only: they are low for the stiff bars between the \
-             masses that stand for the platform, {size:.3} m from its centre of mass, with attachments {:.3} m from its \
-             origin; if that is not so, correct inertia_kg_m2",
+            "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of \
+             the stiff bars between the masses that represent the platform. These masses are {size:.3} m from its \
+             centre of mass, the attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
             robot.platform_length()
         ));
     }
+
     let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments)).collect::<Result<Vec<_>>>()?;
     let script = Script {
         segments,
@@ -135,14 +139,14 @@ fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
     })
 }
 
-/// What rounding means for the frequencies of the script: they are those of masses on bars that are far stiffer than what
-/// the modes feel. About the relative error of the first in double precision.
-fn rounding(body: &Body, frame_stiffness: f64, first_hz: f64) -> f64 {
+/// Estimate of the relative rounding error of the script's first frequency in double precision. The error comes from
+/// the frame's bars, which are far stiffer than the cables.
+fn rounding(body: &MassPoints, frame_stiffness: f64, first_hz: f64) -> f64 {
     let heaviest = body.points.iter().fold(0.0, |most: f64, (_, mass)| most.max(*mass));
     f64::EPSILON * frame_stiffness / (heaviest * (std::f64::consts::TAU * first_hz).powi(2))
 }
 
-/// World axes of the script's coordinates, and the coordinate that a guide holds.
+/// World axes of the script's coordinates, and the index of the coordinate that a guide holds.
 fn axes(motion: PlatformMotion) -> ([Vec3; 3], Option<usize>) {
     let coordinates = [Vec3::x(), Vec3::y(), Vec3::z()];
     let PlatformMotion::Planar(plane) = motion else { return (coordinates, None) };
@@ -154,34 +158,34 @@ fn axes(motion: PlatformMotion) -> ([Vec3; 3], Option<usize>) {
     ([first, second, normal], Some(2))
 }
 
-/// Two unit vectors that make a right-handed set of axes with a normal.
+/// Two unit vectors that form right-handed axes together with a normal.
 fn in_plane(normal: &Vec3) -> [Vec3; 2] {
     let first = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
     [first, normal.cross(&first)]
 }
 
-/// The platform as points with masses.
-struct Body {
-    /// Places in the world [m] and masses [kg]: the centre of mass, then a pair at either end of each arm.
+/// Model of the platform: points with masses.
+struct MassPoints {
+    /// Positions in the world [m] and masses [kg]: the centre of mass, then a pair of points per arm, one at each end.
     points: Vec<(Vec3, f64)>,
-    /// From the centre to the second of each pair, world axes [m]; at right angles to each other.
+    /// Vectors from the centre of mass to the second point of each pair, world axes [m], at right angles to each other.
     arms: Vec<Vec3>,
     /// Length of the arms [m].
     size: f64,
 }
 
-/// The platform's points, which have its mass, its centre of mass, and its inertia as far as it can turn.
+/// Points with the platform's mass, centre of mass and inertia, the inertia only as far as the platform can rotate.
 ///
-/// A pair at ±r along an axis has the second moment of mass about the plane across it; the centre has what is left of the
-/// mass, which is not negative if r² is at least the sum of the second moments over the mass.
-fn body(at_rest: &AtRest) -> Body {
+/// A pair at ±r along an axis has the second moment of mass about the plane normal to this axis. The centre has the
+/// rest of the mass, which is not negative if r² is at least the sum of the second moments divided by the mass.
+fn mass_points(at_rest: &AtRest) -> MassPoints {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let Robot { platform, .. } = robot;
     let pose = &equilibrium.pose;
-    // Along each axis its second moment of mass.
+    // Axes, and the second moment of mass along each.
     let axes: Vec<(Vec3, f64)> = match platform.motion {
         PlatformMotion::PointMass => Vec::new(),
-        // The moment about the normal is all that counts, and all that the file has to say; each axis in the plane has
+        // Only the moment about the normal matters, and the file need not give another; each axis in the plane gets
         // half of it.
         PlatformMotion::Planar(plane) => {
             let normal = plane.normal_w();
@@ -192,11 +196,13 @@ fn body(at_rest: &AtRest) -> Body {
             let principal = platform.inertia_p.symmetric_eigen();
             let half_trace = 0.5 * principal.eigenvalues.sum();
             let axes_w: Mat3 = pose.rot_wp.to_rotation_matrix() * principal.eigenvectors;
-            // The file's reader has refused what is no body; rounding may leave less than nothing of a flat one.
+            // The reader of the robot file refuses impossible tensors; for a flat body rounding may still give small
+            // negative values.
             let second = principal.eigenvalues.map(|moment| (half_trace - moment).max(0.0));
             (0..3).map(|k| (axes_w.column(k).into_owned(), second[k])).collect()
         }
     };
+
     let whole: f64 = axes.iter().map(|(_, second)| second).sum();
     let size = robot.platform_length().max((whole / platform.mass).sqrt());
     let center_w = pose.point_w(&platform.center_of_mass_p);
@@ -205,11 +211,11 @@ fn body(at_rest: &AtRest) -> Body {
         let mass = 0.5 * second / (size * size);
         points.extend([(center_w - axis * size, mass), (center_w + axis * size, mass)]);
     }
-    Body { points, arms: axes.iter().map(|(axis, _)| axis * size).collect(), size }
+    MassPoints { points, arms: axes.iter().map(|(axis, _)| axis * size).collect(), size }
 }
 
-impl Body {
-    /// Dead forces that are the robot's load: where they act, world axes [m], and what they are [N].
+impl MassPoints {
+    /// Dead forces that represent the robot's load: point of application [m] and force [N], world axes.
     fn loads(&self, at_rest: &AtRest) -> Vec<(Vec3, Vec3)> {
         let AtRest { robot, equilibrium, .. } = at_rest;
         let Load { force_w, moment_w, point_p } = robot.load;
@@ -224,7 +230,7 @@ impl Body {
         let center_w = self.points[0].0;
         for (i, a) in self.arms.iter().enumerate() {
             for b in &self.arms[i + 1..] {
-                // Of a planar platform there is one pair of arms; other components of the moment are the guide's.
+                // A planar platform has one pair of arms; the guide takes the other components of the moment.
                 let about = moment_w.dot(&a.cross(b)) / self.size.powi(4);
                 if about != 0.0 {
                     for (arm, force) in [(a, b * (0.25 * about)), (b, -a * (0.25 * about))] {
@@ -237,7 +243,7 @@ impl Body {
     }
 }
 
-/// A value as Python reads it: numbers, lists and texts of JSON are the same there.
+/// Python text of a value: numbers, lists and strings of JSON are also valid in Python.
 fn json(value: &impl Serialize) -> Result<String> {
     Ok(serde_json::to_string(value)?)
 }
@@ -255,15 +261,15 @@ mod tests {
         AtRest { robot, equilibrium, requested_pose: None, rule: None }
     }
 
-    /// Measured on this robot with OpenSees: the first frequency is off by 4e-5 at 1,600 times its inertia, by 5.7e-4 at
-    /// 10,000 times, beyond the error of the bars.
+    /// Measured on this robot with OpenSees, beyond the error of the bars: the first frequency is off by 4e-5 at 1,600
+    /// times its inertia, and by 5.7e-4 at 10,000 times.
     #[test]
-    fn digits_that_opensees_loses_are_foreseen() {
+    fn the_loss_of_digits_in_opensees_is_predicted() {
         let mut at_rest = at_rest(funicular_robots::YUAN2014_4MM);
         let inertia_p = at_rest.robot.platform.inertia_p;
         let mut lost = |times: f64, first_hz: f64| {
             at_rest.robot.platform.inertia_p = inertia_p * times;
-            rounding(&body(&at_rest), 1e6 * 251_327.4 / 5.77, first_hz)
+            rounding(&mass_points(&at_rest), 1e6 * 251_327.4 / 5.77, first_hz)
         };
         assert!(lost(1.0, 1.02) < 0.1 * ROUNDING);
         for (times, first_hz, measured) in [(1600.0, 0.0439, 4e-5), (10_000.0, 0.01757, 5.7e-4)] {
@@ -276,7 +282,7 @@ mod tests {
     fn the_points_of_the_platform_have_its_mass_its_centre_and_its_whole_inertia_tensor() {
         for text in [funicular_robots::COGIRO, funicular_robots::YUAN2014_4MM] {
             let at_rest = at_rest(text);
-            let points = body(&at_rest).points;
+            let points = mass_points(&at_rest).points;
             let of = &at_rest.robot.platform;
             let rot_wp = at_rest.equilibrium.pose.rot_wp.to_rotation_matrix();
             let center_w = at_rest.equilibrium.pose.point_w(&of.center_of_mass_p);
@@ -303,7 +309,7 @@ mod tests {
     fn the_points_of_a_planar_platform_have_its_mass_its_centre_and_its_moment_about_the_normal() {
         for normal in ["0.0, 1.0, 0.0", "1.0, 2.0, -2.0"] {
             let at_rest = at_rest(&planar(normal));
-            let Body { points, size, .. } = body(&at_rest);
+            let MassPoints { points, size, .. } = mass_points(&at_rest);
             let of = &at_rest.robot.platform;
             let PlatformMotion::Planar(plane) = of.motion else { panic!("it is planar") };
             let center_w = at_rest.equilibrium.pose.point_w(&of.center_of_mass_p);
@@ -341,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn the_forces_that_stand_for_a_load_have_its_wrench_and_its_stiffness() {
+    fn the_dead_forces_of_a_load_have_its_wrench_and_its_stiffness() {
         let load = Load {
             force_w: Vec3::new(3.0, -2.0, 5.0),
             moment_w: Vec3::new(0.7, 1.1, -0.4),
@@ -352,7 +358,7 @@ mod tests {
             let mut at_rest = at_rest(text);
             at_rest.robot.load = load;
             let motion = at_rest.robot.platform.motion;
-            // Of a planar platform the rest of the moment is the guide's.
+            // The guide of a planar platform takes the rest of the moment.
             let moment_w = match motion {
                 PlatformMotion::Planar(plane) => plane.normal_w() * plane.normal_w().dot(&load.moment_w),
                 _ => load.moment_w,
@@ -360,7 +366,7 @@ mod tests {
             let pose = &at_rest.equilibrium.pose;
             let lever = pose.rot_wp * load.point_p;
             let (mut force, mut moment, mut stiffness) = (Vec3::zeros(), Vec3::zeros(), Mat3::zeros());
-            for (point, dead) in body(&at_rest).loads(&at_rest) {
+            for (point, dead) in mass_points(&at_rest).loads(&at_rest) {
                 let arm = point - pose.position_w;
                 force += dead;
                 moment += arm.cross(&dead);
@@ -374,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_cannot_leave_its_place_in_the_script() {
+    fn a_name_cannot_inject_code_into_the_script() {
         let text = funicular_robots::SAP2000_8_CABLE_POINT_MASS
             .replace("name = \"8-cable", "name = \"\\\"\\\"\\\"; import os #8-cable");
         let script = script(&at_rest(&text), 2, Some(1.0), &mut Vec::new()).unwrap();

@@ -1,4 +1,5 @@
-//! The shape at rest and the modes as VTK XML (`.vtp`), for ParaView: cables as polylines, the platform as triangles.
+//! Export of the equilibrium shape and the modes as VTK XML (`.vtp`), for ParaView: polylines for the cables, triangles
+//! for the platform.
 
 use super::{modes_below, one_line};
 use crate::at_rest::AtRest;
@@ -12,12 +13,12 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 use std::fmt::Write as _;
 use std::io;
 
-/// What the points and cells of the file are, cables first.
+/// Points and cells of the file, cables first.
 struct Shape {
     points_w: Vec<Vec3>,
     tension: Vec<f64>,
     arc_length: Vec<f64>,
-    /// Of each cell: the cable counted from one in file order, or zero for the platform.
+    /// Owner of each cell: number of the cable from one in the order of the file, or zero for the platform.
     part: Vec<usize>,
     /// Displacement of every point in each mode, with its name.
     modes: Vec<(String, Vec<Vec3>)>,
@@ -25,10 +26,10 @@ struct Shape {
     triangles: Vec<[usize; 3]>,
 }
 
-/// The file: curves of `segments` pieces a cable; with a limit [Hz] a field of vectors for each mode below it.
+/// Writes the file: a curve of `segments` pieces per cable, and with a limit [Hz] a field of vectors per mode below it.
 ///
 /// # Errors
-/// More modes than a file takes, or cables that cannot be discretised.
+/// Too many modes for a file, or cables that cannot be discretised.
 pub(crate) fn poly_data(
     at_rest: &AtRest,
     segments: usize,
@@ -55,7 +56,7 @@ fn stations(at_rest: &AtRest, dynamics: &Dynamics, segments: usize) -> Result<Ve
     (0..at_rest.robot.cables.len()).map(of).collect()
 }
 
-/// In the order of the points: along every cable, then the attachments.
+/// Displacements of all points in a mode: first along every cable, then of the attachments.
 fn displacements(at_rest: &AtRest, dynamics: &Dynamics, stations: &[CableStations], mode: &Mode) -> Vec<Vec3> {
     let mut all = Vec::new();
     for of in stations {
@@ -165,7 +166,7 @@ fn array(out: &mut Writer<Vec<u8>>, kind: &str, name: &str, components: Option<u
     Ok(())
 }
 
-/// Numbers with all their digits.
+/// Text of numbers with all digits.
 fn numbers(values: &[f64]) -> String {
     values.iter().fold(String::new(), |mut text, value| {
         let _ = write!(text, "{:e} ", value + 0.0);
@@ -184,13 +185,13 @@ fn listed<'a>(values: impl Iterator<Item = &'a usize>) -> String {
     })
 }
 
-/// Triangles of the convex hull of some points: those that have all points on one side. In a plane that has more than
-/// three points they lie over one another; of points in one plane all are faces.
+/// Triangles of the convex hull of points: all triangles with every point on one side. Triangles of a face with more
+/// than three points overlap; if all points lie in one plane, every triangle is a face.
 fn hull(points: &[Vec3]) -> Vec<[usize; 3]> {
-    // n⁴ steps; a platform has some ten attachments.
-    const MOST: usize = 40;
+    // The search takes n⁴ steps; a platform has about ten attachments.
+    const MAX_POINTS: usize = 40;
     let n = points.len();
-    if n > MOST {
+    if n > MAX_POINTS {
         return Vec::new();
     }
     let reach = points.iter().map(|point| (point - points[0]).norm()).fold(0.0, f64::max);

@@ -1,10 +1,10 @@
-//! CASPR: a file of bodies and a file of cables.
+//! Import of CASPR models: a file of bodies and a file of cables.
 //!
 //! # References
 //!
 //! D. Lau, J. Eden, Y. Tan, D. Oetomo, CASPR: a comprehensive cable-robot analysis and simulation platform for the
-//! research of cable-driven parallel robots, IEEE/RSJ IROS 2016. What the elements mean is as its readers take them
-//! (github.com/darwinlau/CASPR: BodyModelRigid, JointBase, SystemModelCables, CableAttachmentPoint).
+//! research of cable-driven parallel robots, IEEE/RSJ IROS 2016. The elements have the meaning that CASPR's own readers
+//! give them (github.com/darwinlau/CASPR: BodyModelRigid, JointBase, SystemModelCables, CableAttachmentPoint).
 
 mod bodies;
 mod cables;
@@ -15,14 +15,14 @@ use super::xml::Xml;
 use anyhow::Result;
 use funicular::math::Vec3;
 
-/// Gravity [m/s²]: CASPR knows no other.
+/// Gravity [m/s²], fixed in CASPR.
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 
-/// The robot of a pair of files, with one of its sets of cables.
+/// Reads the robot of a pair of files with one of its cable sets.
 ///
 /// # Errors
 ///
-/// What is wrong in which line; or what the robot has that a robot file cannot hold.
+/// The line and the value at fault; or the feature of the robot that a robot file cannot hold.
 pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Result<Draft> {
     let body = bodies::read(bodies)?;
     let set = cables::read(cables, wanted_set, &body.center_of_mass_p)?;
@@ -32,7 +32,7 @@ pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Resu
     let mut notes =
         vec!["Platform frame: at the joint of the source's link. Gravity 9.81 m/s² along -z, as in CASPR".to_owned()];
     if body.pose.is_none() {
-        notes.push("The file has no pose, q_initial: ⟪pose⟫ of import or of an analysis gives one".to_owned());
+        notes.push("The file has no pose, q_initial: give ⟪pose⟫ to import or to an analysis".to_owned());
     }
     let mut lost = body.lost;
     lost.extend(set.lost);

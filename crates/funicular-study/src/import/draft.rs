@@ -1,4 +1,4 @@
-//! A robot on its way into a robot file: what a source says of it, what the options add, what is lost.
+//! Draft of a robot during an import: facts of the source, additions from options, assumptions and losses.
 
 mod file;
 
@@ -9,38 +9,39 @@ use funicular::robot::{Pose, Robot};
 use funicular::statics::TensionRange;
 use std::collections::BTreeSet;
 
-/// What a source says of a robot.
+/// Facts of a source about a robot.
 pub(crate) struct Draft {
     pub(crate) name: String,
-    /// Program, files, set: where the numbers come from.
+    /// Source of the numbers: program, files, cable set.
     pub(crate) source: String,
     /// Acceleration of gravity, world axes [m/s²].
     pub(crate) gravity_w: Vec3,
     pub(crate) platform: DraftPlatform,
     pub(crate) cables: Vec<DraftCable>,
     pub(crate) state: DraftState,
-    /// How numbers were rewritten without a change of the robot.
+    /// Changes of the numbers that do not change the robot.
     pub(crate) notes: Vec<String>,
-    /// What is taken to be so though the source does not say it.
+    /// Assumptions that the source does not state.
     pub(crate) assumed: Vec<String>,
-    /// What the source says and the robot file does not hold.
+    /// Facts of the source that the robot file does not hold.
     pub(crate) lost: Vec<String>,
 }
 
-/// The moving platform.
+/// Moving platform of a draft.
 pub(crate) struct DraftPlatform {
-    /// Mass [kg]; `None` where the source has none.
+    /// Mass [kg]; `None` if the source has none.
     pub(crate) mass: Option<f64>,
-    /// Tensor about the centre of mass, platform axes [kg m²]; `None` where the source has none that a body can have.
+    /// Inertia tensor about the centre of mass, platform axes [kg m²]; `None` if the source has no physically possible
+    /// one.
     pub(crate) inertia_p: Option<Mat3>,
-    /// Centre of mass in the platform frame [m]; `None` where the source has none.
+    /// Centre of mass in the platform frame [m]; `None` if the source has none.
     pub(crate) center_of_mass_p: Option<Vec3>,
     pub(crate) motion: DraftMotion,
-    /// Where the source speaks of mass and inertia: `file:line`, with the column in XML.
+    /// Place of mass and inertia in the source: `file:line`, with the column in XML.
     pub(crate) place: String,
 }
 
-/// Which motions the platform has.
+/// Motion that the platform can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum DraftMotion {
     Rigid,
@@ -54,8 +55,8 @@ pub(crate) enum DraftMotion {
 }
 
 impl DraftMotion {
-    /// Of a planar platform the world axis across its plane, x first.
-    fn across(self) -> Option<usize> {
+    /// World axis normal to the plane of a planar platform: 0, 1 or 2 for x, y or z.
+    fn normal_axis(self) -> Option<usize> {
         match self {
             Self::Planar { plane: "yz" } => Some(0),
             Self::Planar { plane: "xz" } => Some(1),
@@ -65,7 +66,7 @@ impl DraftMotion {
     }
 }
 
-/// A cable.
+/// Cable of a draft.
 pub(crate) struct DraftCable {
     pub(crate) name: String,
     /// Anchor in the world frame [m].
@@ -73,16 +74,16 @@ pub(crate) struct DraftCable {
     /// Attachment in the platform frame [m].
     pub(crate) attachment_p: Vec3,
     pub(crate) rope: DraftRope,
-    /// Least and greatest tension [N].
+    /// Minimum and maximum tension [N].
     pub(crate) limits: [Option<f64>; 2],
     /// Unstrained length [m].
     pub(crate) unstrained_length: Option<f64>,
 }
 
-/// A rope, as far as a source knows it.
+/// Rope of a draft, with the properties that the source gives.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct DraftRope {
-    /// What the source calls it; may be empty.
+    /// Name in the source; may be empty.
     pub(crate) name: String,
     /// Mass per unstrained length [kg/m].
     pub(crate) mass_per_length: Option<f64>,
@@ -92,24 +93,24 @@ pub(crate) struct DraftRope {
     pub(crate) youngs_modulus: Option<f64>,
     /// Diameter [m].
     pub(crate) diameter: Option<f64>,
-    /// Tension at which it breaks [N].
+    /// Breaking load [N].
     pub(crate) breaking_load: Option<f64>,
 }
 
-/// What the source says of the state.
+/// State of the robot in the source.
 pub(crate) enum DraftState {
-    /// The cables have lengths.
+    /// Given by the unstrained lengths of the cables.
     Lengths,
     Pose(Pose),
     Unknown,
 }
 
 impl Draft {
-    /// Adds what the options say. An option wins over the source.
+    /// Adds the values of the options. An option overrides the source.
     ///
     /// # Errors
     ///
-    /// One message with every option that is needed and missing.
+    /// One message with every option that is required and missing.
     pub(crate) fn complete(&mut self, ropes: &ImportRopes, platform: &ImportPlatform) -> Result<()> {
         ropes.check()?;
         platform.check()?;
@@ -120,13 +121,13 @@ impl Draft {
         let mut missing = self.complete_platform(platform);
         missing.extend(self.complete_ropes(ropes));
         if !missing.is_empty() {
-            bail!("the source lacks what no robot file is without: {}", missing.join("; "));
+            bail!("the source lacks values that a robot file needs: {}", missing.join("; "));
         }
         self.leave_out_limits();
         Ok(())
     }
 
-    /// Refuses options that would change nothing.
+    /// Refuses options that would have no effect.
     fn refuse_useless(&self, ropes: &ImportRopes, platform: &ImportPlatform) -> Result<()> {
         if self.platform.motion == DraftMotion::PointMass {
             let given = [
@@ -142,25 +143,29 @@ impl Draft {
         let has_stiffness = self.cables.iter().any(|cable| cable.rope.axial_stiffness.is_some());
         if ropes.diameter_m.is_some() && ropes.youngs_modulus_pa.is_none() && has_stiffness {
             bail!(
-                "the source has EA of the ropes, which ⟪diameter_m⟫ does not change: leave it out, or add ⟪youngs_modulus_pa⟫"
+                "the source gives EA of the ropes, which ⟪diameter_m⟫ does not change: leave it out, or add \
+                 ⟪youngs_modulus_pa⟫"
             );
         }
         Ok(())
     }
 
-    /// Leaves out limits of tension that a robot file cannot hold, or that mean something else there.
+    /// Removes tension limits that a robot file cannot hold or that have another meaning there.
     fn leave_out_limits(&mut self) {
         let limits: Vec<_> = self.cables.iter_mut().map(|cable| std::mem::take(&mut cable.limits)).collect();
+
         let mut text = String::new();
         self.tables(&mut text);
-        // A robot that is none is refused later, with the reason.
+        // An invalid robot is refused later, with the reason.
         let robot = Robot::from_toml(&text).ok();
-        let mut left: [(&str, Vec<String>); 4] = [
+
+        let mut removed: [(&str, Vec<String>); 4] = [
             ("maximum, which is not positive", Vec::new()),
             ("maximum, which is above the breaking load", Vec::new()),
             ("minimum, which is not below the maximum", Vec::new()),
             (
-                "minimum, which is below that of analyses without one: it says of straight cables that they are not slack",
+                "minimum, which is below the default minimum of analyses: in the source it only keeps straight cables \
+                 from being slack",
                 Vec::new(),
             ),
         ];
@@ -169,25 +174,26 @@ impl Draft {
                 DraftState::Pose(pose) => cable.anchor_w - pose.point_w(&cable.attachment_p),
                 DraftState::Lengths | DraftState::Unknown => Vec3::zeros(),
             };
-            let without = robot.as_ref().map_or(0.0, |robot| TensionRange::of(robot, i, &chord).minimum);
+            let default_minimum = robot.as_ref().map_or(0.0, |robot| TensionRange::of(robot, i, &chord).minimum);
             let breaks = cable.rope.breaking_load.unwrap_or(f64::INFINITY);
             let gone = [
-                maximum.take_if(|greatest| *greatest <= 0.0),
-                maximum.take_if(|greatest| *greatest > breaks),
-                minimum.take_if(|least| *least >= maximum.unwrap_or(breaks)),
-                minimum.take_if(|least| *least < without),
+                maximum.take_if(|limit| *limit <= 0.0),
+                maximum.take_if(|limit| *limit > breaks),
+                minimum.take_if(|limit| *limit >= maximum.unwrap_or(breaks)),
+                minimum.take_if(|limit| *limit < default_minimum),
             ];
-            for ((_, names), _) in left.iter_mut().zip(gone).filter(|(_, gone)| gone.is_some()) {
+            for ((_, names), _) in removed.iter_mut().zip(gone).filter(|(_, gone)| gone.is_some()) {
                 names.push(cable.name.clone());
             }
             cable.limits = [minimum, maximum];
         }
-        for (what, names) in left.into_iter().filter(|(_, names)| !names.is_empty()) {
-            self.lost.push(format!("a limit of tension of the cables {}, the {what}", listed(&names)));
+
+        for (what, names) in removed.into_iter().filter(|(_, names)| !names.is_empty()) {
+            self.lost.push(format!("a tension limit of the cables {}: the {what}", listed(&names)));
         }
     }
 
-    /// Gives every cable a name of its own, as results are listed by name.
+    /// Gives every cable a unique name, because results are listed by name.
     fn name_cables(&mut self) {
         let given: BTreeSet<String> = self.cables.iter().map(|cable| cable.name.clone()).collect();
         let mut taken = BTreeSet::new();
@@ -209,8 +215,8 @@ impl Draft {
         }
     }
 
-    /// A platform that cannot rotate feels forces only: its cables may as well end in one point, if their anchors move by
-    /// as much.
+    /// Moves all cables of a point mass to one point. A platform that cannot rotate feels only forces, so shifting an
+    /// attachment to the origin and its anchor by the same vector changes nothing.
     fn merge_point_mass(&mut self) {
         if self.platform.motion != DraftMotion::PointMass {
             return;
@@ -218,7 +224,7 @@ impl Draft {
         if self.cables.iter().any(|cable| cable.attachment_p != Vec3::zeros()) {
             self.notes.push(
                 "The platform translates only. Its cables end in one point here: each anchor is the source's anchor minus \
-                 the source's attachment, which leaves lengths, forces and motion as they are"
+                 the source's attachment; lengths, forces and motion do not change"
                     .to_owned(),
             );
             for cable in &mut self.cables {
@@ -237,10 +243,10 @@ impl Draft {
         }
         match self.state {
             DraftState::Lengths => {
-                self.lost.push("the unstrained lengths of the source: ⟪pose⟫ stands for them".to_owned());
+                self.lost.push("the unstrained lengths of the source: ⟪pose⟫ replaces them".to_owned());
                 self.cables.iter_mut().for_each(|cable| cable.unstrained_length = None);
             }
-            DraftState::Pose(_) => self.lost.push("the pose of the source: ⟪pose⟫ stands for it".to_owned()),
+            DraftState::Pose(_) => self.lost.push("the pose of the source: ⟪pose⟫ replaces it".to_owned()),
             DraftState::Unknown => {}
         }
         self.notes.push("The pose is that of ⟪pose⟫".to_owned());
@@ -248,7 +254,7 @@ impl Draft {
         Ok(())
     }
 
-    /// What of the platform is missing.
+    /// Adds the options of the platform and lists the values that are still missing.
     fn complete_platform(&mut self, options: &ImportPlatform) -> Vec<String> {
         let mut missing = Vec::new();
         let platform = &mut self.platform;
@@ -265,6 +271,7 @@ impl Draft {
         if platform.motion == DraftMotion::PointMass {
             return missing;
         }
+
         if let Some(inertia) = options.inertia_kg_m2 {
             self.notes.push("The platform's inertia tensor is that of ⟪inertia_kg_m2⟫".to_owned());
             let [xx, yy, zz, xy, xz, yz] = inertia;
@@ -274,14 +281,15 @@ impl Draft {
             self.notes.push("The platform's centre of mass is that of ⟪center_of_mass_m⟫".to_owned());
             platform.center_of_mass_p = Some(center.into());
         }
-        let across = platform.motion.across();
-        // About the normal of its plane a planar platform needs a moment, however many others there are.
-        let turns = |inertia: &Mat3| across.is_none_or(|normal| inertia[(normal, normal)] > 0.0);
+
+        // A planar platform rotates about the normal of its plane only, so this moment of inertia has to be positive.
+        let normal = platform.motion.normal_axis();
+        let turns = |inertia: &Mat3| normal.is_none_or(|normal| inertia[(normal, normal)] > 0.0);
         if !platform.inertia_p.as_ref().is_some_and(turns) {
             missing.push(format!(
-                "{}: the platform has no inertia tensor that a body can have, give ⟪inertia_kg_m2⟫ XX,YY,ZZ{}",
+                "{}: the platform has no physically possible inertia tensor, give ⟪inertia_kg_m2⟫ XX,YY,ZZ{}",
                 platform.place,
-                if across.is_some() { ", of which the moment about the normal of its plane counts" } else { "" }
+                if normal.is_some() { ", of which only the moment about the normal of its plane counts" } else { "" }
             ));
         }
         if platform.center_of_mass_p.is_none() {
@@ -291,7 +299,7 @@ impl Draft {
         missing
     }
 
-    /// What of the ropes is missing.
+    /// Adds the options of the ropes and lists the values that are still missing.
     fn complete_ropes(&mut self, options: &ImportRopes) -> Vec<String> {
         let mut given = Vec::new();
         if let Some(mass) = options.mass_kg_per_m {
@@ -317,9 +325,10 @@ impl Draft {
             self.cables.iter_mut().for_each(|cable| cable.rope.diameter = Some(diameter));
         }
         if !given.is_empty() {
-            let stand = if given.len() == 1 { "stands" } else { "stand" };
-            self.notes.push(format!("Ropes: {} {stand} for all of them", given.join(" and ")));
+            let apply = if given.len() == 1 { "applies" } else { "apply" };
+            self.notes.push(format!("Ropes: {} {apply} to all ropes", given.join(" and ")));
         }
+
         let lack = |is: fn(&DraftRope) -> bool| self.cables.iter().any(|cable| is(&cable.rope));
         let mut missing = Vec::new();
         if lack(|rope| rope.mass_per_length.is_none()) {
@@ -337,21 +346,21 @@ impl Draft {
     }
 }
 
-/// `R = Rx(a) Ry(b) Rz(c)` [rad], the angles of CASPR and MoorDyn; a robot file has `Rz Ry Rx`.
+/// Rotation `R = Rx(a) Ry(b) Rz(c)` [rad], the convention of CASPR and MoorDyn. A robot file uses `Rz Ry Rx`.
 pub(crate) fn rotation_xyz(a: f64, b: f64, c: f64) -> Rotation {
     Rotation::from_euler_angles(a, 0.0, 0.0)
         * Rotation::from_euler_angles(0.0, b, 0.0)
         * Rotation::from_euler_angles(0.0, 0.0, c)
 }
 
-/// `"1"`, `"2"` and `"3"`, or the first of many.
+/// List of names such as `"1", "2" and "3"`; a long list is cut off.
 pub(crate) fn listed(names: &[String]) -> String {
-    const MOST: usize = 12;
-    let quoted: Vec<String> = names.iter().take(MOST).map(|name| format!("\"{name}\"")).collect();
-    match (&quoted[..], names.len() > MOST) {
+    const MAX_LISTED: usize = 12;
+    let quoted: Vec<String> = names.iter().take(MAX_LISTED).map(|name| format!("\"{name}\"")).collect();
+    match (&quoted[..], names.len() > MAX_LISTED) {
         ([all @ .., last], false) if !all.is_empty() => format!("{} and {last}", all.join(", ")),
         (all, false) => all.concat(),
-        (all, true) => format!("{} and {} more", all.join(", "), names.len() - MOST),
+        (all, true) => format!("{} and {} more", all.join(", "), names.len() - MAX_LISTED),
     }
 }
 
@@ -362,7 +371,7 @@ mod tests {
     #[test]
     fn angles_about_moving_axes_turn_about_x_last_in_the_world() {
         let (s, c) = (0.5_f64.sin(), 0.5_f64.cos());
-        // Rx(90°) Rz(0.5) takes x to (cos, 0, sin): z turns first, then x lifts it.
+        // Rx(90°) Rz(0.5) takes x to (cos, 0, sin): the rotation about z acts first, then the rotation about x.
         let turned = rotation_xyz(std::f64::consts::FRAC_PI_2, 0.0, 0.5) * Vec3::x();
         assert!((turned - Vec3::new(c, 0.0, s)).norm() < 1e-15, "{turned}");
     }

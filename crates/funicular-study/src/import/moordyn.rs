@@ -1,9 +1,9 @@
-//! MoorDyn: an input file of version 2 with one body, or one free point, on lines.
+//! Import of MoorDyn input files (version 2) with one body, or one free point, held by lines.
 //!
 //! # References
 //!
-//! moordyn.readthedocs.io, "Input files", of version 2.7. That angles are degrees about moving axes, x first, was checked
-//! against MoorDyn 2.7.2 itself.
+//! moordyn.readthedocs.io, "Input files", version 2.7. A run of MoorDyn 2.7.2 confirmed that angles are degrees about
+//! moving axes, x first.
 
 mod objects;
 mod sections;
@@ -12,21 +12,21 @@ use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, Dra
 use super::text::{SourceFile, clean};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
-use objects::{Holder, Line, Model, Point};
-use sections::Row;
+use objects::{Holder, MoorDynLine, MoorDynModel, MoorDynPoint};
+use sections::SourceRow;
 
-/// Whether a text has the sections of an input file.
+/// True if a text has the sections of a MoorDyn input file.
 pub(crate) fn is_input(text: &str) -> bool {
     sections::is_input(text)
 }
 
-/// The robot of a file.
+/// Reads the robot of a file.
 ///
 /// # Errors
 ///
-/// What is wrong in which line; or what the robot has that a robot file cannot hold.
+/// The line and the value at fault; or the feature of the robot that a robot file cannot hold.
 pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
-    let mut model = Model::read(file)?;
+    let mut model = MoorDynModel::read(file)?;
     let (platform, on_platform) = platform(file, &model)?;
     let mut cables = Vec::new();
     let mut lost = std::mem::take(&mut model.lost);
@@ -39,7 +39,10 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
                 lost.push(format!("line {}, which does not hold the platform", line.id));
             }
             (true, true) => {
-                bail!(line.row.error(file, format!("line {} has both ends on the platform; it moves nothing", line.id)))
+                bail!(
+                    line.row
+                        .error(file, format!("line {} has both ends on the platform; give it one fixed end", line.id))
+                )
             }
             (false, false) => {
                 let free = if a.holder == Holder::Fixed { b } else { a };
@@ -54,6 +57,7 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
             }
         }
     }
+
     if cables.is_empty() {
         bail!("{}: no line holds the platform", file.path);
     }
@@ -72,37 +76,39 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
     })
 }
 
-/// What the platform is: a body, or a point.
+/// Object of the file that is the platform: a body or a point.
 #[derive(Clone, Copy)]
 enum On {
     Body(usize),
     Point(usize),
 }
 
-fn holds(on: On, point: &Point) -> bool {
+fn holds(on: On, point: &MoorDynPoint) -> bool {
     match on {
         On::Body(id) => point.holder == Holder::Body(id),
         On::Point(id) => point.id == id,
     }
 }
 
-fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
-    let moving: Vec<&objects::Body> = model.bodies.iter().filter(|body| body.is_free).collect();
+fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, On)> {
+    let moving: Vec<&objects::MoorDynBody> = model.bodies.iter().filter(|body| body.is_free).collect();
     if let [body] = moving[..] {
         if let Some(held) = model.bodies.iter().find(|body| !body.is_free) {
-            bail!(held.row.error(file, format!("body {} is held; give the file without it", held.id)));
+            bail!(held.row.error(file, format!("body {} is fixed; remove it from the file", held.id)));
         }
-        // Masses of points that are fixed to the body are masses of the body.
+        // Masses of points fixed to the body belong to the body.
         let masses = model.points.iter().filter(|point| point.holder == Holder::Body(body.id));
         let parts: Vec<(f64, Vec3, Mat3)> = std::iter::once((body.mass, body.center_p, body.inertia_p))
             .chain(masses.map(|point| (point.mass, point.position, Mat3::zeros())))
             .filter(|(mass, ..)| *mass > 0.0)
             .collect();
+
         let mass: f64 = parts.iter().map(|(mass, ..)| mass).sum();
         let center =
             if mass > 0.0 { parts.iter().map(|(part, center, _)| center * (part / mass)).sum() } else { body.center_p };
         let about = |at: &Vec3| Mat3::identity() * at.norm_squared() - at * at.transpose();
         let inertia: Mat3 = parts.iter().map(|(part, at, own)| own + about(&(at - center)) * *part).sum();
+
         let platform = DraftPlatform {
             mass: (mass > 0.0).then_some(mass),
             inertia_p: (inertia != Mat3::zeros()).then_some(inertia),
@@ -117,7 +123,7 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
         bail!(second.row.error(file, message));
     }
     if let Some(body) = model.bodies.first() {
-        bail!(body.row.error(file, format!("body {} is fixed: nothing moves", body.id)));
+        bail!(body.row.error(file, format!("body {} is fixed, so nothing moves; make it free", body.id)));
     }
     match model.points.iter().filter(|point| point.holder == Holder::Free).collect::<Vec<_>>()[..] {
         [point] => {
@@ -140,7 +146,13 @@ fn platform(file: &SourceFile, model: &Model) -> Result<(DraftPlatform, On)> {
     }
 }
 
-fn cable(file: &SourceFile, model: &Model, line: &Line, anchor: &Point, attachment: &Point) -> Result<DraftCable> {
+fn cable(
+    file: &SourceFile,
+    model: &MoorDynModel,
+    line: &MoorDynLine,
+    anchor: &MoorDynPoint,
+    attachment: &MoorDynPoint,
+) -> Result<DraftCable> {
     if anchor.holder != Holder::Fixed {
         bail!(line.row.error(
             file,
@@ -173,7 +185,7 @@ fn cable(file: &SourceFile, model: &Model, line: &Line, anchor: &Point, attachme
     })
 }
 
-impl Row<'_> {
+impl SourceRow<'_> {
     /// `file:line` of the row.
     fn place(&self, file: &SourceFile) -> String {
         format!("{}:{}", file.path, self.line)

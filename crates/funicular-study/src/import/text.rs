@@ -1,17 +1,17 @@
-//! Bytes of a file as text, and numbers in it.
+//! Decoding of source files into text, and parsing of their numbers.
 
 use anyhow::{Context, Result, bail};
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Maximum size of a file [bytes]. A cable takes some 500 of XML, so a larger file is another one given by mistake.
+/// Maximum size of a file [bytes]. A cable takes about 500 bytes of XML, so a larger file was given by mistake.
 pub const MAX_BYTES: usize = 16 << 20;
 
-/// Largest magnitude of a number, as in robot files.
+/// Maximum magnitude of a number, the same limit as in robot files.
 const MAX_NUMBER: f64 = 1e12;
 
-/// A file of another program, as text.
+/// File of another program, decoded to text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SourceFile {
@@ -19,20 +19,21 @@ pub struct SourceFile {
     pub path: String,
     /// Text of the file.
     pub text: String,
-    /// The encoding, if it had to be guessed.
+    /// Name of the encoding, if it had to be guessed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub guessed_encoding: Option<String>,
 }
 
 impl SourceFile {
-    /// The encoding is that of a byte-order mark, else the one that the XML declares, else UTF-8, else the one that
-    /// Windows programs of western Europe write without saying so.
+    /// Decodes a file. The encoding is given by a byte-order mark, otherwise by the XML declaration. Without either it
+    /// is UTF-8 if the bytes are valid UTF-8, and windows-1252 otherwise, which western European Windows programs
+    /// write.
     ///
     /// # Errors
-    /// A file that is too large, or no text in its encoding.
+    /// A file that is too large, or that is no text in its encoding.
     pub fn decode(path: String, bytes: &[u8]) -> Result<Self> {
         if bytes.len() > MAX_BYTES {
-            bail!("{path} is larger than {} MiB: it is no file of one robot", MAX_BYTES >> 20);
+            bail!("{path} is larger than {} MiB, the limit for the file of one robot", MAX_BYTES >> 20);
         }
         let declared = declared_encoding(bytes);
         let (encoding, guessed) = match Encoding::for_bom(bytes) {
@@ -49,7 +50,7 @@ impl SourceFile {
         };
         let (text, _, broken) = encoding.decode(bytes);
         if broken {
-            bail!("{path} is no text in {}, as it says it is; save it as UTF-8", encoding.name());
+            bail!("{path} is no text in {}, the encoding that it declares; save it as UTF-8", encoding.name());
         }
         if let Some(at) = text.find('\0') {
             bail!("{path} is no text: character {} is zero", at + 1);
@@ -57,19 +58,19 @@ impl SourceFile {
         Ok(Self { path, text: text.into_owned(), guessed_encoding: guessed })
     }
 
-    /// The name without folders, for the file that is written.
+    /// File name without folders, for use in the robot file.
     pub(crate) fn name(&self) -> String {
         let name = Path::new(&self.path).file_name().map_or(self.path.clone().into(), std::ffi::OsStr::to_string_lossy);
         clean(&name)
     }
 
-    /// The name without folders and ending.
+    /// File name without folders and ending.
     pub(crate) fn stem(&self) -> String {
         let name = self.name();
         Path::new(&name).file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned())
     }
 
-    /// What the reader should know of how the file was decoded.
+    /// Note on a guessed encoding, if there was one.
     pub(crate) fn caveat(&self) -> Option<String> {
         self.guessed_encoding
             .as_ref()
@@ -77,7 +78,7 @@ impl SourceFile {
     }
 }
 
-/// What `<?xml … encoding="…"?>` says.
+/// Encoding declared by `<?xml … encoding="…"?>`.
 fn declared_encoding(bytes: &[u8]) -> Option<String> {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]);
     let declaration = head.trim_start().strip_prefix("<?xml")?.split_once("?>")?.0;
@@ -86,14 +87,14 @@ fn declared_encoding(bytes: &[u8]) -> Option<String> {
     Some(value[1..].split_once(quote)?.0.trim().to_owned())
 }
 
-/// Text of a file as it may stand in a name or a comment: one line, no control characters, not without end.
+/// Text of a file made fit for names and comments: one line, no control characters, limited length.
 pub(crate) fn clean(text: &str) -> String {
-    const LONGEST: usize = 200;
+    const MAX_LENGTH: usize = 200;
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    line.chars().filter(|c| !c.is_control() && !matches!(c, '\u{2028}' | '\u{2029}')).take(LONGEST).collect()
+    line.chars().filter(|c| !c.is_control() && !matches!(c, '\u{2028}' | '\u{2029}')).take(MAX_LENGTH).collect()
 }
 
-/// A finite number of a file, or what is wrong with it.
+/// Parses a finite number of a file. The error describes the bad value.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     match text.parse::<f64>() {
@@ -108,7 +109,7 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Numbers separated by white space.
+/// Parses numbers separated by white space.
 pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split_whitespace().map(number).collect()
 }
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_text_is_refused() {
+    fn bytes_that_are_no_text_are_refused() {
         for (bytes, expected) in [
             (&b"<?xml encoding=\"utf-8\"?>\xFF"[..], "no text in UTF-8"),
             (b"<?xml encoding=\"klingon\"?>", "`klingon` is unknown"),
@@ -146,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_finite_and_have_points() {
+    fn numbers_are_finite_and_have_decimal_points() {
         assert_eq!(number(" -13.332E-3 "), Ok(-0.013_332));
         for (text, expected) in [
             ("", "empty"),

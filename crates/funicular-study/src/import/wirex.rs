@@ -1,9 +1,9 @@
-//! WireX: `.wcrfx`, a robot with its cables and winches.
+//! Import of WireX files (`.wcrfx`): a robot with its cables and winches.
 //!
 //! # References
 //!
-//! A. Pott, Cable-Driven Parallel Robots, Springer 2018. What the attributes mean is as WireX itself takes them
-//! (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
+//! A. Pott, Cable-Driven Parallel Robots, Springer 2018. The attributes have the meaning that WireX itself gives
+//! them (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
 
 use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState, listed};
 use super::text::clean;
@@ -12,24 +12,24 @@ use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 use roxmltree::Node;
 
-/// Gravity [m/s²]: WireX has none of its own, its rope weights are taken with this.
+/// Gravity [m/s²]. WireX files give none; WireX computes rope weights with this value.
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 
-/// Moments of inertia that WireX takes where a file has no complete tensor [kg m²].
+/// Moments of inertia that WireX uses if a file has no complete tensor [kg m²].
 const DEFAULT_MOMENTS: Vec3 = Vec3::new(2.0, 3.0, 4.0);
 
-/// Centre of gravity that WireX writes for a robot whose own it does not know [m].
+/// Centre of gravity that WireX writes for a robot whose centre is unknown [m].
 const DEFAULT_CENTER: Vec3 = Vec3::new(0.0, 1.0, 0.2);
 
-/// Density of a rope, mass over volume of the circle around it [kg/m³]: a loose rope of fibres has 500, a strand of steel
-/// 6000, solid steel 7850. Beyond, one of the two numbers is something else.
+/// Plausible densities of a rope: mass per volume of the enclosing cylinder [kg/m³]. A loose fibre rope has 500, a
+/// steel strand 6000, solid steel 7850. A value outside means that mass or diameter has another meaning.
 const DENSITIES: std::ops::Range<f64> = 400.0..9000.0;
 
-/// The robot of a file.
+/// Reads the robot of a file.
 ///
 /// # Errors
 ///
-/// What is wrong in which line; or what the robot has that a robot file cannot hold.
+/// The line and the value at fault; or the feature of the robot that a robot file cannot hold.
 pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     let root = xml.root();
     let robots: Vec<Node> = children(root, "robot").collect();
@@ -37,7 +37,12 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
         let old = children(root, "wireRobot").next();
         match old {
             Some(old) => {
-                bail!(xml.error(old, "<wireRobot> is the old format of WireX; open it there and save it as .wcrfx"))
+                bail!(
+                    xml.error(
+                        old,
+                        "<wireRobot> is the old format of WireX; open the file in WireX and save it as .wcrfx"
+                    )
+                )
             }
             None => bail!(xml.error(root, "<models> has no <robot>")),
         }
@@ -45,7 +50,7 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     let mut assumed = Vec::new();
     let mut lost = Vec::new();
     if robots.len() > 1 {
-        lost.push(format!("{} more robots of the file: the first is read, as WireX does", robots.len() - 1));
+        lost.push(format!("{} more robots of the file: only the first is read, as in WireX", robots.len() - 1));
     }
     let motion = motion(xml, robot)?;
     let rope = rope(xml, root, &mut assumed, &mut lost)?;
@@ -66,7 +71,7 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
         cables,
         state: DraftState::Unknown,
         notes: vec![
-            "The file has no pose: ⟪pose⟫ of import or of an analysis gives one. Gravity 9.81 m/s² along -z".to_owned(),
+            "The file has no pose: give ⟪pose⟫ to import or to an analysis. Gravity 9.81 m/s² along -z".to_owned(),
         ],
         assumed,
         lost,
@@ -93,13 +98,13 @@ fn motion(xml: &Xml, robot: Node) -> Result<DraftMotion> {
         pattern @ ("1T" | "2T" | "2R3T") => bail!(xml.error(
             robot,
             format!(
-                "motion pattern {pattern} is none that a robot file can hold; it knows 3R3T (rigid platform), 3T (point \
+                "a robot file cannot hold the motion pattern {pattern}; it can hold 3R3T (rigid platform), 3T (point \
                  mass) and 1R2T (planar)"
             )
         )),
         other => bail!(xml.error(
             robot,
-            format!("attribute `motionpattern` is `{}`; WireX has 1T, 2T, 3T, 1R2T, 2R3T and 3R3T", clean(other))
+            format!("attribute `motionpattern` is `{}`; WireX knows 1T, 2T, 3T, 1R2T, 2R3T and 3R3T", clean(other))
         )),
     }
 }
@@ -123,15 +128,15 @@ fn platform(xml: &Xml, robot: Node, motion: DraftMotion, assumed: &mut Vec<Strin
     if motion != DraftMotion::PointMass {
         if center == Some(DEFAULT_CENTER) {
             assumed.push(
-                "the centre of gravity (0, 1, 0.2) m: it is in the file, but it is the one that WireX writes for robots \
-                 whose own it does not know; ⟪center_of_mass_m⟫ X,Y,Z gives another"
+                "the centre of gravity (0, 1, 0.2) m: it is in the file, but WireX writes it for robots whose centre \
+                 is unknown; ⟪center_of_mass_m⟫ X,Y,Z gives another"
                     .to_owned(),
             );
         }
         if tensor.is_none() {
             assumed.push(
-                "the inertia tensor diag(2, 3, 4) kg m²: the file has no complete one, and this is what WireX takes in its \
-                 place. Statics does not depend on it, natural frequencies do; ⟪inertia_kg_m2⟫ XX,YY,ZZ gives another"
+                "the inertia tensor diag(2, 3, 4) kg m²: the file has no complete tensor, and WireX uses this one \
+                 instead. Statics does not depend on it, natural frequencies do; ⟪inertia_kg_m2⟫ XX,YY,ZZ gives another"
                     .to_owned(),
             );
         }
@@ -145,7 +150,7 @@ fn platform(xml: &Xml, robot: Node, motion: DraftMotion, assumed: &mut Vec<Strin
     })
 }
 
-/// The tensor about the centre of gravity, if all nine entries are there.
+/// Inertia tensor about the centre of gravity; `None` unless all nine entries are given.
 fn inertia(xml: &Xml, node: Node) -> Result<Option<Mat3>> {
     let mut tensor = Mat3::zeros();
     let mut complete = true;
@@ -160,14 +165,14 @@ fn inertia(xml: &Xml, node: Node) -> Result<Option<Mat3>> {
     Ok(complete.then_some(tensor))
 }
 
-/// The rope that WireX takes for every chain: the first `<cable>` of the file.
+/// Rope of all chains: the first `<cable>` of the file, as in WireX.
 fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>) -> Result<DraftRope> {
     let all: Vec<Node> = children(root, "cable").collect();
     let Some(&node) = all.first() else { return Ok(DraftRope::default()) };
     if all.len() > 1 {
         let names: Vec<String> =
             all[1..].iter().map(|n| clean(n.attribute("name").unwrap_or("without name"))).collect();
-        lost.push(format!("<cable> {}: the first one is read, for all chains, as WireX does", listed(&names)));
+        lost.push(format!("<cable> {}: only the first <cable> is read, for all chains, as in WireX", listed(&names)));
     }
     let quantity = |name| -> Result<Option<f64>> {
         let value = xml.optional_attribute_number(node, name)?;
@@ -190,16 +195,16 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
         let density = mass / (std::f64::consts::FRAC_PI_4 * diameter * diameter);
         if !DENSITIES.contains(&density) {
             assumed.push(format!(
-                "that `radius` is the radius: with `weight` it makes a rope of {density:.0} kg/m³, which no rope has; if it \
-                 is the diameter, give ⟪diameter_m⟫ {}",
+                "that `radius` is the radius: with `weight` it gives a density of {density:.0} kg/m³, which no rope \
+                 has; if it is the diameter, give ⟪diameter_m⟫ {}",
                 diameter / 2.0
             ));
         }
     }
     for (name, what) in [
         ("damping", "a damping per length of unknown unit"),
-        ("max_length", "the greatest length [m]"),
-        ("min_length", "the least length [m]"),
+        ("max_length", "the maximum length [m]"),
+        ("min_length", "the minimum length [m]"),
     ] {
         if let Some(value) = xml.optional_attribute_number(node, name)?.filter(|value| *value != 0.0) {
             lost.push(format!("`{name}` {value} of <cable>, {what}"));
@@ -216,8 +221,8 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
     let mut radii: Vec<f64> = Vec::new();
     for chain in geometry.children().filter(Node::is_element) {
         if tag(chain) != "chain" {
-            // WireX reads over it, too.
-            lost.push(format!("<{}> in <geometry>, which is not known", tag(chain)));
+            // WireX ignores it, too.
+            lost.push(format!("<{}> in <geometry>, an unknown element", tag(chain)));
             continue;
         }
         let base = xml.required(chain, "base")?;
@@ -248,7 +253,7 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
     Ok(cables)
 }
 
-/// What the winch of a chain can pull [N]; a winch without a number has none.
+/// Maximum force of the winch of a chain [N]; `None` if the file does not give it.
 fn max_force(xml: &Xml, root: Node, chain: Node) -> Result<Option<f64>> {
     let Some(kind) = chain.attribute("winchtype") else { return Ok(None) };
     let Some(winch) = children(root, "winch").find(|winch| winch.attribute("name") == Some(kind)) else {

@@ -1,21 +1,22 @@
-//! XML whose errors name file, line, element and value.
+//! Reading of XML with errors that name file, line, element and value.
 
 use super::text::{self, SourceFile};
 use anyhow::{Error, Result, anyhow, bail};
 use funicular::math::Vec3;
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// Most elements, attributes and texts together; a robot of 100 cables has some 5000.
+/// Maximum number of elements, attributes and texts together; a robot with 100 cables has about 5000.
 const MAX_NODES: u32 = 1_000_000;
 
-/// A parsed file.
+/// Parsed XML file.
 pub(crate) struct Xml<'a> {
     file: &'a SourceFile,
     document: Document<'a>,
 }
 
 impl<'a> Xml<'a> {
-    /// Parses a file. A document type is read over: none is fetched, and entities cannot grow without end.
+    /// Parses a file. A document type declaration is ignored: nothing is fetched, and the expansion of entities is
+    /// limited.
     pub(crate) fn parse(file: &'a SourceFile) -> Result<Self> {
         let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
         let document = Document::parse_with_options(&file.text, options).map_err(|error| {
@@ -49,37 +50,37 @@ impl<'a> Xml<'a> {
         format!("{}:{}:{}", self.file.path, at.row, at.col)
     }
 
-    /// An error at an element.
+    /// Error located at an element.
     pub(crate) fn error(&self, node: Node, message: impl std::fmt::Display) -> Error {
         anyhow!("{}: {message}", self.place(node))
     }
 
-    /// The only child of a name; `None` where there is none.
+    /// Only child with this name, or `None`.
     pub(crate) fn optional<'n>(&self, parent: Node<'n, 'a>, name: &str) -> Result<Option<Node<'n, 'a>>> {
         let mut found = children(parent, name);
         let first = found.next();
         if let Some(second) = found.next() {
-            return Err(self.error(second, format!("<{}> has a second <{name}>; leave one", tag(parent))));
+            return Err(self.error(second, format!("<{}> has a second <{name}>; keep one", tag(parent))));
         }
         Ok(first)
     }
 
-    /// The only child of a name.
+    /// Only child with this name.
     pub(crate) fn required<'n>(&self, parent: Node<'n, 'a>, name: &str) -> Result<Node<'n, 'a>> {
         self.optional(parent, name)?.ok_or_else(|| self.error(parent, format!("<{}> has no <{name}>", tag(parent))))
     }
 
-    /// An attribute.
+    /// Text of an attribute.
     pub(crate) fn attribute<'n>(&self, node: Node<'n, 'a>, name: &str) -> Result<&'n str> {
         node.attribute(name).ok_or_else(|| self.error(node, format!("<{}> has no attribute `{name}`", tag(node))))
     }
 
-    /// The number of an attribute; `None` where there is none.
+    /// Number in an attribute, or `None` if the attribute is missing.
     pub(crate) fn optional_attribute_number(&self, node: Node, name: &str) -> Result<Option<f64>> {
         node.attribute(name).map(|text| self.number_in(node, name, text)).transpose()
     }
 
-    /// The number of an attribute.
+    /// Number in an attribute.
     pub(crate) fn attribute_number(&self, node: Node<'_, 'a>, name: &str) -> Result<f64> {
         let text = self.attribute(node, name)?;
         self.number_in(node, name, text)
@@ -90,7 +91,7 @@ impl<'a> Xml<'a> {
             .map_err(|wrong| self.error(node, format!("attribute `{name}` of <{}> is {wrong}", tag(node))))
     }
 
-    /// The attributes `x`, `y`, `z`.
+    /// Vector of the attributes `x`, `y` and `z`.
     pub(crate) fn attribute_vector(&self, node: Node<'_, 'a>) -> Result<Vec3> {
         Ok(Vec3::new(
             self.attribute_number(node, "x")?,
@@ -99,12 +100,12 @@ impl<'a> Xml<'a> {
         ))
     }
 
-    /// The number between the tags of an element.
+    /// Number between the tags of an element.
     pub(crate) fn number(&self, node: Node) -> Result<f64> {
         text::number(&content(node)).map_err(|wrong| self.error(node, format!("<{}> is {wrong}", tag(node))))
     }
 
-    /// The number between the tags of the only child of a name.
+    /// Number between the tags of the only child with this name.
     pub(crate) fn child_number(&self, parent: Node<'_, 'a>, name: &str) -> Result<f64> {
         self.number(self.required(parent, name)?)
     }
@@ -116,27 +117,29 @@ impl<'a> Xml<'a> {
             text::numbers(&content).map_err(|wrong| self.error(node, format!("<{}> holds {wrong}", tag(node))))?;
         match numbers[..] {
             [x, y, z] => Ok(Vec3::new(x, y, z)),
-            _ => bail!(self.error(node, format!("<{}> holds {} numbers, it must be three", tag(node), numbers.len()))),
+            _ => {
+                bail!(self.error(node, format!("<{}> holds {} numbers; it must hold three", tag(node), numbers.len())))
+            }
         }
     }
 
-    /// Three numbers between the tags of the only child of a name.
+    /// Three numbers between the tags of the only child with this name.
     pub(crate) fn child_vector(&self, parent: Node<'_, 'a>, name: &str) -> Result<Vec3> {
         self.vector(self.required(parent, name)?)
     }
 }
 
-/// Name of an element, as it may stand in a message.
+/// Name of an element, for messages.
 pub(crate) fn tag<'n>(node: Node<'n, '_>) -> &'n str {
     node.tag_name().name()
 }
 
-/// The children of a name.
+/// Children with this name.
 pub(crate) fn children<'n, 'a: 'n>(parent: Node<'n, 'a>, name: &str) -> impl Iterator<Item = Node<'n, 'a>> {
     parent.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
 }
 
-/// All text between the tags; comments may stand in it.
+/// All text between the tags, without comments.
 fn content(node: Node) -> String {
     node.children().filter_map(|child| if child.is_text() { child.text() } else { None }).collect()
 }

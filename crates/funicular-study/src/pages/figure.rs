@@ -1,7 +1,8 @@
-//! Figures: plotly's description of a figure as JSON, in one style.
+//! Figures of pages: descriptions for plotly in JSON, in one style.
 //!
-//! The descriptions are written as JSON and not through the crate's builders, which lack parts that are used here (empty
-//! values in a line, several legends) and would be three times as long; the crate brings the library itself.
+//! The descriptions are written directly as JSON. The builders of the crate `plotly` lack features that are used here
+//! (empty values in a line, several legends) and would be three times as long; the crate only provides the library
+//! plotly.js.
 
 mod hull;
 pub(crate) mod models;
@@ -14,7 +15,7 @@ use funicular::cable::CableModel;
 use funicular::modes::Kind;
 use serde_json::{Value, json};
 
-/// Okabe and Ito's colours, told apart by readers of every colour vision.
+/// Okabe and Ito's colours, which people with any colour vision can distinguish.
 pub(crate) mod colour {
     /// Black.
     pub(crate) const BLACK: &str = "#000000";
@@ -30,11 +31,11 @@ pub(crate) mod colour {
     pub(crate) const VERMILION: &str = "#d55e00";
     /// Reddish purple.
     pub(crate) const PURPLE: &str = "#cc79a7";
-    /// Grey, for what is not data.
+    /// Grey, for marks that are not data.
     pub(crate) const GREY: &str = "#8a8a8a";
 }
 
-/// A figure with caption.
+/// Figure with a caption.
 #[derive(Template)]
 #[template(path = "figure.html")]
 pub(crate) struct Figure {
@@ -42,12 +43,12 @@ pub(crate) struct Figure {
     height: usize,
     caption: String,
     json: String,
-    /// A view in space.
+    /// True for a view in space.
     scene: bool,
 }
 
 impl Figure {
-    /// From plotly's traces and layout; `layout` is completed by the common style.
+    /// Creates a figure from plotly's traces and layout; the common style is added to `layout`.
     pub(crate) fn new(
         id: impl Into<String>,
         height: usize,
@@ -66,13 +67,13 @@ impl Figure {
         });
         let scene = layout.get("scene").is_some();
         merge(&mut full, layout);
-        // Inside a script element only `<` can end it or open a comment; it occurs in strings alone.
+        // In a script element only `<` can end the element or open a comment. In JSON it occurs only in strings.
         let json = json!({"data": data, "layout": full}).to_string().replace('<', "\\u003c");
         Self { id: id.into(), height, caption: caption.into(), json, scene }
     }
 }
 
-/// Lays `over` on `base`, object by object.
+/// Merges `over` into `base`, object by object; values of `over` win.
 fn merge(base: &mut Value, over: Value) {
     match (base, over) {
         (Value::Object(base), Value::Object(over)) => {
@@ -84,13 +85,13 @@ fn merge(base: &mut Value, over: Value) {
     }
 }
 
-/// `base` with `over` laid on it.
+/// Returns `base` with `over` merged into it.
 pub(crate) fn with(mut base: Value, over: Value) -> Value {
     merge(&mut base, over);
     base
 }
 
-/// A Cartesian axis with a title.
+/// Cartesian axis with a title.
 pub(crate) fn axis(title: &str, more: Value) -> Value {
     let base = json!({
         "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
@@ -99,7 +100,7 @@ pub(crate) fn axis(title: &str, more: Value) -> Value {
     with(base, more)
 }
 
-/// A line through points.
+/// Line through points.
 pub(crate) fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -> Value {
     json!({
         "type": "scatter", "mode": "lines", "name": name, "x": rounded(x), "y": rounded(y),
@@ -107,7 +108,7 @@ pub(crate) fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -
     })
 }
 
-/// Points with a symbol.
+/// Points drawn with a symbol.
 pub(crate) fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &str) -> Value {
     json!({
         "type": "scatter", "mode": "markers", "name": name, "x": rounded(x), "y": rounded(y),
@@ -115,17 +116,17 @@ pub(crate) fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &st
     })
 }
 
-/// Six significant digits: finer than any pixel, half the size of the page.
+/// Values rounded to six significant digits: finer than any pixel, and half the size of the page.
 pub(crate) fn rounded(values: &[f64]) -> Vec<Option<f64>> {
     values.iter().map(|v| if v.is_finite() { format!("{v:.5e}").parse().ok() } else { None }).collect()
 }
 
-/// Text for plotly, which reads a small set of tags in every text.
+/// Text with escaped tags, because plotly interprets some HTML tags in every text.
 pub(crate) fn plain(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Colour and dash of a cable model, the same in every figure.
+/// Colour and dash of a cable model, equal in all figures.
 pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
     match model {
         CableModel::CatenaryDynamic => (colour::BLACK, "solid"),
@@ -133,17 +134,6 @@ pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
         CableModel::ShallowStatic => (colour::ORANGE, "dash"),
         CableModel::Spring => (colour::GREEN, "dot"),
         CableModel::CatenaryStatic => (colour::PURPLE, "dashdot"),
-    }
-}
-
-/// A cable model in words.
-pub(crate) fn model_name(model: CableModel) -> &'static str {
-    match model {
-        CableModel::CatenaryDynamic => "exact (dynamic)",
-        CableModel::ShallowDynamic => "closed form (dynamic)",
-        CableModel::ShallowStatic => "shallow-static",
-        CableModel::Spring => "spring",
-        CableModel::CatenaryStatic => "catenary-static",
     }
 }
 

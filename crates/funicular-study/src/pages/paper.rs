@@ -1,4 +1,5 @@
-//! The starting paper again: every figure and table of H. Yuan, E. Courteille, D. Deblaise, ICRA 2014, theirs beside ours.
+//! Page that reproduces every figure and table of H. Yuan, E. Courteille, D. Deblaise, ICRA 2014, beside the published
+//! values.
 
 mod dynamic_test;
 mod matching;
@@ -8,12 +9,12 @@ mod single_cable;
 
 use super::Shell;
 use super::figure::Figure;
-use super::table::Table;
+use super::table::PageTable;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::robot::Robot;
 
-/// The paper's robot with either cable set.
+/// Robot of the paper with either cable set.
 const FILES: [(&str, &str); 2] = [
     ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM),
     ("robots/yuan2014-8mm.toml", funicular_robots::YUAN2014_8MM),
@@ -24,7 +25,7 @@ pub(crate) const CONTENTS: &[(&str, &str)] = &[
     ("geometry", "Tables I and II: the robot"),
     ("pose-error", "Fig. 6: pose error"),
     ("dynamic-test", "Fig. 7 and Table III: dynamic test"),
-    ("identifiability", "What can be said"),
+    ("identifiability", "Conclusions"),
     ("repeat", "How to repeat"),
 ];
 
@@ -33,32 +34,32 @@ pub(crate) const CONTENTS: &[(&str, &str)] = &[
 struct PaperPage {
     shell: Shell,
     cable_figure: Figure,
-    cable_numbers: Table,
-    cable_elements: Table,
-    geometry: Table,
-    ideal_poses: Table,
+    cable_numbers: PageTable,
+    cable_elements: PageTable,
+    geometry: PageTable,
+    ideal_poses: PageTable,
     distances: [Figure; 2],
     by_axis: [Figure; 2],
-    thresholds: Table,
-    moorpy: Table,
-    parameters: Table,
+    thresholds: PageTable,
+    moorpy: PageTable,
+    parameters: PageTable,
     test_figures: Vec<Figure>,
-    lists: Vec<Table>,
-    counts: Table,
+    lists: Vec<PageTable>,
+    counts: PageTable,
     sag_text: String,
     command_line: String,
 }
 
-/// The page, as HTML; `command_line` writes it again.
+/// Writes the page as HTML; `command_line` is the command that writes it again.
 ///
 /// # Errors
-/// If one of the computations fails, which the tests exclude.
+/// A computation that fails, which the tests exclude.
 pub fn paper(command_line: String) -> anyhow::Result<String> {
     let [small, large] = robots()?;
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
     let outcomes = dynamic_test::outcomes([&small, &large])?;
     let page = PaperPage {
-        shell: Shell::new("Yuan, Courteille and Deblaise 2014: theirs and ours".to_owned(), CONTENTS),
+        shell: Shell::new("Yuan, Courteille and Deblaise 2014: published and computed".to_owned(), CONTENTS),
         cable_figure: single_cable::figure(),
         cable_numbers: single_cable::numbers(),
         cable_elements: single_cable::against_elements(),

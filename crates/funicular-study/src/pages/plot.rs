@@ -1,4 +1,4 @@
-//! A map or sweep in pictures.
+//! Page with figures of a map or sweep.
 
 mod curves;
 mod rows;
@@ -7,7 +7,7 @@ mod tracking;
 
 use super::Shell;
 use super::figure::Figure;
-use super::table::{Table, significant};
+use super::table::{PageTable, significant};
 use crate::Watch;
 use crate::sweep::{CODES, SweepRows};
 use crate::text::{counted, short};
@@ -17,40 +17,36 @@ use funicular::modes::Mode;
 use rows::{Rows, label, robot_name, with_unit};
 use slices::Slices;
 
-/// Content of a page.
+/// Input of a page.
 struct PlotInput<'a> {
-    /// The rows.
+    /// Rows of the map or sweep.
     file: &'a dyn SweepRows,
-    /// Where they are.
+    /// Path or description of the rows.
     label: String,
-    /// What writes the page again.
+    /// Command that writes the page again.
     command_line: String,
-    /// The modes of every row, followed, or why they are not.
+    /// Modes of every row followed along the sweep, or the reason why they are not followed.
     tracking: Option<Result<Tracking, String>>,
 }
 
-/// Modes of the rows of a file, and the branch of each.
+/// Modes of the rows of a file, with the branch of each mode.
 struct Tracking {
-    /// Ascending in frequency; none for a row without.
+    /// Modes per row in ascending order; empty for a row without modes.
     modes: Vec<Vec<Mode>>,
-    /// As of [`funicular::modes::tracking::track`].
+    /// Branches from [`funicular::modes::tracking::track`].
     branches: Vec<Vec<usize>>,
 }
 
-/// A page and what the user should know of it.
+/// Page of a map or sweep, with its notes.
 pub struct Page {
-    /// HTML.
+    /// HTML text.
     pub html: String,
-    /// Sentences that the user should know; they stand on the page, too.
+    /// Notes for the user, one sentence each; they are also on the page.
     pub notes: Vec<String>,
 }
 
-const CONTENTS: &[(&str, &str)] = &[
-    ("numbers", "Numbers"),
-    ("pictures", "Pictures"),
-    ("feasible", "What is feasible"),
-    ("repeat", "How to repeat this"),
-];
+const CONTENTS: &[(&str, &str)] =
+    &[("numbers", "Numbers"), ("pictures", "Figures"), ("feasible", "Feasibility"), ("repeat", "How to repeat")];
 
 #[derive(Template)]
 #[template(path = "plot.html")]
@@ -58,38 +54,40 @@ struct PlotPage<'a> {
     shell: Shell,
     key: Vec<(&'static str, String)>,
     notes: &'a [String],
-    numbers: Table,
-    statuses: Table,
+    numbers: PageTable,
+    statuses: PageTable,
     slices: Option<Slices>,
     curves: Vec<Figure>,
     robot_text: &'a str,
-    /// What was asked, as the file has it.
+    /// Plan of the rows as in the file.
     plan: String,
     label: &'a str,
     command_line: &'a str,
 }
 
-/// The page about the rows of a map or sweep; `label` says where they are, `command_line` writes the page again.
+/// Writes the page of a map or sweep. `label` names the place of the rows, `command_line` is the command that writes
+/// the page again.
 ///
 /// # Errors
-/// A damaged file, or one without rows.
+/// A damaged file, or a file without rows.
 pub fn plot(rows: &dyn SweepRows, label: String, command_line: String, watch: &mut dyn Watch) -> anyhow::Result<Page> {
     refuse_no_rows(rows, &label)?;
     let tracking = tracking::tracking(rows, watch);
     page(&PlotInput { file: rows, label, command_line, tracking })
 }
 
-/// Refuses a file whose page would be empty.
+/// Refuses a file without rows, whose page would be empty.
 fn refuse_no_rows(file: &dyn SweepRows, label: &str) -> anyhow::Result<()> {
     if file.rows() > 0 {
         return Ok(());
     }
     match file.record().part.filter(|_| file.is_complete()) {
         Some(part) => bail!(
-            "{label} is part {part} of {}, which has none of them: plot what `funicular merge` makes of all parts",
+            "{label} is part {part} of {} and holds none of them: merge all parts with `funicular merge` and plot the \
+             result",
             counted(file.record().rows, "row")
         ),
-        None => bail!("{label} has no rows yet: let the sweep go on with ⟪resume⟫"),
+        None => bail!("{label} has no rows yet: continue the sweep with ⟪resume⟫"),
     }
 }
 
@@ -108,7 +106,7 @@ fn page(input: &PlotInput) -> anyhow::Result<Page> {
             None => Ok(None),
         };
         if let Err(reason) = &tracking {
-            notes.push(format!("the modes are not followed, frequencies are joined in their order: {reason}"));
+            notes.push(format!("the modes are not followed; frequencies are joined in ascending order: {reason}"));
         }
         (None, curves::figures(&rows, tracking.ok().flatten()))
     };
@@ -130,17 +128,17 @@ fn page(input: &PlotInput) -> anyhow::Result<Page> {
     Ok(Page { html, notes })
 }
 
-/// What is not as the reader would expect.
+/// Notes on missing rows and on reduced data.
 fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
     let mut notes = Vec::new();
     if !input.file.is_complete() {
         notes.push(format!(
-            "the file is incomplete: {} of {} rows are there; the command that began it goes on with ⟪resume⟫",
+            "the file is incomplete: it has {} of {} rows; repeat the command that began it with ⟪resume⟫",
             rows.rows, rows.planned
         ));
     } else if let Some(part) = input.file.record().part {
         notes.push(format!(
-            "the file is part {part}: {} of {} rows; funicular merge makes one file of all parts",
+            "the file is part {part}: {} of {} rows; funicular merge joins all parts to one file",
             rows.rows, rows.planned
         ));
     }
@@ -152,22 +150,22 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
         .collect();
     if !thinned.is_empty() {
         notes.push(format!(
-            "the slices and the points in space show {} ({} of {} rows), which is what the page has room for; histograms, \
-             counts, and the least and greatest values are those of all rows",
+            "the slices and the points in space show {} ({} of {} rows) to limit the size of the page; histograms, \
+             counts, minima and maxima are those of all rows",
             thinned.join(", "),
             rows.shown(),
             rows.planned
         ));
     } else if rows.axes.len() < 2 && rows.shown() < rows.rows {
         notes.push(format!(
-            "the curves show {} of {} rows, which is what the page has room for; counts, and the least and greatest values \
-             are those of all rows",
+            "the curves show {} of {} rows to limit the size of the page; counts, minima and maxima are those of all \
+             rows",
             rows.shown(),
             rows.rows
         ));
     }
     if !rows.words.is_empty() {
-        notes.push(format!("no picture for {}: words, not numbers", rows.words.join(", ")));
+        notes.push(format!("no figure for {}: the values are words, not numbers", rows.words.join(", ")));
     }
     notes
 }
@@ -176,7 +174,7 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     let share = 100.0 * rows.feasible as f64 / rows.rows.max(1) as f64;
     let mut key =
         vec![("rows", rows.rows.to_string()), ("feasible", format!("{} ({} %)", rows.feasible, significant(share, 3)))];
-    let range = |axis: &rows::Axis| {
+    let range = |axis: &rows::PlotAxis| {
         let ends = [axis.steps.at(0), axis.steps.at(axis.steps.count() - 1)].map(brief);
         format!(
             "{} {} to {}, {}",
@@ -202,22 +200,22 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     key
 }
 
-/// A number with at most four digits, without zeros behind; what is left of a zero by rounding is zero.
+/// Number with at most four digits and without trailing zeros. A rounding error around zero becomes zero.
 fn brief(value: f64) -> String {
     const ROUNDING: f64 = 1e-12;
     short(if value.abs() < ROUNDING { 0.0 } else { value }, 4).replace('-', "−")
 }
 
-/// Name of an axis with its unit: `x [m]`, `platform mass [kg]`.
+/// Title of an axis with its unit, such as `x [m]` or `platform mass [kg]`.
 fn axis_title(name: &str, unit: &str) -> String {
-    // The unit of a value of the robot file is in its key.
+    // The key of a value in the robot file ends with its unit.
     let ending = format!("_{}", unit.replace('/', "_per_").replace(' ', "_"));
     let stem = name.strip_suffix(&ending).unwrap_or(name);
     with_unit(&stem.replace(['.', '_'], " ").replace(['"', '\''], ""), unit)
 }
 
-/// Least and greatest of every quantity, and where.
-fn numbers(rows: &Rows) -> Table {
+/// Table of the minimum and maximum of every quantity, with their places.
+fn numbers(rows: &Rows) -> PageTable {
     let place = |row: usize| {
         if rows.axes.is_empty() {
             return format!("row {}", row + 1);
@@ -231,10 +229,10 @@ fn numbers(rows: &Rows) -> Table {
             parts.map(|(axis, value)| format!("{}\u{a0}=\u{a0}{}", axis.name, brief(value))).collect();
         parts.join(", ")
     };
-    let mut table = Table::new(
+    let mut table = PageTable::new(
         "table-numbers",
-        "Every quantity: how many rows have it, its least and greatest value, and the first row that has it.",
-        &["<quantity", "<unit", "rows", "min", "<<at", "max", "<<at", "<<what it is"],
+        "All quantities: number of rows with a value, minimum and maximum, and the first row with each of them.",
+        &["<quantity", "<unit", "rows", "min", "<<at", "max", "<<at", "<<meaning"],
     );
     for series in &rows.series {
         let unit = if series.unit == "1" { "–" } else { &series.unit };
@@ -251,11 +249,11 @@ fn numbers(rows: &Rows) -> Table {
     table
 }
 
-/// How many rows have which status.
-fn statuses(rows: &Rows) -> Table {
-    let mut table = Table::new(
+/// Table of the number of rows per status.
+fn statuses(rows: &Rows) -> PageTable {
+    let mut table = PageTable::new(
         "table-status",
-        "Rows by their status, with the reason of the first row that has it.",
+        "Number of rows per status, with the reason given for the first of them.",
         &["<status", "rows", "<<meaning", "<<first reason"],
     );
     for count in &rows.counts {
@@ -269,7 +267,7 @@ fn statuses(rows: &Rows) -> Table {
     table
 }
 
-/// A status and what it means.
+/// Status with its meaning.
 fn status(code: u8) -> (&'static str, &'static str) {
     CODES.get(usize::from(code)).copied().unwrap_or(("unknown", "a status of another version"))
 }

@@ -1,4 +1,4 @@
-//! The report of one robot at one state: everything the program knows about it, on one page.
+//! Report of one robot at one state: statics, stiffness, modes, response and comparison of cable models on one page.
 
 mod of_request;
 mod parts;
@@ -6,10 +6,10 @@ mod parts;
 pub use of_request::{about, of_request};
 
 use super::Shell;
-use super::figure::response::{Curve, Marks, sampled};
+use super::figure::response::{Marks, ResponseCurve, sampled};
 use super::figure::shapes::{self, Shapes};
-use super::figure::{Figure, model_name, model_style, response, robot as drawing};
-use super::table::{Table, fixed, significant};
+use super::figure::{Figure, model_style, response, robot as drawing};
+use super::table::{PageTable, fixed, significant};
 use crate::analyses::check::{LoadRow, WindRow};
 use crate::at_rest::AtRest;
 use anyhow::Context as _;
@@ -23,31 +23,31 @@ use funicular::response::{Peak, Quantity, peaks};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
 
-/// Prominence from which on a peak is named [dB].
+/// Minimum prominence of a listed peak [dB].
 const PEAK_PROMINENCE_DB: f64 = 3.0;
 
-/// Most modes of a page: a browser still scrolls their table with ease.
+/// Maximum number of modes on a page; a browser still scrolls their table smoothly.
 const MAX_MODES: usize = 2000;
 
-/// What a report is about.
+/// Input of a report.
 pub(crate) struct ReportInput<'a> {
-    /// The robot and its state.
+    /// Robot and its state.
     pub(crate) at_rest: &'a AtRest,
-    /// Where its file is, or what stands for it.
+    /// Path of the robot file, or a description if there is no file.
     pub(crate) file_label: &'a str,
-    /// The file itself.
+    /// Text of the robot file.
     pub(crate) robot_text: &'a str,
-    /// How the robot is linearised about it.
+    /// Linearisation about the equilibrium: cable model and assembly.
     pub(crate) linearisation: Linearisation,
     /// Upper limit of the frequencies [Hz].
     pub(crate) below_hz: f64,
-    /// Name and 6-vector of the force or moment that excites.
+    /// Name and 6-vector of the exciting force or moment.
     pub(crate) frf_input: (String, Vec6),
-    /// Name, 6-vector and kind of the motion that is measured.
+    /// Name, 6-vector and quantity of the measured motion.
     pub(crate) frf_output: (String, Vec6, Quantity),
-    /// Unit of motion over excitation.
+    /// Unit of motion per excitation.
     pub(crate) frf_unit: &'a str,
-    /// The command that writes this page again.
+    /// Command that writes this page again.
     pub(crate) command_line: String,
 }
 
@@ -60,16 +60,16 @@ struct ReportPage<'a> {
     state: String,
     robot_figure: Figure,
     platform_figure: Figure,
-    tension_table: Table,
+    tension_table: PageTable,
     tension_figure: Figure,
     sag_figure: Figure,
-    stiffness_table: Option<Table>,
+    stiffness_table: Option<PageTable>,
     modes_text: String,
     modes_figure: Figure,
     shapes: Result<Shapes, String>,
-    modes_table: Table,
+    modes_table: PageTable,
     response_figure: Figure,
-    peaks_table: Table,
+    peaks_table: PageTable,
     response_notes: Vec<String>,
     comparison: Result<parts::ComparisonPart, String>,
     warnings: Vec<String>,
@@ -90,18 +90,18 @@ pub(crate) const CONTENTS: &[(&str, &str)] = &[
     ("repeat", "How to repeat"),
 ];
 
-/// A page, and what its reader should know before trusting it.
+/// Page of a report, with its warnings.
 pub struct Report {
-    /// HTML.
+    /// HTML text.
     pub html: String,
-    /// Sentences that the user should know; they stand on the page, too.
+    /// Warnings, one sentence each; they are also on the page.
     pub warnings: Vec<String>,
 }
 
-/// The page.
+/// Writes the page.
 ///
 /// # Errors
-/// If the robot cannot be linearised at this state with the model asked, or has no finite response there.
+/// A robot that cannot be linearised at this state with the requested model, or that has no finite response there.
 pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
@@ -115,8 +115,8 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         source: robot.source.trim_end_matches('.'),
         key: key_numbers(robot, equilibrium, &found),
         state: state_text(equilibrium),
-        robot_figure: drawing::whole(robot, equilibrium),
-        platform_figure: drawing::near(robot, equilibrium),
+        robot_figure: drawing::complete(robot, equilibrium),
+        platform_figure: drawing::close_up(robot, equilibrium),
         tension_table: parts::tension_table(robot, equilibrium),
         tension_figure: parts::tension_figure(robot, equilibrium),
         sag_figure: parts::sag_figure(robot, equilibrium),
@@ -138,7 +138,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     Ok(Report { html, warnings })
 }
 
-/// Text of the core, which quotes what one types in backticks.
+/// Template that turns text in backticks into code. Messages of the core put code in backticks.
 #[derive(Template)]
 #[template(
     source = "{% for (code, text) in parts %}{% if *code %}<code>{{ text }}</code>{% else %}{{ text }}{% endif %}{% endfor %}",
@@ -148,12 +148,12 @@ struct Prose<'a> {
     parts: Vec<(bool, &'a str)>,
 }
 
-/// Rendered as HTML.
+/// HTML of a message.
 fn prose(text: &str) -> String {
     Prose { parts: text.split('`').enumerate().map(|(i, text)| (i % 2 == 1, text)).collect() }.to_string()
 }
 
-/// First letter large, full stop at the end: the core speaks in lower case.
+/// Sentence of a message: with a capital first letter and a full stop. Messages of the core begin in lower case.
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
@@ -163,7 +163,7 @@ fn sentence(text: &str) -> String {
 fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(&'static str, String)> {
     let p = equilibrium.pose.position_w;
     let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
-    let (least, most) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
+    let (minimum, maximum) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
     let mut key = vec![
         ("platform mass", format!("{} kg", significant(robot.platform.mass, 4))),
         ("position x, y, z", format!("{}, {}, {} m", fixed(p.x, 4), fixed(p.y, 4), fixed(p.z, 4))),
@@ -178,7 +178,7 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
     if let Some(wind) = WindRow::of(&robot.wind) {
         key.push(("wind", wind.text()));
     }
-    key.push(("tensions at the platform", format!("{} to {} N", significant(least, 4), significant(most, 4))));
+    key.push(("tensions at the platform", format!("{} to {} N", significant(minimum, 4), significant(maximum, 4))));
     if let Some(first) = found.modes.first() {
         key.push(("first natural frequency", format!("{} Hz", significant(first.frequency_hz, 4))));
     }
@@ -190,13 +190,13 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
 
 fn state_text(equilibrium: &Equilibrium) -> String {
     let model = match equilibrium.model {
-        StaticModel::Ideal => "ideal cables (straight, massless, rigid in length)",
+        StaticModel::Ideal => "ideal cables (straight, massless, inextensible)",
         StaticModel::Spring => "straight elastic cables without weight",
         StaticModel::Catenary => "elastic catenaries",
     };
     let stability = match equilibrium.stability {
         Stability::Stable { min_stiffness } => {
-            format!("stable (least eigenvalue of the scaled stiffness {} N/m)", significant(min_stiffness, 3))
+            format!("stable (minimum eigenvalue of the scaled stiffness: {} N/m)", significant(min_stiffness, 3))
         }
         Stability::Unstable { directions, min_stiffness: 0.0 } => {
             format!("indifferent in {directions} of its directions")
@@ -214,37 +214,38 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
     let of = |kind: Kind| found.modes.iter().filter(|m| m.kind == kind).count();
     let assembly = match linearisation.assembly {
         Assembly::Consistent => "consistent assembly",
-        Assembly::WithoutGeometricStiffness => "assembly without the turning of static forces, as in Yuan et al. 2014",
+        Assembly::WithoutGeometricStiffness => "assembly without geometric stiffness, as in Yuan et al. 2014",
     };
-    let plane = if linearisation.in_plane_only { ", cables stiff in their planes only" } else { "" };
+    let plane = if linearisation.in_plane_only { ", cables with in-plane stiffness only" } else { "" };
     let certified = if found.certified {
         format!(
-            "The Wittrick–Williams count gives {} below {} Hz, and all of them are listed: none is missing",
+            "The Wittrick–Williams count gives {} natural frequencies below {} Hz, and all of them are listed",
             found.count_below, found.below_hz
         )
     } else {
         format!(
-            "The Wittrick–Williams count gives {} below {} Hz, {} are listed: the list is not certified",
+            "The Wittrick–Williams count gives {} natural frequencies below {} Hz, but {} are listed: the list is not \
+             certified",
             found.count_below,
             found.below_hz,
             found.modes.len()
         )
     };
     format!(
-        "Cable model: {}; {assembly}{plane}. {certified}. {} are vibrations of the platform, {} of cables, {} of both.",
-        model_name(linearisation.cable_model),
+        "Cable model: {}; {assembly}{plane}. {certified}. Kinds: {} platform modes, {} cable modes, {} mixed modes.",
+        linearisation.cable_model.name(),
         of(Kind::Platform),
         of(Kind::Cable),
         of(Kind::Mixed)
     )
 }
 
-/// The view of the mode shapes, or why there is none and how to get it.
+/// View of the mode shapes, or the reason why there is none and how to get it.
 fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, found: &Modes) -> Result<Shapes, String> {
     let reason = match Shapes::new(robot, equilibrium, dynamics, found) {
         Ok(Some(shapes)) => return Ok(shapes),
         Ok(None) if found.modes.is_empty() => "there is no mode below the limit. Raise `--below-hz`".to_owned(),
-        Ok(None) => "one of them needs more room than a page has".to_owned(),
+        Ok(None) => "the first mode needs more data than a page may hold".to_owned(),
         Err(error @ CableMotionError::Model(_)) => {
             format!("{error}. Write this page with `--cable-model catenary-dynamic`")
         }
@@ -253,12 +254,12 @@ fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, foun
     Err(prose(&format!("Mode shapes are not shown: {reason}.")))
 }
 
-/// The response with the model asked, and with the other ones that there are at this state.
+/// Responses with the requested model and with all other models that work at this state.
 fn respond(
     input: &ReportInput<'_>,
     dynamics: &Dynamics,
     found: &Modes,
-) -> anyhow::Result<(Figure, Table, Vec<String>)> {
+) -> anyhow::Result<(Figure, PageTable, Vec<String>)> {
     let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
         *input;
     let (force, u) = &input.frf_input;
@@ -266,7 +267,7 @@ fn respond(
     let draw = |dynamics: &Dynamics, found: &Modes| {
         let model = dynamics.linearisation.cable_model;
         let at = (dynamics, sampled(below_hz, &found.modes));
-        Curve::of(model_name(model), model_style(model), at, u, &[*v], *quantity)
+        ResponseCurve::of(model.name(), model_style(model), at, u, &[*v], *quantity)
     };
     let mut curves = vec![draw(dynamics, found)?];
     let mut notes = Vec::new();
@@ -283,28 +284,32 @@ fn respond(
         }) {
             Ok(curve) => curves.push(curve),
             Err(reason) => {
-                notes.push(prose(&format!("Without the model {}: {reason}.", model_name(cable_model))));
+                notes.push(prose(&format!(
+                    "The response with the model {} is not drawn: {reason}.",
+                    cable_model.name()
+                )));
             }
         }
     }
     let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);
     let caption = format!(
-        "Response of {motion} to {force}, magnitude and phase. Ticks are the natural frequencies with the {} model, \
-         numbers the frequencies [Hz] of its most prominent peaks. Models without frequency-dependent cables have no \
-         damping; their resonances leave the figure.",
-        model_name(linearisation.cable_model)
+        "Response of {motion} to {force}: magnitude and phase. Ticks: natural frequencies with the model {}; numbers: \
+         frequencies [Hz] of its most prominent peaks. Models with constant cable stiffness (spring, shallow-static, \
+         catenary-static) have no damping; their resonances exceed the figure.",
+        linearisation.cable_model.name()
     );
     let marks = Marks { modes: &found.modes, peaks: &tops, published: None, phase: true };
     let figure = response::figure("figure-response", caption, unit, below_hz, &curves, &marks);
     Ok((figure, peaks_table(&tops, found, unit), notes))
 }
 
-fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> Table {
-    let mut table = Table::new(
+fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> PageTable {
+    let mut table = PageTable::new(
         "table-peaks",
         format!(
-            "Peaks of the response with a prominence of at least {PEAK_PROMINENCE_DB} dB. They are fewer than the natural \
-             frequencies: a mode shows only where force and sensor reach it and damping leaves it apart from its neighbours.",
+            "Peaks of the response with a prominence of at least {PEAK_PROMINENCE_DB} dB. There are fewer peaks than \
+             natural frequencies: a mode gives a peak only if force and sensor act on it and damping does not merge it \
+             with its neighbours.",
         ),
         &[
             "frequency|Hz",

@@ -1,39 +1,39 @@
-//! Tables with units in their heads, and numbers as they are printed.
+//! Tables of pages with units in their heads, and formatting of numbers.
 
 use crate::text;
 use askama::Template;
 
-/// A table with caption.
+/// Table of a page, with a caption.
 #[derive(Template)]
 #[template(path = "table.html")]
-pub(crate) struct Table {
+pub(crate) struct PageTable {
     id: &'static str,
     caption: String,
-    columns: Vec<Column>,
-    rows: Vec<Row>,
-    /// Scrolls on screen; prints in full.
+    columns: Vec<TableColumn>,
+    rows: Vec<TableRow>,
+    /// True if the table scrolls on screen; it prints in full.
     tall: bool,
 }
 
-struct Column {
+struct TableColumn {
     name: String,
     unit: String,
     class: &'static str,
 }
 
-struct Row {
+struct TableRow {
     class: &'static str,
     cells: Vec<String>,
 }
 
-/// Rows above which a table scrolls on screen.
+/// Number of rows above which a table scrolls on screen.
 const TALL: usize = 30;
-/// Columns from which on a table prints in a smaller type.
+/// Number of columns from which on a table is printed in a smaller font.
 const DENSE: usize = 12;
 
-impl Table {
-    /// An empty table. A column is `name` or `name|unit`; one that starts with `<` is text and stands left, with `<<` it
-    /// may also wrap.
+impl PageTable {
+    /// Creates an empty table. A column is `name` or `name|unit`. A leading `<` marks a text column, aligned left; `<<`
+    /// also allows line breaks.
     pub(crate) fn new(id: &'static str, caption: impl Into<String>, columns: &[&str]) -> Self {
         let columns = columns
             .iter()
@@ -44,7 +44,7 @@ impl Table {
                     (None, None) => (*column, ""),
                 };
                 let (name, unit) = text.split_once('|').unwrap_or((text, ""));
-                Column { name: name.to_owned(), unit: unit.to_owned(), class }
+                TableColumn { name: name.to_owned(), unit: unit.to_owned(), class }
             })
             .collect();
         Self { id, caption: caption.into(), columns, rows: Vec::new(), tall: false }
@@ -55,20 +55,20 @@ impl Table {
         self.marked_row("", cells);
     }
 
-    /// Adds a row with a style class of the sheet.
+    /// Adds a row with a class of the style sheet.
     pub(crate) fn marked_row(&mut self, class: &'static str, cells: Vec<String>) {
         debug_assert_eq!(cells.len(), self.columns.len(), "a cell for every column of {}", self.id);
-        self.rows.push(Row { class, cells });
+        self.rows.push(TableRow { class, cells });
         self.tall = self.rows.len() > TALL;
     }
 }
 
-/// A number with fixed decimals and a true minus sign; what rounds to zero has none. A dash if it is not a number.
+/// Number with fixed decimals and a real minus sign. A value that rounds to zero has no sign; NaN gives a dash.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     typeset(value, || text::decimals(value, decimals))
 }
 
-/// A number with a count of significant digits; as a power of ten where that is shorter.
+/// Number with a count of significant digits, as a power of ten if that is shorter.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     typeset(value, || text::significant(value, digits))
 }
@@ -77,7 +77,7 @@ fn typeset(value: f64, text: impl FnOnce() -> String) -> String {
     if value.is_finite() { text().replace('-', "−") } else { text::NONE.to_owned() }
 }
 
-/// Numbers in a row, separated by commas.
+/// Numbers separated by commas; "none" for an empty list.
 pub(crate) fn listed(values: &[f64], decimals: usize) -> String {
     if values.is_empty() {
         return "none".to_owned();

@@ -139,7 +139,7 @@ static TABLE: [Definition; 17] = [
         frequencies: |_| 0,
         columns: |robot, _| each_cable(robot, "unstrained_length", "m", "m", "unstrained length of a cable"),
         values: |row, _, out| {
-            out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.unstrained_length))))
+            out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.unstrained_length))));
         },
     },
     Definition {
@@ -329,7 +329,8 @@ impl Quantity {
 
     /// Rows of a Markdown table of all quantities: name, description.
     pub fn documentation() -> String {
-        TABLE.iter().map(|of| format!("| `{}` | {} |\n", of.name, of.documentation)).collect()
+        let rows: Vec<String> = TABLE.iter().map(|of| format!("| `{}` | {} |\n", of.name, of.documentation)).collect();
+        rows.concat()
     }
 
     /// Its name, the parameter written out.

@@ -205,7 +205,7 @@ impl Row<'_> {
             let asked = Linearisation { cable_model, ..self.options.linearisation };
             let dynamics = Dynamics::about(self.robot, self.rest, asked, 0.0)
                 .map_err(|error| Status::new("no-comparison", &error))?;
-            Ok::<f64, Status>(dynamics.least_static_stiffness())
+            Ok::<f64, Status>(dynamics.min_static_stiffness())
         };
         let exact = least(CableModel::CatenaryStatic)?;
         if exact <= 0.0 {

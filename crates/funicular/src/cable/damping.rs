@@ -1,13 +1,13 @@
-//! Damping of a rope as its cable's complex frequency has it, motion e^{+iωt}: `ω_c² = ω²(1 − 2iξ)` by a constant ratio,
-//! `ω_c² = ω² − iωc/m` by a viscous coefficient (docs/theory.md, section 4). A cable without mass has no frequency of its
-//! own, so that nothing damps it.
+//! Damping of a rope as a complex frequency of its cable, motion e^{+iωt}: `ω_c² = ω²(1 − 2iξ)` with a constant ratio,
+//! `ω_c² = ω² − iωc/m` with a viscous coefficient (docs/theory.md, section 4). A cable without mass has no frequency of
+//! its own, so it has no damping either.
 
 use crate::math::Complex;
 use crate::robot::Damping;
 
 impl Damping {
-    /// Square of the cable's complex frequency `ω_c²` [rad²/s²] at ω [rad/s], real and imaginary part, for a mass per
-    /// length [kg/m].
+    /// Real and imaginary part of the square `ω_c²` of the cable's complex frequency [rad²/s²] at ω [rad/s], for a mass
+    /// per length [kg/m].
     #[inline]
     pub fn square(self, omega: f64, mass_per_length: f64) -> (f64, f64) {
         let square = omega * omega;
@@ -31,7 +31,8 @@ impl Damping {
         }
     }
 
-    /// Complex ω of positive real or imaginary part at which `ω_c²` is the square of an undamped frequency [rad/s].
+    /// Complex ω [rad/s] at which `ω_c²` is the square of an undamped frequency; its real or imaginary part is
+    /// positive.
     pub(crate) fn zero(self, undamped: f64, mass_per_length: f64) -> Complex {
         match self {
             Self::Ratio(xi) => undamped / Complex::new(1.0, -2.0 * xi).sqrt(),
@@ -42,7 +43,7 @@ impl Damping {
         }
     }
 
-    /// Damping ratio of a vibration that is the cable's alone, at ω > 0 [rad/s].
+    /// Damping ratio of a vibration of the cable alone, at ω > 0 [rad/s].
     pub fn ratio_at(self, omega: f64, mass_per_length: f64) -> f64 {
         match self {
             Self::Ratio(xi) => xi,
@@ -50,11 +51,11 @@ impl Damping {
         }
     }
 
-    /// Fraction `part` of the damping.
-    pub(crate) fn times(self, part: f64) -> Self {
+    /// Damping multiplied by `fraction`.
+    pub(crate) fn times(self, fraction: f64) -> Self {
         match self {
-            Self::Ratio(xi) => Self::Ratio(xi * part),
-            Self::Viscous(c) => Self::Viscous(c * part),
+            Self::Ratio(xi) => Self::Ratio(xi * fraction),
+            Self::Viscous(c) => Self::Viscous(c * fraction),
         }
     }
 }

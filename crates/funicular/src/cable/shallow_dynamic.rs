@@ -1,4 +1,4 @@
-//! Dynamic stiffness of a shallow sagging cable in closed form (Starossek 1991; equations (3) to (9) of the paper).
+//! Dynamic stiffness of a shallow sagging cable, in closed form (Starossek 1991; equations (3) to (9) of the paper).
 //!
 //! With `γ = (Ω/2)² = ω_c² l² m/(4τ)` the formulas need three entire functions of γ,
 //!
@@ -9,9 +9,9 @@
 //! k_c = (τ/l)[c/σ − γ (σ + λ² q/4)/Δ],   k_o = (τ/l)[c/σ − γ σ/c],
 //! ```
 //!
-//! and are regular at rest, without a case of its own for γ → 0. They are homogeneous of degree zero in (c, σ, q): the
-//! growth of sin and cos with damping divides out. Poles: Δ = 0 (symmetric modes in plane), σ = 0 (antisymmetric ones,
-//! both directions), c = 0 (symmetric ones out of plane). Derivation: docs/theory.md, equations (20) to (26).
+//! and are regular at ω = 0, so that γ → 0 needs no special case. They are homogeneous of degree zero in (c, σ, q): the
+//! growth of sin and cos with damping cancels. Poles: Δ = 0 (symmetric modes in plane), σ = 0 (antisymmetric modes, in
+//! plane and out of plane), c = 0 (symmetric modes out of plane). Derivation: docs/theory.md, equations (20) to (26).
 
 use super::{LocalAxes, LocalStiffness, Sag};
 use crate::math::{Complex, roots};
@@ -19,22 +19,22 @@ use crate::robot::Damping;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::{Add, Div, Mul, Sub};
 
-/// One cable in closed form.
+/// Platform end of a cable in the shallow-dynamic model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShallowDynamic {
-    /// Its numbers.
+    /// Sag parameters of the cable.
     pub sag: Sag,
-    /// Its axes.
+    /// Local axes at the platform end.
     pub axes: LocalAxes,
-    /// Damping of its rope.
+    /// Damping of the rope.
     pub damping: Damping,
     /// Leave out k_o, as the paper does.
     pub in_plane_only: bool,
-    /// γ/ω² = l² m/(4τ) [s²].
+    /// Ratio γ/ω² = l² m/(4τ) [s²].
     pub gamma_by_square: f64,
 }
 
-/// The entire functions of γ; `T` is real, complex, or several of either side by side.
+/// Entire functions of γ: c, σ and q. `T` is a real number, a complex number, or several numbers side by side.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Entire<T> {
     pub(crate) gamma: T,
@@ -43,7 +43,7 @@ pub(crate) struct Entire<T> {
     pub(crate) q: T,
 }
 
-/// What the formulas need of a number.
+/// Arithmetic that the formulas need.
 pub(crate) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Mul<f64, Output = Self>
 {
@@ -53,8 +53,8 @@ impl<T> Number for T where
 {
 }
 
-/// Below this |γ| the quotient (σ − c)/γ comes from its series: there it loses two digits, and at the limit the first
-/// term left out of the series is 3e-18.
+/// |γ| below which the quotient (σ − c)/γ is computed from its series. At this limit the quotient loses two digits, and
+/// the first term left out of the series is 3e-18.
 pub(crate) const SERIES_BELOW: f64 = 0.25;
 
 /// Coefficients of q(γ) = Σ (−γ)^n (2n+2)/(2n+3)!.
@@ -68,25 +68,25 @@ pub(crate) const Q_SERIES: [f64; 7] = [
     1.0 / 93_405_312_000.0,
 ];
 
-/// The formulas of the module head; scales are EA/L_e, ε/2, τ/l and λ²/4.
+/// Local stiffness by the formulas at the head of this file; the scales are EA/L_e, ε/2, τ/l and λ²/4.
 #[inline(always)]
 pub(crate) fn stiffness<T: Number>(of: Entire<T>, sag: &Sag) -> LocalStiffness<T> {
     let Entire { gamma, c, sigma, q } = of;
     let along = sag.axial_stiffness / sag.effective_length;
-    let across = sag.tension / sag.chord;
+    let transverse = sag.tension / sag.chord;
     let sagging = q * (0.25 * sag.lambda2);
     let determinant = c + sagging;
     let string = c / sigma;
     LocalStiffness {
         axial: c / determinant * along,
         coupling: gamma * q / determinant * (0.5 * sag.epsilon * along),
-        normal: (string - gamma * (sigma + sagging) / determinant) * across,
-        out_of_plane: (string - gamma * sigma / c) * across,
+        normal: (string - gamma * (sigma + sagging) / determinant) * transverse,
+        out_of_plane: (string - gamma * sigma / c) * transverse,
     }
 }
 
 impl Entire<f64> {
-    /// At real γ ≥ 0.
+    /// Functions at real γ ≥ 0.
     pub(crate) fn real(gamma: f64) -> Self {
         let h = gamma.sqrt();
         let (s, c) = h.sin_cos();
@@ -99,7 +99,7 @@ impl Entire<f64> {
         }
     }
 
-    /// dq/dγ = (σ − 3q)/(2γ).
+    /// Derivative dq/dγ = (σ − 3q)/(2γ).
     fn q_slope(&self) -> f64 {
         if self.gamma < SERIES_BELOW {
             (1..Q_SERIES.len()).rev().fold(0.0, |sum, n| sum * self.gamma + q_slope_coefficient(n))
@@ -115,7 +115,7 @@ fn q_slope_coefficient(n: usize) -> f64 {
 }
 
 impl Entire<Complex> {
-    /// At complex γ, all three divided by cosh of the imaginary part of √γ.
+    /// Functions at complex γ, all three divided by the hyperbolic cosine of the imaginary part of √γ.
     pub(crate) fn complex(gamma: Complex) -> Self {
         let h = gamma.sqrt();
         let (sin, cos) = h.re.sin_cos();
@@ -131,7 +131,7 @@ impl Entire<Complex> {
         }
     }
 
-    /// dq/dγ over the same cosh.
+    /// Derivative dq/dγ, divided by the hyperbolic cosine of the imaginary part of √γ.
     fn q_slope(&self) -> Complex {
         if self.gamma.norm_sqr() < SERIES_BELOW * SERIES_BELOW {
             let zero = Complex::new(0.0, 0.0);
@@ -144,13 +144,13 @@ impl Entire<Complex> {
 }
 
 impl ShallowDynamic {
-    /// From the numbers of a cable with tension.
+    /// Cable from its sag parameters; its tension is positive.
     pub fn new(sag: Sag, axes: LocalAxes, damping: Damping, in_plane_only: bool) -> Self {
         let gamma_by_square = sag.chord * sag.chord * sag.mass_per_length / (4.0 * sag.tension);
         Self { sag, axes, damping, in_plane_only, gamma_by_square }
     }
 
-    /// Ω = ω l √(m/τ), undamped.
+    /// Dimensionless undamped frequency Ω = ω l √(m/τ).
     #[inline]
     pub fn dimensionless(&self, omega: f64) -> f64 {
         2.0 * omega * self.gamma_by_square.sqrt()
@@ -175,7 +175,7 @@ impl ShallowDynamic {
         k
     }
 
-    /// Stiffness at the complex square ω_c² [rad²/s²], and minus its derivative by ω_c² [kg].
+    /// Stiffness at the complex square ω_c² [rad²/s²] and minus its derivative by ω_c² [kg].
     pub(crate) fn at(&self, square: Complex) -> (LocalStiffness<Complex>, LocalStiffness<Complex>) {
         let of = Entire::complex(square * self.gamma_by_square);
         let (mut k, mut mass) = (stiffness(of, &self.sag), self.mass_of(of, of.q_slope()));
@@ -185,8 +185,8 @@ impl ShallowDynamic {
         (k, mass)
     }
 
-    /// Minus the derivative of the undamped stiffness by ω² [kg]: the mass that the cable moves, per unit of motion of
-    /// its end. Positive semidefinite as a 3×3.
+    /// Minus the derivative of the undamped stiffness by ω² [kg]: the moving mass of the cable per unit motion of its
+    /// end. As a 3×3 matrix it is positive semidefinite.
     pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let of = Entire::real(omega * omega * self.gamma_by_square);
         let mut mass = self.mass_of(of, of.q_slope());
@@ -196,8 +196,8 @@ impl ShallowDynamic {
         mass
     }
 
-    /// The quotients of the module head, differentiated, with c' = −σ/2, σ' = −q/2 and q' given; of degree zero in
-    /// (c, σ, q, q') as they are.
+    /// Derivatives of the quotients at the head of this file, with c' = −σ/2, σ' = −q/2 and q' given. Like the
+    /// quotients they are homogeneous of degree zero in (c, σ, q, q').
     fn mass_of<T: Number>(&self, of: Entire<T>, q_by: T) -> LocalStiffness<T> {
         let Entire { gamma, c, sigma, q } = of;
         let (c_by, sigma_by) = (sigma * -0.5, q * -0.5);
@@ -205,33 +205,33 @@ impl ShallowDynamic {
         let (d, d_by) = (c + q * weight, c_by + q_by * weight);
         let (p, p_by) = (sigma + q * weight, sigma_by + q_by * weight);
         let along = self.sag.axial_stiffness / self.sag.effective_length * self.gamma_by_square;
-        let across = self.sag.tension / self.sag.chord * self.gamma_by_square;
+        let transverse = self.sag.tension / self.sag.chord * self.gamma_by_square;
         let quotient = |n: T, n_by: T, d: T, d_by: T| (n_by * d - n * d_by) / (d * d);
         let string_by = quotient(c, c_by, sigma, sigma_by);
         LocalStiffness {
             axial: quotient(c, c_by, d, d_by) * -along,
             coupling: quotient(gamma * q, q + gamma * q_by, d, d_by) * (-along * 0.5 * self.sag.epsilon),
-            normal: (string_by - quotient(gamma * p, p + gamma * p_by, d, d_by)) * -across,
-            out_of_plane: (string_by - quotient(gamma * sigma, sigma + gamma * sigma_by, c, c_by)) * -across,
+            normal: (string_by - quotient(gamma * p, p + gamma * p_by, d, d_by)) * -transverse,
+            out_of_plane: (string_by - quotient(gamma * sigma, sigma + gamma * sigma_by, c, c_by)) * -transverse,
         }
     }
 
     /// Number of clamped-clamped frequencies below ω [rad/s]: J0 of Wittrick and Williams.
     ///
-    /// Out of plane ⌊Ω/π⌋. In plane as many, less one while the symmetric root that sag has raised above its string
-    /// value is not yet passed (k_a < 0).
+    /// The number out of plane is ⌊Ω/π⌋. In plane it is one less while ω has passed the string value of a symmetric
+    /// root, but not the root itself, which sag has raised (k_a < 0).
     pub fn clamped_modes_below(&self, omega: f64) -> usize {
         let string = (self.dimensionless(omega) / PI).floor();
         let of = Entire::real(omega * omega * self.gamma_by_square);
         let determinant = of.c + 0.25 * self.sag.lambda2 * of.q;
-        // The sign of cos(Ω/2) from the count itself, so that both agree where it vanishes.
+        // The count gives the sign of cos(Ω/2), so that both agree where the cosine vanishes.
         let cosine_is_positive = matches!(string.rem_euclid(4.0) as u8, 0 | 3);
         let raised = self.sag.lambda2 > 0.0 && (determinant > 0.0) != cosine_is_positive;
         let in_plane = string as usize - usize::from(raised);
         in_plane + if self.in_plane_only { 0 } else { string as usize }
     }
 
-    /// The clamped-clamped frequencies below ω [rad/s], ascending, with multiplicity.
+    /// Clamped-clamped frequencies below ω [rad/s], ascending, with multiplicity.
     pub fn clamped_frequencies_below(&self, omega: f64) -> Vec<f64> {
         let root_scale = self.gamma_by_square.sqrt();
         if root_scale == 0.0 {
@@ -239,7 +239,7 @@ impl ShallowDynamic {
         }
         let last = omega * root_scale;
         let mut halves = Vec::new();
-        // Half angles h = Ω/2: antisymmetric jπ, symmetric of the string (j − ½)π.
+        // Half angles h = Ω/2: antisymmetric modes jπ, symmetric modes of the string (j − ½)π.
         for j in 1..=(last / FRAC_PI_2).floor() as usize {
             let h = j as f64 * FRAC_PI_2;
             if !self.in_plane_only {
@@ -256,14 +256,14 @@ impl ShallowDynamic {
         frequencies
     }
 
-    /// The in-plane symmetric root h = Ω/2 that belongs to the string's root `string` = (j − ½)π: the solution of
-    /// Δ = 0 in (string, string + π), `tan h = h − (4/λ²) h³` (Irvine and Caughey 1974).
+    /// Symmetric root in plane, h = Ω/2, that belongs to the string's root `string` = (j − ½)π: the solution of Δ = 0
+    /// in (string, string + π), `tan h = h − (4/λ²) h³` (Irvine and Caughey 1974).
     fn symmetric_root(&self, string: f64) -> f64 {
         let weight = 0.25 * self.sag.lambda2;
         if weight == 0.0 {
             return string;
         }
-        // At either end cos h = 0 and Δ = (λ²/4) sin h/h³, of alternating sign; there cos is replaced by its exact zero.
+        // At both ends cos h = 0 and Δ = (λ²/4) sin h/h³, with opposite signs. There cos is replaced by its exact zero.
         let end = |h: f64| weight * h.sin() / h.powi(3);
         let f = |h: f64| {
             let of = Entire::real(h * h);
@@ -326,7 +326,7 @@ mod tests {
                 (mass.normal, above.normal, below.normal),
                 (mass.out_of_plane, above.out_of_plane, below.out_of_plane),
             ] {
-                // Central difference: its error is the third derivative's, below 1e-5 away from poles.
+                // The error of a central difference comes from the third derivative; away from poles it is below 1e-5.
                 assert!((exact - by_square(a, b)).abs() < 2e-5 * exact.abs().max(1e-3), "{omega}: {exact}");
             }
             let (in_plane, determinant) = (mass.axial, mass.axial * mass.normal - mass.coupling * mass.coupling);

@@ -2,18 +2,19 @@
 
 use super::{LocalStiffness, Sag};
 
-/// Local stiffness [N/m]: `k_a = (EA/L_e)/(1 + λ²/12)`, τ/l across, no coupling.
+/// Local stiffness [N/m]: `k_a = (EA/L_e)/(1 + λ²/12)` along the chord, τ/l in both normal directions, no coupling.
 ///
-/// The limit of the closed form at rest. The exact tangent of the catenary is [`super::CableModel::CatenaryStatic`].
+/// Equals the shallow-dynamic stiffness at ω = 0. The exact tangent of the catenary is
+/// [`super::CableModel::CatenaryStatic`].
 ///
 /// # References
 /// H. M. Irvine, Cable Structures, MIT Press 1981, section 2.5; docs/theory.md, equation (19).
 pub fn stiffness(sag: &Sag) -> LocalStiffness<f64> {
-    let across = sag.tension / sag.chord;
+    let transverse = sag.tension / sag.chord;
     LocalStiffness {
         axial: sag.axial_stiffness / sag.effective_length / (1.0 + sag.lambda2 / 12.0),
         coupling: 0.0,
-        normal: across,
-        out_of_plane: across,
+        normal: transverse,
+        out_of_plane: transverse,
     }
 }

@@ -1,8 +1,8 @@
-//! A massless straight spring: k_a = EA/l and nothing else (the paper's reference [27]).
+//! Massless straight spring: k_a = EA/l, all other entries zero (the paper's reference [27]).
 
 use super::{LocalStiffness, Sag};
 
-/// Local stiffness [N/m] of a straight massless spring of the cable's chord.
+/// Local stiffness [N/m] of a straight massless spring along the cable's chord.
 pub fn stiffness(sag: &Sag) -> LocalStiffness<f64> {
     LocalStiffness { axial: sag.axial_stiffness / sag.chord, coupling: 0.0, normal: 0.0, out_of_plane: 0.0 }
 }

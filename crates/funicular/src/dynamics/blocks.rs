@@ -1,7 +1,7 @@
-//! Blocks of a second-order model: the platform, and for each catenary-dynamic cable its end and its clamped modes.
+//! Blocks of a second-order model: the platform, and per catenary-dynamic cable its end and its clamped modes.
 //!
-//! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, a catenary-dynamic cable is no
-//! function of frequency any more (docs/theory.md, section 13):
+//! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, the matrices of a
+//! catenary-dynamic cable do not depend on frequency (docs/theory.md, section 13):
 //!
 //! ```text
 //! K_c = [ K_s   0   ]      M_c = [ M_s   g_k ]
@@ -14,20 +14,21 @@ use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::math::{DMat, Mat6, Vec6};
 use crate::robot::Damping;
 
-/// Matrices of the platform over its coordinates [m, rad], with all stiffness that does not depend on frequency.
+/// Matrices of the platform over its coordinates [m, rad]; they include all stiffness that does not depend on
+/// frequency.
 pub(crate) struct PlatformBlocks {
     pub(crate) mass: DMat,
     pub(crate) damping: DMat,
     pub(crate) stiffness: DMat,
 }
 
-/// What a catenary-dynamic cable adds.
+/// Blocks that a catenary-dynamic cable adds.
 pub(crate) struct CableBlocks {
-    /// Which cable it is, file order.
+    /// Index of the cable, in the order of the file.
     pub(crate) cable: usize,
-    /// K_s over the platform's coordinates.
+    /// Static stiffness K_s of the end over the platform's coordinates.
     pub(crate) end_stiffness: DMat,
-    /// M_s over the platform's coordinates.
+    /// Mass M_s of the end over the platform's coordinates.
     pub(crate) end_mass: DMat,
     /// Clamped modes, in plane and then out of plane.
     pub(crate) modes: Vec<ClampedMode>,
@@ -37,11 +38,11 @@ pub(crate) struct CableBlocks {
     pub(crate) mass_per_length: f64,
 }
 
-/// A clamped mode of unit modal mass.
+/// Clamped mode of unit modal mass.
 pub(crate) struct ClampedMode {
-    /// g_k over the platform's coordinates.
+    /// Participation g_k over the platform's coordinates.
     pub(crate) participation: Vec<f64>,
-    /// ω_k² [rad²/s²].
+    /// Pole ω_k² [rad²/s²].
     pub(crate) pole: f64,
     pub(crate) out_of_plane: bool,
 }
@@ -57,29 +58,32 @@ impl Dynamics {
     /// Matrices of every catenary-dynamic cable, not scaled, in the order of [`terms`](Self::terms).
     pub(crate) fn cable_blocks(&self) -> impl Iterator<Item = CableBlocks> {
         self.terms.iter().filter_map(|term| match &term.form {
-            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(term, &end.exact)),
+            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(term, &end.cable)),
             DynamicCable::ShallowDynamic(_) => None,
         })
     }
 
-    fn blocks_of(&self, term: &DynamicCableAt, exact: &CatenaryDynamic) -> CableBlocks {
-        let across = !self.linearisation.in_plane_only;
-        let (plane, out) = (&exact.in_plane, &exact.out_of_plane);
+    fn blocks_of(&self, term: &DynamicCableAt, cable: &CatenaryDynamic) -> CableBlocks {
+        let with_out_of_plane = !self.linearisation.in_plane_only;
+        let (plane, normal) = (&cable.in_plane, &cable.out_of_plane);
         let (damping, mass_per_length) = self.damping[term.cable];
 
+        // The end.
         let at_end = |in_plane: &[[f64; 4]; 4], out_of_plane: f64| {
-            self.unscaled_block(&term.congruent(in_plane, if across { out_of_plane } else { 0.0 }))
+            self.unscaled_block(&term.congruent(in_plane, if with_out_of_plane { out_of_plane } else { 0.0 }))
         };
-        let end_stiffness = at_end(&plane.stiffness, out.stiffness[0][0]);
-        let end_mass = at_end(&plane.mass, out.mass[0][0]);
+        let end_stiffness = at_end(&plane.stiffness, normal.stiffness[0][0]);
+        let end_mass = at_end(&plane.mass, normal.mass[0][0]);
 
+        // The clamped modes.
         let mode = |direction: Vec6, pole: &f64, out_of_plane: bool| ClampedMode {
             participation: self.unscaled_row(&direction),
             pole: *pole,
             out_of_plane,
         };
         let in_plane = plane.participation.iter().map(|g| term.along * g[0] + term.normal * g[1]).zip(&plane.poles);
-        let out_of_plane = out.participation.iter().filter(|_| across).map(|g| term.out * g[0]).zip(&out.poles);
+        let out_of_plane =
+            normal.participation.iter().filter(|_| with_out_of_plane).map(|g| term.out * g[0]).zip(&normal.poles);
         let modes = in_plane
             .map(|(direction, pole)| mode(direction, pole, false))
             .chain(out_of_plane.map(|(direction, pole)| mode(direction, pole, true)))
@@ -88,12 +92,13 @@ impl Dynamics {
         CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length }
     }
 
-    /// A scaled matrix over the platform's coordinates, not scaled any more.
+    /// Removes the scaling from a matrix over the platform's coordinates.
     fn unscaled_block(&self, matrix: &Mat6) -> DMat {
         let (f, scale) = (self.dof(), self.coordinate_scale());
         DMat::from_fn(f, f, |i, j| matrix[(i, j)] * scale[i] * scale[j])
     }
 
+    /// Removes the scaling from a vector over the platform's coordinates.
     fn unscaled_row(&self, vector: &Vec6) -> Vec<f64> {
         let scale = self.coordinate_scale();
         (0..self.dof()).map(|i| vector[i] * scale[i]).collect()
@@ -101,8 +106,8 @@ impl Dynamics {
 }
 
 impl DynamicCableAt {
-    /// A 3×3 form of the end's displacement over the platform's scaled coordinates: in plane the start's part of a matrix
-    /// over both ends, and one number out of plane.
+    /// Transforms a form of the end's displacement to the platform's scaled coordinates. The form is given by a matrix
+    /// in plane over both ends, of which the start's block counts, and one number out of plane.
     fn congruent(&self, in_plane: &[[f64; 4]; 4], out_of_plane: f64) -> Mat6 {
         let plane = [&self.along, &self.normal];
         Mat6::from_fn(|i, j| {

@@ -1,23 +1,24 @@
-//! D at a complex frequency, for the damped natural frequencies.
+//! Dynamic stiffness D at a complex frequency, for the damped natural frequencies.
 //!
-//! As in [`pencil`](super::pencil), poles near the frequency are unknowns of their own, so that nothing is large:
+//! As in [`null_vectors`](super::null_vectors), poles near the frequency are separate unknowns, so that no entry is
+//! large:
 //!
 //! ```text
 //! B(ω) = [ D_regular   −s g_k  ]
 //!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
 //! ```
 
-use super::{DynamicCableAt, Dynamics, POLE_PART, add_local};
+use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, Complex};
 
-/// D at a complex frequency, bordered by near poles, and its derivative.
+/// Dynamic stiffness at a complex frequency, bordered by near poles, and its derivative.
 struct Bordered {
     value: CDMat,
     slope: CDMat,
-    /// Product over the poles below a limit that are not in the border: the sum of (d/dω) ln(ω_k² − s), and the phase of
-    /// the product.
+    /// Sum of (d/dω) ln(ω_k² − s) over the poles below a limit that are not in the border.
     pole_slope: Complex,
+    /// Phase of the product of ω_k² − s over these poles.
     pole_phase: f64,
 }
 
@@ -27,9 +28,11 @@ impl Dynamics {
         self.terms.iter().map(|term| term.form.poles_below(omega)).collect()
     }
 
-    /// (d/dω) ln f at ω, where f is det D times ω_k² − ω_c² over the `poles` of [`poles_below`](Self::poles_below): f has
-    /// the damped natural frequencies as its zeros, each as often as it counts, and no pole in their region. `losses` is
-    /// the part of its damping that the robot has: 1 all, 0 none.
+    /// Logarithmic derivative (d/dω) ln f at ω. f is det D times the product of ω_k² − ω_c² over the `poles` of
+    /// [`poles_below`](Self::poles_below).
+    ///
+    /// The zeros of f are the damped natural frequencies, with their multiplicity, and f has no pole in their region.
+    /// `losses` is the fraction of the damping that acts: 1 all, 0 none.
     pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Complex {
         let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles);
         match value.lu().solve(&slope) {
@@ -38,7 +41,7 @@ impl Dynamics {
         }
     }
 
-    /// Phase of the same f [rad], up to whole turns.
+    /// Phase of f of [`logarithmic_slope`](Self::logarithmic_slope) [rad], up to multiples of 2π.
     pub(crate) fn phase(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> f64 {
         let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles);
         value.lu().determinant().arg() + pole_phase
@@ -65,12 +68,12 @@ impl Dynamics {
                     let (stiffness, mass) = form.at(square);
                     (stiffness, mass, Vec::new())
                 }
-                DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square, POLE_PART),
+                DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square, NEAR_POLE_FRACTION),
             };
             add_scaled(&mut value, term, &stiffness, Complex::new(1.0, 0.0));
             add_scaled(&mut slope, term, &mass, -square_slope);
 
-            // Poles that are not near count in the product.
+            // Poles that are not near are factors of the product.
             let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
             for pole in poles.iter().filter(|pole| !is_near(**pole)) {
                 let gap = pole - square;
@@ -80,7 +83,7 @@ impl Dynamics {
             borders.extend(near.iter().map(|near| (term.vector(near.direction), near.pole, square, square_slope)));
         }
 
-        // The border: each near pole an unknown of its own.
+        // The border: each near pole is a separate unknown.
         let (f, n) = (self.dof(), self.dof() + borders.len());
         let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
         all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));

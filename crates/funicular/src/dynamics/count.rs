@@ -1,14 +1,14 @@
-//! The number of natural frequencies below a frequency.
+//! Number of natural frequencies below a frequency.
 
-use super::{DynamicCableAt, Dynamics, POLE_PART, add_local};
+use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::shallow_dynamic::{Entire, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{Mat6, Vec6, symmetric};
 
 impl Dynamics {
     /// Number of natural frequencies below ω [rad/s], undamped, with multiplicity:
-    /// `J(ω) = Σ J0_i(ω) + s{D(ω)}` (Wittrick and Williams 1971). Directions in which an unstable equilibrium falls
-    /// away count as frequencies below every ω > 0.
+    /// `J(ω) = Σ J0_i(ω) + s{D(ω)}` (Wittrick and Williams 1971). The unstable directions of an equilibrium count as
+    /// frequencies below every ω > 0.
     ///
     /// # References
     /// W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl. Math. 24(3), 1971; docs/theory.md, equation (28).
@@ -17,13 +17,15 @@ impl Dynamics {
         clamped + self.negative_eigenvalues(omega)
     }
 
-    /// s{D(ω)}. A cable near one of its poles would put a very large rank-one term into D; such a term κ w wᵀ becomes
-    /// a bordering row, `[[D, w], [wᵀ, −1/κ]]`, whose last entry passes through zero where κ has its pole, so that
-    /// nothing overflows and nothing is lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
+    /// Number s{D(ω)} of negative eigenvalues of D.
+    ///
+    /// Near a pole of a cable D has a very large rank-one term κ w wᵀ. It becomes a bordering row,
+    /// `[[D, w], [wᵀ, −1/κ]]`, whose last entry passes through zero at the pole of κ. So no term overflows and no
+    /// digits are lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
     fn negative_eigenvalues(&self, omega: f64) -> usize {
         let mut matrix = self.constant - self.mass * (omega * omega);
 
-        // The matrix without what is large beside a pole.
+        // The matrix without the terms that are large near a pole.
         let mut borders: Vec<(Vec6, f64)> = Vec::new();
         for term in &self.terms {
             match &term.form {
@@ -37,7 +39,7 @@ impl Dynamics {
                 }
                 DynamicCable::CatenaryDynamic(form) => {
                     let x = omega * omega;
-                    let (regular, poles) = form.beside_poles(x, POLE_PART);
+                    let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
                     add_local(&mut matrix, term, &regular, |k, product| k * product);
                     borders.extend(poles.iter().map(|near| (term.vector(near.direction), (x - near.pole) / (x * x))));
                 }
@@ -48,7 +50,8 @@ impl Dynamics {
             return symmetric::negative_eigenvalues(&matrix, self.dof());
         }
 
-        // The bordered matrix, platform and borders in units of their own.
+        // The bordered matrix. The stiffness is divided by its size, so that platform and borders are of similar
+        // magnitude.
         let (m, n) = (self.dof(), self.dof() + borders.len());
         let size = matrix.amax().max(f64::MIN_POSITIVE);
         let mut a = vec![0.0; n * n];
@@ -70,23 +73,24 @@ impl Dynamics {
     }
 }
 
-/// Quotients above this count as near a pole. Between 1e1 (every second evaluation bordered) and 1e6 (six digits of
-/// the soft directions lost in the sum) the counts are the same.
+/// Quotient above which a cable is near a pole. The counts are the same from 1e1 (every second evaluation is bordered)
+/// to 1e6 (the sum loses six digits of the soft directions).
 const NEAR_POLE: f64 = 1e3;
 
+/// True if no quotient of the shallow-dynamic model is near a pole.
 fn is_regular(of: &Entire<f64>, form: &ShallowDynamic) -> bool {
     let determinant = of.c + 0.25 * form.sag.lambda2 * of.q;
     let (antisymmetric, symmetric) = (of.c / of.sigma, of.gamma * of.sigma / of.c);
-    let across = 1.0 + of.gamma.abs();
+    let transverse = 1.0 + of.gamma.abs();
     (of.c / determinant).abs() < NEAR_POLE
-        && (of.gamma * (of.sigma + 0.25 * form.sag.lambda2 * of.q) / determinant).abs() < NEAR_POLE * across
-        && antisymmetric.abs() < NEAR_POLE * across
-        && (form.in_plane_only || symmetric.abs() < NEAR_POLE * across)
+        && (of.gamma * (of.sigma + 0.25 * form.sag.lambda2 * of.q) / determinant).abs() < NEAR_POLE * transverse
+        && antisymmetric.abs() < NEAR_POLE * transverse
+        && (form.in_plane_only || symmetric.abs() < NEAR_POLE * transverse)
 }
 
-/// Adds a cable near a pole: regular parts into `matrix`, the others as borders (w, 1/κ).
+/// Adds a cable near a pole: regular terms to `matrix`, the others as borders (w, 1/κ).
 ///
-/// With t = c/σ − γσ/c, the string's stiffness across, the cable in its plane is `k_a w wᵀ + (τ/l) t n nᵀ` with
+/// With the transverse stiffness t = c/σ − γσ/c of a string, the stiffness in plane is `k_a w wᵀ + (τ/l) t n nᵀ` with
 /// `w = a + (ε/2)(γq/c) n`: a spring with λ²-softening beside a taut string (docs/theory.md, equation (25)).
 fn add_bordered(
     matrix: &mut Mat6,
@@ -96,19 +100,19 @@ fn add_bordered(
     of: &Entire<f64>,
 ) {
     let sag = &form.sag;
-    let (along, across) = (sag.axial_stiffness / sag.effective_length, sag.tension / sag.chord);
+    let (along, transverse) = (sag.axial_stiffness / sag.effective_length, sag.tension / sag.chord);
     let Entire { gamma, c, sigma, q } = *of;
     let sagging = 0.25 * sag.lambda2 * q;
     let determinant = c + sagging;
 
-    // c t and σ t are regular where t is not.
+    // The products c t and σ t are regular at the poles of t.
     let string = |w: &Vec6, matrix: &mut Mat6, borders: &mut Vec<(Vec6, f64)>| {
         let numerator = c * c - gamma * sigma * sigma;
         let inverse = sigma * c / numerator;
         if inverse.abs() * NEAR_POLE < 1.0 {
-            borders.push((*w, inverse / across));
+            borders.push((*w, inverse / transverse));
         } else {
-            *matrix += w * w.transpose() * (across / inverse);
+            *matrix += w * w.transpose() * (transverse / inverse);
         }
     };
 
@@ -117,25 +121,25 @@ fn add_bordered(
         string(&term.out, matrix, borders);
     }
 
-    // In plane: which of its three stiffnesses is near a pole.
+    // In plane: the term depends on which of the three stiffnesses is near a pole.
     let turn = 0.5 * sag.epsilon * gamma * q;
     if sigma.abs() * NEAR_POLE < c.abs() {
-        // Antisymmetric: only c/σ of k_c is large.
-        borders.push((term.normal, sigma / c / across));
-        let normal = -gamma * (sigma + sagging) / determinant * across;
+        // Antisymmetric pole: only c/σ of k_c is large.
+        borders.push((term.normal, sigma / c / transverse));
+        let normal = -gamma * (sigma + sagging) / determinant * transverse;
         let (axial, coupling) = (c / determinant * along, turn / determinant * along);
         let k = LocalStiffness { axial, coupling, normal, out_of_plane: 0.0 };
         add_local(matrix, term, &k, |k, product| k * product);
     } else if turn.abs() <= c.abs() {
-        // Symmetric, the chord carries the pole.
+        // Symmetric pole, mainly along the chord.
         let w = term.along + term.normal * (turn / c);
         borders.push((w, determinant / (c * along)));
         string(&term.normal, matrix, borders);
     } else {
-        // Symmetric, a cable with little sag near (2j − 1)π: the normal carries it.
+        // Symmetric pole of a cable with little sag near (2j − 1)π, mainly along the normal.
         let numerator = determinant * c / sigma - gamma * (sigma + sagging);
-        let w = term.normal + term.along * (turn * along / (numerator * across));
-        borders.push((w, determinant / (numerator * across)));
+        let w = term.normal + term.along * (turn * along / (numerator * transverse));
+        borders.push((w, determinant / (numerator * transverse)));
         let axial = along * (c * c / sigma - gamma * sigma) / numerator;
         *matrix += term.along * term.along.transpose() * axial;
     }

@@ -1,4 +1,4 @@
-//! What there is to say of a list of modes before it is computed and after.
+//! Checks of a list of modes: its length before it is computed, and caveats about the result.
 
 use super::damped::{self, DampedModes};
 use super::{Modes, RESIDUAL_LIMIT};
@@ -7,37 +7,37 @@ use crate::dynamics::Dynamics;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Most modes of one list that anyone reads; a thousand take some 40 ms.
-pub const MOST: usize = 20_000;
-/// Most modes whose damped partners are sought; these take some 5 s.
+/// Maximum number of modes in one list; a thousand modes take about 40 ms.
+pub const MAX_MODES: usize = 20_000;
+/// Maximum number of modes whose damped partners are computed; these take about 5 s.
 const MAX_DAMPED: usize = 2_000;
 
-/// More modes than a list is made of.
+/// More modes below the limit than a list may have.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "{count} natural frequencies lie below {below_hz} Hz, at most {most} are listed: lower the limit, or use the cable \
-     model `spring`, which has none of the cables' own"
+    "{count} natural frequencies lie below {below_hz} Hz, at most {max} are listed: lower the limit, or use the cable \
+     model `spring`, in which cables have no frequencies of their own"
 )]
 pub struct TooMany {
-    /// How many there are.
+    /// Number of modes below the limit.
     pub count: usize,
-    /// The limit [Hz].
+    /// Frequency limit [Hz].
     pub below_hz: f64,
-    /// How many would be listed.
-    pub most: usize,
+    /// Maximum number of modes in a list.
+    pub max: usize,
 }
 
-/// Refuses a limit below which there are more than `most` modes; a count is much cheaper than the list.
+/// Checks that there are at most `max` modes below a limit. Counting is much faster than computing the list.
 ///
 /// # Errors
 /// [`TooMany`].
-pub fn check_count(dynamics: &Dynamics, below_hz: f64, most: usize) -> Result<(), TooMany> {
+pub fn check_count(dynamics: &Dynamics, below_hz: f64, max: usize) -> Result<(), TooMany> {
     let count = dynamics.modes_below(below_hz * TAU);
-    if count > most { Err(TooMany { count, below_hz, most }) } else { Ok(()) }
+    if count > max { Err(TooMany { count, below_hz, max }) } else { Ok(()) }
 }
 
 impl Modes {
-    /// What to say of a list that is not certified.
+    /// Caveat about a list that is not certified; `None` for a certified list.
     pub fn caveat(&self) -> Option<String> {
         if self.certified {
             return None;
@@ -48,8 +48,8 @@ impl Modes {
         Some(match inexact {
             Some(mode) if modes.len() + unstable_directions == *count_below && mode.residual <= RESIDUAL_LIMIT => {
                 format!(
-                    "the list of {listed} is not certified, though the count confirms its number: the catenary-dynamic cables are \
-                     not resolved up to {below_hz} Hz; lower the limit"
+                    "the list of {listed} is not certified, though the count confirms its number: the catenary-dynamic \
+                     cables are not resolved up to {below_hz} Hz; lower the limit"
                 )
             }
             Some(mode) if modes.len() + unstable_directions == *count_below => format!(
@@ -65,15 +65,15 @@ impl Modes {
     }
 }
 
-/// The damped partners of a list, unless it is too long for them, and what there is to say of that.
+/// Damped partners of the modes of a list, unless it is too long, and a caveat about them.
 pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedModes>, Option<String>) {
     let count = undamped.modes.len();
     if count > MAX_DAMPED {
-        let said = format!(
-            "damping ratios are of first order: {count} modes are more than the {MAX_DAMPED} whose complex frequencies \
-             are sought; lower the limit"
+        let caveat = format!(
+            "damping ratios are of first order: complex frequencies are computed for at most {MAX_DAMPED} modes, the \
+             list has {count}; lower the limit"
         );
-        return (None, Some(said));
+        return (None, Some(caveat));
     }
     let damped = damped::damped_modes(dynamics, undamped);
     let caveat = damped.caveat(undamped);
@@ -81,7 +81,7 @@ pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedM
 }
 
 impl DampedModes {
-    /// What to say of the partners of an undamped list, beyond what there is to say of that list.
+    /// Caveat about the damped partners of an undamped list, in addition to the caveat about that list.
     fn caveat(&self, undamped: &Modes) -> Option<String> {
         match self.overdamped {
             0 if undamped.certified && !self.certified => Some(

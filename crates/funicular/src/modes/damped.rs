@@ -1,73 +1,78 @@
 //! Damped natural frequencies: one for each undamped mode, none lost.
 //!
-//! With damping D(ω) is complex and its zeros ω leave the real axis: the motion is e^{iωt}, so `λ = iω` and decay is
-//! Im ω > 0. All are sought at once: each undamped frequency, with its damping of first order, is a start, and every
-//! Newton step on det D is taken as if all the other zeros were divided out (Aberth), so that no two end at the same one.
-//! Afterwards the zeros inside a contour are counted: the phase of det D with damping over that without turns by nothing
-//! around it exactly if the region holds as many damped zeros as undamped ones, whose number Wittrick and Williams know.
+//! With damping D(ω) is complex and its zeros ω leave the real axis. The motion is e^{iωt}, so `λ = iω`, and decay is
+//! Im ω > 0. All zeros are sought at once. Each search starts at an undamped frequency with its damping of first order.
+//! Each Newton step on det D divides out all the other zeros (Aberth), so that no two searches end at the same zero.
+//!
+//! Afterwards the zeros inside a contour are counted, by the phase of det D with damping over det D without. Its total
+//! change along the contour is zero exactly if the region has as many damped zeros as undamped ones. The number of the
+//! undamped ones is known from the Wittrick–Williams count.
 
 use super::{Mode, Modes};
 use crate::dynamics::Dynamics;
 use crate::math::Complex;
 use std::f64::consts::{PI, TAU};
 
-/// A damped natural frequency.
+/// Damped natural frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
     /// Complex angular frequency ω [rad/s], motion e^{iωt}; λ = iω.
     pub omega: Complex,
-    /// Relative size of the last step of its search: it is not known better.
+    /// Relative size of the last step of its search, an estimate of its error.
     pub error: f64,
 }
 
 impl DampedMode {
-    /// |ω|/2π [Hz]: the natural frequency of an oscillator with this eigenvalue.
+    /// Natural frequency |ω|/2π [Hz] of an oscillator with this eigenvalue.
     pub fn frequency_hz(&self) -> f64 {
         self.omega.norm() / TAU
     }
 
-    /// Re ω/2π [Hz]: at which it rings, `√(1 − ζ²)` times the natural one.
+    /// Frequency of the decaying vibration, Re ω/2π [Hz]: `√(1 − ζ²)` times the natural frequency.
     pub fn ringing_hz(&self) -> f64 {
         self.omega.re / TAU
     }
 
-    /// ζ = Im ω/|ω|.
+    /// Damping ratio ζ = Im ω/|ω|.
     pub fn damping_ratio(&self) -> f64 {
         self.omega.im / self.omega.norm()
     }
 
-    /// λ = iω = −ζ|ω| + i|ω|√(1 − ζ²) [1/s].
+    /// Eigenvalue λ = iω = −ζ|ω| + i|ω|√(1 − ζ²) [1/s].
     pub fn eigenvalue(&self) -> Complex {
         Complex::new(-self.omega.im, self.omega.re)
     }
 }
 
-/// The damped partners of undamped modes.
+/// Damped partners of undamped modes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DampedModes {
-    /// One for each undamped mode, in their order.
+    /// Damped mode per undamped mode, in the same order.
     pub modes: Vec<DampedMode>,
-    /// Modes so strongly damped that they do not ring; ω is one of their two decay rates, and no count confirms them.
+    /// Number of modes so strongly damped that they do not vibrate. Their ω is one of their two decay rates, and no
+    /// count confirms them.
     pub overdamped: usize,
-    /// The undamped list is certified, every search has settled, and as many zeros lie in their region as are listed.
+    /// True if the undamped list is certified, every search has converged, and the region holds as many zeros as are
+    /// listed.
     pub certified: bool,
 }
 
-/// Largest error of a certified zero.
+/// Maximum error of a certified zero.
 const WANTED_ERROR: f64 = 1e-9;
-/// Relative spread, from the second moment, up to which zeros that belong to a multiple undamped mode are one.
+/// Maximum relative spread, from the second moment, of zeros that count as one multiple zero.
 const ONE_ZERO: f64 = 1e-8;
-/// Damping ratio that is put on at once: strong damping comes in steps, each zero following from its last place.
+/// Maximum damping ratio added in one step: strong damping is added in steps, and each zero starts from its last place.
 const STEP_OF_DAMPING: f64 = 0.1;
+/// Maximum number of these steps.
 const MAX_STEPS: f64 = 20.0;
-/// Times that lost zeros are sought again.
+/// Maximum number of times that lost zeros are sought again.
 const MAX_ROUNDS: usize = 5;
-/// Relative step below which a zero has settled.
+/// Relative step below which the search of a zero has converged.
 const SETTLED: f64 = 4e-15;
-/// Poles up to this part of the limit are divided out of det D: so none is near a zero that is sought.
+/// Ratio to the frequency limit up to which poles are divided out of det D, so that no remaining pole is near a zero.
 const POLES_BEYOND: f64 = 1.3;
 
-/// The damped partner of every mode of a list.
+/// Damped partner of every mode of a list.
 ///
 /// # Example
 /// ```
@@ -79,7 +84,7 @@ const POLES_BEYOND: f64 = 1.3;
 /// let undamped = modes::below(&dynamics, 5.0);
 /// let damped = modes::damped::damped_modes(&dynamics, &undamped);
 /// assert!(damped.certified && damped.modes.len() == undamped.modes.len());
-/// // Its ropes have ξ = 0.003, which a mode of the cables alone gets in full.
+/// // Its ropes have ξ = 0.003, which is the damping ratio of a mode of the cables alone.
 /// assert!(damped.modes.iter().all(|mode| mode.damping_ratio() > 0.0 && mode.damping_ratio() < 0.003_001));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -91,9 +96,9 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
     let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
     let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MAX_STEPS);
-    let mut search = Search { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit) };
+    let mut search = ZeroSearch { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit) };
 
-    // All zeros at once, damping put on in steps.
+    // All zeros at once; the damping is added in steps.
     let mut zeros = search.starts(&undamped.modes);
     search.converge(&mut zeros);
     while search.losses < 1.0 {
@@ -101,7 +106,7 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
         search.follow(&mut zeros, &undamped.modes);
     }
 
-    // Those that belong together apart, and those lost again.
+    // Separate zeros that a multiple mode shares, and search again for lost zeros.
     search.separate(&mut zeros, &undamped.modes);
     search.bring_back(&mut zeros, &undamped.modes);
 
@@ -111,7 +116,8 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
             modes[*member] = DampedMode { omega: zero.omega, error: zero.error };
         }
     }
-    // A rate without oscillation is imaginary but for rounding.
+
+    // The ω of a motion without oscillation is imaginary, except for rounding.
     let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= 1e-7 * mode.omega.norm()).count();
     let certified = undamped.certified
         && overdamped == 0
@@ -120,23 +126,24 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     DampedModes { modes, overdamped, certified }
 }
 
-struct Search<'a> {
+/// Search for the damped zeros.
+struct ZeroSearch<'a> {
     dynamics: &'a Dynamics,
-    /// Part of the damping that is on.
+    /// Fraction of the damping that acts in the present step.
     losses: f64,
-    /// Of each cable whose stiffness depends on frequency.
+    /// Poles of each cable whose stiffness depends on frequency.
     poles: Vec<Vec<f64>>,
 }
 
-/// A zero, of as many undamped modes as share it.
+/// Zero with the undamped modes that share it.
 struct Zero {
     omega: Complex,
     error: f64,
     members: Vec<usize>,
 }
 
-impl Search<'_> {
-    /// A start for each mode, multiple ones together; modes with the platform at rest in closed form.
+impl ZeroSearch<'_> {
+    /// Start of each search: one per mode, or per multiple mode. Modes with the platform at rest have a closed form.
     fn starts(&self, modes: &[Mode]) -> Vec<Zero> {
         let mut zeros: Vec<Zero> = Vec::with_capacity(modes.len());
         let mut next = 0;
@@ -156,18 +163,18 @@ impl Search<'_> {
         zeros
     }
 
-    /// Of a mode with the platform at rest whose cables are damped alike.
+    /// Complex frequency of a mode with the platform at rest whose cables have the same damping.
     fn of_cables_alone(&self, mode: &Mode) -> Option<Complex> {
         if mode.platform_energy_fraction > 0.0 {
             return None;
         }
-        let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, part)| **part > 0.0);
+        let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0);
         let mut damped = moving.map(|(i, _)| self.dynamics.cable_zero(i, mode.frequency_hz * TAU, self.losses));
         let first = damped.next()?;
         damped.all(|omega| omega == first).then_some(first)
     }
 
-    /// From where the zeros were with less damping to where they are now.
+    /// Moves the zeros from their places with less damping to those with the present damping.
     fn follow(&self, zeros: &mut [Zero], modes: &[Mode]) {
         for zero in &mut *zeros {
             match self.of_cables_alone(&modes[zero.members[0]]) {
@@ -178,9 +185,9 @@ impl Search<'_> {
         self.converge(zeros);
     }
 
-    /// Newton's steps on f over all the other zeros, until none moves.
+    /// Takes Newton steps on f, divided by all the other zeros, until no zero moves.
     fn converge(&self, zeros: &mut [Zero]) {
-        // Some four rounds; 60 is a guard for clusters, where convergence is linear at first.
+        // Usually four rounds; 60 is a guard for clusters, where convergence is linear at first.
         for _ in 0..60 {
             let mut moved = false;
             for i in 0..zeros.len() {
@@ -188,7 +195,7 @@ impl Search<'_> {
                     continue;
                 }
 
-                // Newton's step, the other zeros divided out.
+                // Newton step, with the other zeros divided out.
                 let omega = zeros[i].omega;
                 let others: Complex = zeros
                     .iter()
@@ -199,12 +206,12 @@ impl Search<'_> {
                 let step = zeros[i].members.len() as f64 / slope;
 
                 if !(step.re.is_finite() && step.im.is_finite()) {
-                    // Exactly at a zero, as far as rounding shows.
+                    // At a zero, to rounding.
                     zeros[i].error = 0.0;
                     continue;
                 }
 
-                // No start is thrown out of its region by a flat place of f.
+                // Limit the step, so that a flat region of f does not move a search far away.
                 let size = step.norm() / omega.norm();
                 let step = if size > MAX_STEP { step * (MAX_STEP / size) } else { step };
                 zeros[i].omega -= step;
@@ -217,14 +224,14 @@ impl Search<'_> {
         }
     }
 
-    /// Splits those shared zeros that damping has drawn apart.
+    /// Splits zeros that several modes share if damping has separated them.
     fn separate(&self, zeros: &mut Vec<Zero>, modes: &[Mode]) {
         let (apart, mut all): (Vec<Zero>, Vec<Zero>) =
             zeros.drain(..).partition(|zero| zero.members.len() > 1 && zero.error > 0.0 && !self.is_one(zero));
         let any = !apart.is_empty();
         for zero in apart {
             for (k, &member) in zero.members.iter().enumerate() {
-                // Starts of their own around the undamped one, at the distance of what damping does.
+                // Separate starts around the undamped zero, at a distance in proportion to the damping.
                 let mode = &modes[member];
                 let turn =
                     Complex::from_polar(0.3 * mode.damping_ratio, TAU * (k as f64 + 0.3) / zero.members.len() as f64);
@@ -238,16 +245,16 @@ impl Search<'_> {
         }
     }
 
-    /// Seeks those that have been thrown out of their region again: from their own start and from the starts of those that
-    /// have gone farthest, since one of them may have taken the zero of another. All others stay divided out.
+    /// Searches again for zeros that have left their region: from their own start, and from the starts of the zeros
+    /// that have moved farthest, because one of these may have taken the zero of another. All others stay divided out.
     fn bring_back(&self, zeros: &mut [Zero], modes: &[Mode]) {
         let start = |zero: &Zero| {
             let mode = &modes[zero.members[0]];
             mode.frequency_hz * TAU * Complex::new(1.0, mode.damping_ratio)
         };
-        // Undamped ones lie on the real axis but for rounding.
-        let least = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
-        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < least(zero);
+        // Zeros without damping lie on the real axis, except for rounding.
+        let minimum = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
+        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < minimum(zero);
 
         for round in 0..MAX_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
@@ -255,14 +262,14 @@ impl Search<'_> {
                 return;
             }
 
-            // Places to begin from: its own, then those of the zeros that have gone farthest.
+            // Starts: the zero's own, then those of the zeros that have moved farthest.
             let gone = |zero: &Zero| (zero.omega - start(zero)).norm() / zero.omega.norm();
             let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
             places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
 
             for (k, i) in lost.into_iter().enumerate() {
                 let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
-                // Beside it: the zero itself may be another's.
+                // Start beside that place, because the zero there may belong to another mode.
                 let beside = Complex::from_polar(1e-3, 0.7 + k as f64);
                 zeros[i].omega = start(&zeros[at]) * (1.0 + beside);
                 zeros[i].error = f64::INFINITY;
@@ -271,8 +278,8 @@ impl Search<'_> {
         }
     }
 
-    /// Whether all zeros that were sought together are one: the zeros in a small circle about it, their number and the
-    /// moments of their places, from the logarithmic slope on the circle.
+    /// True if all modes that share a zero really have one multiple zero. The logarithmic slope on a small circle
+    /// around it gives the number of zeros inside and the moments of their places.
     fn is_one(&self, zero: &Zero) -> bool {
         const POINTS: usize = 8;
         let radius = 1e-4 * zero.omega.norm();
@@ -293,8 +300,8 @@ impl Search<'_> {
         (count - many).norm() < 0.1 && variance.norm().sqrt() <= ONE_ZERO * zero.omega.norm()
     }
 
-    /// A frequency at or a little beyond the limit [rad/s], in the widest gap between undamped modes: damping shifts their
-    /// ringing, and none must cross the edge of the region in which they are counted.
+    /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
+    /// frequencies, and none may cross the edge of the region in which they are counted.
     fn free_of_modes(&self, limit: f64) -> f64 {
         let at = |k: usize| limit * (1.0 + BEYOND * k as f64 / LOOKS as f64);
         let (mut widest, mut first) = (0..0, 0);
@@ -310,31 +317,32 @@ impl Search<'_> {
         0.5 * (at(widest.start) + at(widest.end))
     }
 
-    /// Whether as many damped zeros as undamped ones lie around the list: the phase of the quotient of both determinants
-    /// does not turn on the way around.
+    /// True if the region of the list has as many damped zeros as undamped ones: the phase of the quotient of both
+    /// determinants has no total change along the boundary.
     fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64) -> bool {
-        let Some(least) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
-        let most = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
+        let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
+        let max_im = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
 
-        // Far enough from all zeros for a slow phase.
-        let margin = (2.0 * most).max(0.01 * limit);
+        // Corners of the region, so far from all zeros that the phase changes slowly.
+        let margin = (2.0 * max_im).max(0.01 * limit);
         let right = self.free_of_modes(limit);
         let corner = |re, im| Complex::new(re, im);
         let corners = [
-            corner(0.5 * least, -margin),
+            corner(0.5 * min_re, -margin),
             corner(right, -margin),
-            corner(right, most + margin),
-            corner(0.5 * least, most + margin),
+            corner(right, max_im + margin),
+            corner(0.5 * min_re, max_im + margin),
         ];
 
-        // How far the phase turns around it.
+        // Total change of the phase along the boundary.
         let phase = |omega: Complex| {
             self.dynamics.phase(omega, 1.0, &self.poles) - self.dynamics.phase(omega, 0.0, &self.poles)
         };
         let mut turned = 0.0;
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
             let mut last = (*from, phase(*from));
-            // The phase turns within the distance of the zeros; a longer piece might skip a whole turn of a cluster.
+            // The phase changes over distances like those to the zeros; a longer piece might miss a full turn at a
+            // cluster.
             let pieces = ((to - from).norm() / (0.5 * margin)).ceil() as usize;
             for piece in 1..=pieces {
                 let point = from + (to - from) * (piece as f64 / pieces as f64);
@@ -351,33 +359,34 @@ impl Search<'_> {
     }
 }
 
-/// Part of the limit within which a place free of modes is sought beyond it, and looks taken there.
+/// Width of the range above the limit in which a gap between modes is sought, relative to the limit.
 const BEYOND: f64 = 0.05;
+/// Number of points of this range at which modes are counted.
 const LOOKS: usize = 64;
 
-/// Longest step of a search, relative to its frequency.
+/// Maximum step of a search, relative to its frequency.
 const MAX_STEP: f64 = 0.1;
 
-/// The least change of a phase.
+/// Change of a phase, reduced to −π to π.
 fn wrapped(phase: f64) -> f64 {
     phase - TAU * (phase / TAU).round()
 }
 
-/// Change of phase between two points; halved until it is small and both halves agree with the
-/// whole and with each other.
+/// Change of phase between two points. The interval is halved until the change is small and both halves agree with the
+/// total and with each other.
 fn turn_between(
     phase: &impl Fn(Complex) -> f64,
     from: (Complex, f64),
     to: (Complex, f64),
     depth: usize,
 ) -> Option<f64> {
-    // A zero on the path itself would halve for ever.
-    const DEEPEST: usize = 30;
+    // Maximum number of halvings: a zero on the path itself would need infinitely many.
+    const MAX_DEPTH: usize = 30;
     let middle = 0.5 * (from.0 + to.0);
     let middle = (middle, phase(middle));
     let whole = wrapped(to.1 - from.1);
     let (first, second) = (wrapped(middle.1 - from.1), wrapped(to.1 - middle.1));
-    if !(whole.is_finite() && first.is_finite()) || depth > DEEPEST {
+    if !(whole.is_finite() && first.is_finite()) || depth > MAX_DEPTH {
         return None;
     }
     if whole.abs() < 1.0 && (first + second - whole).abs() < 0.1 && (first - second).abs() < 0.5 {

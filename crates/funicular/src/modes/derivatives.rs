@@ -1,8 +1,8 @@
-//! How a natural frequency follows a number of the robot.
+//! Derivative of a natural frequency by a parameter of the robot.
 //!
-//! The dynamic stiffness D(ω) has the quadratic form `W = xᵀ D x`, which is stationary in the mode x and in the motion
-//! along every cable. So its derivative needs neither a derivative of the mode nor that of the cables' motion: only what
-//! the change does to forces, lever arms, masses and ropes while the motion stays. `dω = dW/(2ω · modal mass)`.
+//! The quadratic form `W = xᵀ D x` of the dynamic stiffness D(ω) is stationary in the mode x and in the motion along
+//! every cable. So its derivative needs neither the derivative of the mode nor that of the cables' motion. Only the
+//! changes of forces, lever arms, masses and ropes at constant motion count: `dω = dW/(2ω · modal mass)`.
 
 use super::Mode;
 use crate::cable::catenary_dynamic::{CatenaryDynamic, InternalMotion};
@@ -15,23 +15,23 @@ use crate::statics::{CableState, Equilibrium};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Pieces of a cable over which the motion is integrated. With half as many the derivatives of the library's robots are
-/// the same to 1e-9 (a test compares them).
+/// Number of pieces of a cable over which the motion is integrated. With half of them the derivatives of the library's
+/// robots are the same to 1e-9 (a test compares them).
 const PIECES: usize = 16;
 
-/// Nodes of the Gauss rule in each piece.
+/// Number of nodes of the Gauss rule in each piece.
 const NODES: usize = 12;
 
-/// Why a natural frequency has no derivative here.
+/// Reason for which the derivative of a natural frequency is not available.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FrequencyDerivativeError {
-    /// The model of the cables is an approximation whose derivative is not implemented.
+    /// The derivative is not implemented for this cable model.
     #[error("derivatives of frequencies need the cable model `catenary-dynamic` or `catenary-static`, not `{0}`")]
     Model(CableModel),
     /// Terms of the stiffness are left out.
     #[error("derivatives of frequencies need all terms of the stiffness: assembly `consistent`, in and out of plane")]
     Terms,
-    /// Several modes share the frequency, so it has several derivatives.
+    /// Several modes share the frequency, so that it has several derivatives.
     #[error("{multiplicity} modes share the frequency {frequency_hz} Hz: it has no single derivative")]
     Multiple {
         /// Frequency [Hz].
@@ -39,20 +39,21 @@ pub enum FrequencyDerivativeError {
         /// Number of modes.
         multiplicity: usize,
     },
-    /// a catenary-dynamic cable cannot be discretised.
+    /// A cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
         /// Name of the cable.
         cable: String,
         /// Reason.
-        reason: crate::cable::catenary_dynamic::ExactError,
+        reason: crate::cable::catenary_dynamic::CatenaryDynamicError,
     },
 }
 
-/// Derivative of a natural frequency by the parameter that makes a change [Hz per unit of the parameter].
+/// Derivative of a natural frequency by the parameter of a change [Hz per unit of the parameter].
 ///
-/// `by` is the derivative of the equilibrium by the same parameter, [`crate::statics::derivatives::at_held_lengths`] or
-/// `at_held_pose`: what is held there is held here. Mode, dynamics and equilibrium are those of the robot.
+/// `by` is the derivative of the equilibrium by this parameter, from [`crate::statics::derivatives::at_held_lengths`]
+/// or `at_held_pose`: the lengths or the pose held there are held here. Mode, dynamics and equilibrium belong to the
+/// robot.
 ///
 /// # Errors
 /// [`FrequencyDerivativeError`].
@@ -94,7 +95,7 @@ pub fn frequency(
     in_pieces(robot, equilibrium, dynamics, mode, change, by, PIECES)
 }
 
-/// [`frequency`] with integrals over this number of pieces of every cable.
+/// Computes [`frequency`] with integrals over a given number of pieces of every cable.
 fn in_pieces(
     robot: &Robot,
     equilibrium: &Equilibrium,
@@ -129,14 +130,14 @@ fn in_pieces(
             FrequencyDerivativeError::CatenaryDynamic { cable: robot.cables[i].name.clone(), reason }
         })?;
         total += motion.energy_change(robot, i, state, of_cable, by, omega);
-        // The end turns with its lever arm, against the force that holds it.
+        // The platform end moves with its lever arm against the force that holds it.
         total += 2.0 * motion.end_force_w.dot(&theta.cross(&by.lever_w));
         total += lever_change(&state.force_on_platform_w, &state.lever_w, &by.force_on_platform_w, &by.lever_w, &theta);
     }
     Ok(total / (2.0 * omega * mode.modal_mass) / TAU)
 }
 
-/// Change of the quadratic form that is due to the platform: weight and load on their lever arms, mass and inertia.
+/// Change of the quadratic form by the platform: weight and load on their lever arms, mass and inertia.
 fn platform_terms(
     robot: &Robot,
     equilibrium: &Equilibrium,
@@ -169,7 +170,7 @@ fn platform_terms(
     stiffness - omega * omega * mass
 }
 
-/// Change of `−θᵀ[f]×[r]×θ = (f·r)|θ|² − (θ·r)(f·θ)`, the stiffness of a force on its lever arm.
+/// Change of `−θᵀ[f]×[r]×θ = (f·r)|θ|² − (θ·r)(f·θ)`, the geometric stiffness of a force on its lever arm.
 fn lever_change(force: &Vec3, lever: &Vec3, force_change: &Vec3, lever_change: &Vec3, theta: &Vec3) -> f64 {
     (force_change.dot(lever) + force.dot(lever_change)) * theta.norm_squared()
         - theta.dot(lever_change) * force.dot(theta)
@@ -180,7 +181,7 @@ fn lever_change(force: &Vec3, lever: &Vec3, force_change: &Vec3, lever_change: &
 struct CableMotion {
     /// Nodes of the integrals along the cable: unstrained arc length and weight [m].
     nodes: Vec<(f64, f64)>,
-    /// Displacement at each node, world axes; empty where the cable's own inertia does not count.
+    /// Displacement at each node, world axes; empty if the model has no inertia of the cable.
     displacement_w: Vec<Vec3>,
     /// Change δN of the tension vector at each node, world axes [N].
     tension_w: Vec<Vec3>,
@@ -197,8 +198,9 @@ impl CableMotion {
         state: &CableState,
         end_w: &Vec3,
         pieces: usize,
-    ) -> Result<Self, crate::cable::catenary_dynamic::ExactError> {
-        let hanging = state.hanging.as_ref().expect("dynamics of these models are those of hanging cables");
+    ) -> Result<Self, crate::cable::catenary_dynamic::CatenaryDynamicError> {
+        // Nodes of the integrals.
+        let hanging = state.hanging.as_ref().expect("the catenary models have hanging cables");
         let length = state.unstrained_length;
         let rule = legendre::gauss(NODES);
         let step = length / pieces as f64;
@@ -209,47 +211,50 @@ impl CableMotion {
             .collect();
 
         let Some((term, at)) = dynamics.terms().iter().zip(0..).find(|(term, _)| term.cable() == i) else {
-            // No inertia along the cable: the tension changes by one vector all along it.
+            // Without inertia the tension vector changes by the same amount all along the cable.
             let end_force_w = hanging.tangent_w() * end_w;
             let tension_w = vec![-end_force_w; nodes.len()];
             return Ok(Self { nodes, displacement_w: Vec::new(), tension_w, end_force_w });
         };
         let DynamicCable::CatenaryDynamic(end) = term.form() else { unreachable!("other models were refused") };
 
-        // Displacement at the nodes: slow shape and clamped modes; those whose poles are near, by their amplitudes.
+        // Displacement at the nodes: slow shape and clamped modes. Modes with near poles have their amplitudes in the
+        // mode.
         let arc_lengths = nodes.iter().map(|(s, _)| *s).collect();
         let (_, stations) = CatenaryDynamic::with_stations(
             &hanging.catenary,
             end.mass_per_length,
-            end.exact.limit,
+            end.cable.limit,
             arc_lengths,
             false,
         )?;
         let axes = [&end.axes.e, &end.axes.n, &end.axes.b];
         let omega = mode.frequency_hz * TAU;
-        let mut swing =
-            InternalMotion::new(&end.exact, axes.map(|axis| axis.dot(end_w).into()), (omega * omega).into());
+        let start = axes.map(|axis| axis.dot(end_w).into());
+        let mut motion = InternalMotion::new(&end.cable, start, (omega * omega).into());
         let platform_w = dynamics.coordinates().expand(&mode.motion.platform);
         let largest = platform_w[platform_w.iamax()];
-        let scale = if mode.shape.iter().all(|part| *part == 0.0) { 1.0 } else { 1.0 / largest };
+        let scale = if mode.shape.iter().all(|component| *component == 0.0) { 1.0 } else { 1.0 / largest };
         for near in mode.motion.near.iter().filter(|near| near.term == at) {
-            let family = if near.across { &mut swing.out_of_plane } else { &mut swing.in_plane };
+            let family = if near.out_of_plane { &mut motion.out_of_plane } else { &mut motion.in_plane };
             family[near.pole] = (near.amplitude * scale).into();
         }
         let displacement_w: Vec<Vec3> = (0..nodes.len())
             .map(|k| {
-                let parts = stations.displacement(k, &swing);
-                parts.iter().zip(axes).map(|(part, axis)| axis * part.re).sum()
+                let components = stations.displacement(k, &motion);
+                components.iter().zip(axes).map(|(component, axis)| axis * component.re).sum()
             })
             .collect();
 
         // Momentum: δN(s) = δN(0) − ω² m ∫₀ˢ δp ds.
         let factor = -omega * omega * robot.cables[i].material.mass_per_length;
         let gathered = gathered(&rule, step, &displacement_w);
-        // The anchor is held: the strains of δN along the cable add up to −a, a being the motion of the platform end.
+
+        // The anchor is held: the strains of δN along the cable add up to −a, where a is the motion of the platform
+        // end.
         let mut beyond = Vec3::zeros();
         for ((s, weight), gathered) in nodes.iter().zip(&gathered) {
-            beyond += compliance(&Tension::at(state, *s), hanging.catenary.rope().axial_stiffness)
+            beyond += compliance(&TensionVector::at(state, *s), hanging.catenary.rope().axial_stiffness)
                 * gathered
                 * (*weight * factor);
         }
@@ -258,7 +263,7 @@ impl CableMotion {
         Ok(Self { nodes, displacement_w, tension_w, end_force_w: -at_start })
     }
 
-    /// Change of the quadratic form of this cable while its motion stays.
+    /// Change of the quadratic form of this cable at constant motion.
     fn energy_change(
         &self,
         robot: &Robot,
@@ -271,14 +276,16 @@ impl CableMotion {
         let material = &robot.cables[i].material;
         let (stiffness, length) = (material.axial_stiffness, state.unstrained_length);
 
+        // Integrals along the cable.
         let (mut by_force, mut by_load) = (Vec3::zeros(), Vec3::zeros());
         let (mut by_stiffness, mut work) = (0.0, 0.0);
         for ((s, weight), change_w) in self.nodes.iter().zip(&self.tension_w) {
-            let tension = Tension::at(state, *s);
-            // The third derivative of |N|, twice along δN.
+            let tension = TensionVector::at(state, *s);
+            // Third derivative of |N|, twice along δN.
             let along = tension.direction.dot(change_w);
-            let across = change_w - tension.direction * along;
-            let third = (tension.direction * across.norm_squared() + across * (2.0 * along)) / tension.size.powi(2);
+            let transverse = change_w - tension.direction * along;
+            let third =
+                (tension.direction * transverse.norm_squared() + transverse * (2.0 * along)) / tension.size.powi(2);
             by_force += third * *weight;
             by_load += third * (*weight * s / length);
             by_stiffness += change_w.norm_squared() * weight / stiffness.powi(2);
@@ -295,14 +302,14 @@ impl CableMotion {
     }
 }
 
-/// Tension vector of a static cable.
-struct Tension {
+/// Tension vector at a point of a cable at equilibrium.
+struct TensionVector {
     direction: Vec3,
     size: f64,
 }
 
-impl Tension {
-    /// At an unstrained arc length from the platform [m]: N = f − s q.
+impl TensionVector {
+    /// Tension vector at an unstrained arc length s from the platform [m]: N = f − s q.
     fn at(state: &CableState, s: f64) -> Self {
         let vector = state.force_on_platform_w - load_of(state) * s;
         let size = vector.norm();
@@ -310,13 +317,14 @@ impl Tension {
     }
 }
 
-/// Change of dp/ds by the tension vector: `I/EA + (I − ttᵀ)/T` [1/N].
-fn compliance(tension: &Tension, axial_stiffness: f64) -> Mat3 {
+/// Derivative of dp/ds by the tension vector: `I/EA + (I − ttᵀ)/T` [1/N].
+fn compliance(tension: &TensionVector, axial_stiffness: f64) -> Mat3 {
     let along = tension.direction * tension.direction.transpose();
     Mat3::identity() / axial_stiffness + (Mat3::identity() - along) / tension.size
 }
 
-/// Integrals of a vector from the start of the cable to every node, by the polynomial through the nodes of each piece.
+/// Integrals of a vector from the start of the cable to every node, from the polynomial through the nodes of each
+/// piece.
 fn gathered(rule: &[(f64, f64)], step: f64, values: &[Vec3]) -> Vec<Vec3> {
     let count = rule.len();
     // Orthonormal polynomials at the nodes, and their integrals from −1: of P_k it is (P_{k+1} − P_{k−1})/(2k + 1).
@@ -334,7 +342,8 @@ fn gathered(rule: &[(f64, f64)], step: f64, values: &[Vec3]) -> Vec<Vec3> {
             .map(|k| piece.iter().zip(rule).zip(&at_nodes).map(|((p, (_, weight)), own)| p * (weight * own[k])).sum())
             .collect();
         for own in &at_nodes {
-            let inside: Vec3 = coefficients.iter().enumerate().map(|(k, part)| part * integral(own, k)).sum();
+            let inside: Vec3 =
+                coefficients.iter().enumerate().map(|(k, coefficient)| coefficient * integral(own, k)).sum();
             sums.push(before + inside * (0.5 * step));
         }
         before += piece.iter().zip(rule).map(|(p, (_, weight))| p * *weight).sum::<Vec3>() * (0.5 * step);
@@ -362,7 +371,7 @@ mod tests {
             let compared = modes.iter().filter(|mode| mode.multiplicity == 1).map(|mode| {
                 let [half, whole] = [PIECES / 2, PIECES]
                     .map(|pieces| in_pieces(&robot, &rest, &dynamics, mode, &change, &by, pieces).unwrap());
-                // Beside the largest that a mass of the platform can do to a frequency.
+                // Relative to the largest effect that the platform's mass can have on a frequency.
                 let scale = mode.frequency_hz / robot.platform.mass;
                 assert!((half - whole).abs() < 1e-9 * scale, "{} {}: {half} {whole}", robot.name, mode.frequency_hz);
             });
@@ -381,7 +390,7 @@ mod tests {
             let values: Vec<Vec3> = nodes.iter().map(|s| Vec3::new(s.powi(power), 0.0, -1.0)).collect();
             for (s, sum) in nodes.iter().zip(gathered(&rule, step, &values)) {
                 let exact = s.powi(power + 1) / f64::from(power + 1);
-                // Rounding of a dozen sums of size 2.
+                // The bound is the rounding of a dozen sums of size 2.
                 assert!((sum - Vec3::new(exact, 0.0, -s)).amax() < 1e-14, "{power} {s} {sum}");
             }
         }

@@ -1,37 +1,38 @@
-//! The first natural frequency alone, with catenary-dynamic cables, for sweeps over many poses. Nothing of this room is visible
-//! outside but [`first`] with its result, and the slow way that it falls back to.
+//! First natural frequency alone, with catenary-dynamic cables, for sweeps over many poses. Only [`first`] with its
+//! result is visible outside, and [`lowest_by_count`], the slow method to which it falls back.
 //!
-//! **What is computed.** Platform and cables together are a symmetric pencil `K − ω² M` with M positive definite. Its
-//! lowest eigenvalue lies between a shift at which the pencil is positive definite and any Rayleigh quotient
-//! (docs/theory.md, section 9, equations (35a) to (35c)). The search narrows that interval to a billionth and proves the
+//! **Problem.** Platform and cables together are a symmetric pencil `K − ω² M` with M positive definite. Its lowest
+//! eigenvalue lies between a shift at which the pencil is positive definite and any Rayleigh quotient (docs/theory.md,
+//! section 9, equations (35a) to (35c)). The search narrows that interval to a relative width of 1e-9 and proves the
 //! result by the inertia of the pencil just below it.
 //!
-//! **Why it is fast.** The first frequency of a robot is not above the first clamped one of any of its cables. So one
-//! element of modest degree serves a taut cable and a few serve a slack one, no clamped mode is needed, and one
-//! factorisation per shift condenses a cable onto its platform end and one more unknown. Eight cables are worked on side
-//! by side, one in each lane of a vector register. A few shifts are enough, because inverse iteration at each of them ends
-//! where the next one begins, and the first ones use matrices condensed at rest, which cost little.
+//! **Speed.** The first frequency of a robot is not above the first clamped frequency of any of its cables. So one
+//! element of modest degree is enough for a taut cable, and a few elements for a slack one. No clamped mode is needed.
+//! One factorisation per shift condenses a cable onto its platform end and one more unknown. Eight cables are computed
+//! side by side, one in each lane of a vector register. A few shifts are enough, because inverse iteration at one shift
+//! gives the next one. The first shifts use matrices condensed at ω = 0, which cost little.
 //!
 //! | File | Step |
 //! |---|---|
 //! | `batched_cable` | K − ω² M of eight cables at once, condensed onto the unknowns that are kept |
-//! | `batched_cable/mesh` | elements of a cable, several where it hangs nearly without tension |
+//! | `batched_cable/mesh` | elements of a cable; several if it hangs nearly without tension |
 //! | `batched_cable/element` | matrices of one element in each lane, and their elimination |
 //! | `batched_cable/element_integrals` | integrals of hats, bubbles and Legendre polynomials; Gauss's rules |
 //! | `batched_cable/node_elimination` | nodes between the elements of slack cables |
-//! | `condensed_cables` | kept unknowns of all cables: as a pencil about rest, and with all unknowns |
-//! | `lever_axes` | axes of the cables over the platform's motion; motions of the whole robot |
-//! | `factor` | the pencil at a shift, factored, and its inertia |
+//! | `condensed_cables` | kept unknowns of all cables: as a pencil about one frequency, and with all unknowns |
+//! | `lever_axes` | axes of the cables over the platform's motion; motions of the robot |
+//! | `factor` | factorisation of the pencil at a shift, and its inertia |
 //! | `search` | bracket, iterate, verify |
-//! | `pencil` | the robot as a pencil; rough search, then the exact one |
+//! | `pencil` | the robot as a pencil; rough search, then search with all unknowns |
 //!
-//! **Oracle.** [`below`] counts and separates all natural frequencies below a limit by the poles of the cables; it shares
-//! neither mesh nor search with this room. tests/suite/first.rs compares both over the library, random robots and
-//! slack cables to 1e-9 of the frequency, and the tests of `batched_cable` compare its stiffness with that by poles.
+//! **Oracle.** [`below`](super::below) counts and separates all natural frequencies below a limit by the poles of the
+//! cables; it shares neither mesh nor search with this module. tests/suite/modes/first.rs compares both over the
+//! library, random robots and slack cables to 1e-9 of the frequency. The tests of `batched_cable` compare its stiffness
+//! with the stiffness by poles.
 //!
-//! **Cost.** Some tens of microseconds per pose for taut cables, more where they are slack, against twenty times that by
-//! the list of all. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, are left
-//! to that list.
+//! **Cost.** Tens of microseconds per pose for taut cables, more for slack ones; the list of all modes takes twenty
+//! times as long. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, use
+//! that list.
 
 mod batched_cable;
 mod condensed_cables;
@@ -45,35 +46,36 @@ use super::{Kind, Mode, Modes};
 use crate::dynamics::{DynamicsError, Linearisation};
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
-use pencil::Pencil;
+use pencil::RobotPencil;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// The first natural mode of a robot.
+/// First natural mode of a robot.
 ///
-/// Energies and shape are of a motion whose Rayleigh quotient is the frequency's, and contain of other modes what its
-/// width of 5e-10 leaves room for: with the next frequency a part d above, at most `√(5e-10/d)` of them, and the energies
-/// are off by no more than twice that; usually by less than 1e-6.
+/// Energies and shape belong to a motion whose Rayleigh quotient has a relative error of at most 5e-10 and that may
+/// contain other modes. If the next frequency is higher by the relative distance d, their contribution is at most
+/// `√(5e-10/d)`, and the energies are wrong by at most twice that, usually by less than 1e-6.
 #[derive(Debug, Clone, PartialEq)]
 pub struct First {
     /// Natural frequency, undamped [Hz].
     pub frequency_hz: f64,
-    /// Whose vibration it is.
+    /// Kind of the mode: vibration of the platform, of the cables, or of both.
     pub kind: Kind,
-    /// Kinetic energy of the platform over that of the robot.
+    /// Fraction of the kinetic energy that the platform has.
     pub platform_energy_fraction: f64,
-    /// Kinetic energy of each cable over that of the robot, file order.
+    /// Fraction of the kinetic energy that each cable has, in the order of the file.
     pub cable_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
-    /// Directions in which the equilibrium is unstable; they have no frequency.
+    /// Number of unstable directions of the equilibrium; they have no frequency.
     pub unstable_directions: usize,
-    /// No natural frequency lies below by more than 5e-10 of it, and one lies not above.
+    /// True if it is proved that the first natural frequency is at most this frequency and lower by at most 5e-10 of
+    /// it.
     pub certified: bool,
 }
 
-/// Why there is no first frequency to give.
+/// Reason for which there is no first frequency.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FirstError {
     /// The robot cannot be linearised with catenary-dynamic cables.
@@ -82,21 +84,21 @@ pub enum FirstError {
     /// Nothing vibrates: the platform is unstable in every direction.
     #[error("no natural frequency below {below_hz:.3e} Hz: the equilibrium is unstable in {directions} directions")]
     None {
-        /// Searched up to here [Hz].
+        /// Limit of the search [Hz].
         below_hz: f64,
-        /// Directions that are not opposed.
+        /// Number of unstable directions.
         directions: usize,
     },
 }
 
-/// The lowest natural frequency of a robot with catenary-dynamic cables, undamped, and its mode.
+/// Lowest natural frequency of a robot with catenary-dynamic cables, undamped, and its mode.
 ///
-/// The same as the first of [`below`] with [`Linearisation::default`], some twenty times faster, more where cables are
-/// slack. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, go through
-/// [`lowest_by_count`].
+/// It equals the first mode of [`below`](super::below) with [`Linearisation::default`], but is about twenty times
+/// faster, and more with slack cables. Robots whose stiffness is not positive definite, and searches that rounding
+/// keeps from ending, use [`lowest_by_count`].
 ///
 /// # Errors
-/// [`FirstError`]: a cable without tension or without a shape, or nothing that vibrates.
+/// [`FirstError`]: a cable has no tension or does not hang, or nothing vibrates.
 ///
 /// # Example
 /// ```
@@ -112,17 +114,17 @@ pub enum FirstError {
 /// # References
 /// docs/theory.md, section 9, equations (35a) to (35c).
 pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    if let Some(found) = Pencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
+    if let Some(found) = RobotPencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
         return Ok(found);
     }
     lowest_by_count(robot, equilibrium)
 }
 
-/// As [`first`], by counting and separating all natural frequencies below a limit that is raised until there is one: the
-/// slow way, which knows every robot.
+/// Lowest natural frequency and mode like [`first`], by a slower method for every robot: it counts and separates all
+/// natural frequencies below a limit, which it raises until there is one.
 ///
 /// # Errors
-/// As [`first`].
+/// [`FirstError`], as for [`first`].
 pub fn lowest_by_count(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
     let (_, found) = lowest(robot, equilibrium, Linearisation::default(), 1, MAX_HZ).map_err(|error| match error {
         LowestError::Dynamics(error) => FirstError::Dynamics(error),
@@ -137,7 +139,7 @@ pub fn lowest_by_count(robot: &Robot, equilibrium: &Equilibrium) -> Result<First
     }
 }
 
-/// Limit of the search [Hz]: far above the sound of any rope.
+/// Maximum limit of the search [Hz]: far above the first frequency of any rope.
 const MAX_HZ: f64 = 1e8;
 
 impl First {
@@ -176,7 +178,7 @@ mod tests {
                     // Beyond, loops hang down far below the robot.
                     if slackness < 1000.0 {
                         poses[usize::from(slackness > 3.0)] += 1;
-                        let found = Pencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
+                        let found = RobotPencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
                         assert!(found.is_some(), "{x}, {y}, {z}");
                     }
                 }

@@ -1,4 +1,4 @@
-//! The lowest natural frequencies, as many as are requested, without a limit that has to be known beforehand.
+//! Requested number of lowest natural frequencies, without a limit that has to be known beforehand.
 
 use super::{Modes, below};
 use crate::cable::{CableModel, Sag};
@@ -8,33 +8,34 @@ use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Why there are not as many natural frequencies as requested.
+/// Reason for which there are not as many natural frequencies as requested.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LowestError {
     /// The robot cannot be linearised.
     #[error(transparent)]
     Dynamics(#[from] DynamicsError),
-    /// The count at the highest frequency says that there are fewer.
+    /// The count below the highest frequency is smaller than the requested number.
     #[error("fewer than {requested} natural frequencies are below {highest_hz} Hz: raise the limit of the search")]
     TooFew {
         /// Number requested.
         requested: usize,
-        /// Number there are below the limit.
+        /// Number found below the limit.
         found: usize,
         /// Limit of the search [Hz].
         highest_hz: f64,
-        /// Directions in which the linearised robot is unstable; they are counted, and have no frequency.
+        /// Number of unstable directions of the linearised robot; they are counted, but have no frequency.
         unstable_directions: usize,
     },
 }
 
-/// All natural modes below a limit that the search chooses: low, and with at least `count` modes below it. The limit is at
-/// most `highest_hz`.
+/// All natural modes below a limit that the search chooses: as low as possible, with at least `count` modes below it,
+/// and at most `highest_hz`.
 ///
-/// The first limit lies where the first frequency is likely. It is doubled until the count confirms enough modes below it.
+/// The first limit lies near the expected first frequency. It is doubled until the count confirms enough modes below
+/// it.
 ///
 /// # Errors
-/// [`LowestError`]: a cable that the linearisation has no stiffness for, or fewer modes than requested below `highest_hz`.
+/// [`LowestError`]: a cable has no stiffness in the model, or there are fewer modes than requested below `highest_hz`.
 ///
 /// # Example
 /// ```
@@ -58,7 +59,7 @@ pub fn lowest(
         let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
         let counted = dynamics.modes_below(limit * TAU);
 
-        // The count includes unstable directions, which only the list tells apart.
+        // The count includes unstable directions; only the list distinguishes them.
         if counted >= count || limit >= highest_hz {
             let list = below(&dynamics, limit);
             let unstable_directions = list.unstable_directions;
@@ -74,9 +75,10 @@ pub fn lowest(
     }
 }
 
-/// A little above the lowest frequency of a cable between fixed ends, which is above the first frequency of the robot [Hz].
+/// First limit of the search [Hz]: slightly above the lowest frequency of a cable between fixed ends, which is above
+/// the first frequency of the robot.
 fn first_limit(robot: &Robot, equilibrium: &Equilibrium, model: CableModel) -> f64 {
-    /// The first frequency of a cable out of plane is that of a string, to the second order of the sag.
+    /// Factor on the string frequency, which is the cable's first frequency out of plane to second order of the sag.
     const ABOVE: f64 = 1.05;
     let cables = equilibrium.cables.iter().enumerate();
     let strings = cables.map(|(i, state)| Sag::of(robot, i, state).string_frequency_hz());

@@ -1,8 +1,8 @@
-//! Likeness of two motions.
+//! Modal assurance criterion (MAC) of two motions.
 
-/// Modal assurance criterion of two motions: the squared cosine of the angle between them, `(aᵀMb)²/((aᵀMa)(bᵀMb))`,
-/// where `inner(a, b)` is `aᵀMb` [-]. 1 for motions that differ in size or sign only, 0 for motions without kinetic energy
-/// in common, or if one of them is at rest.
+/// Modal assurance criterion (MAC) of two motions [-]: the squared cosine of the angle between them,
+/// `(aᵀMb)²/((aᵀMa)(bᵀMb))`, where `inner(a, b)` is `aᵀMb`. It is 1 for motions that differ only in size or sign. It is
+/// 0 for motions without kinetic energy in common, and if one of them is zero.
 ///
 /// # Example
 /// ```

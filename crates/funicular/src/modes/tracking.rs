@@ -1,29 +1,30 @@
-//! Which mode is which while the robot changes: branches, by the likeness of motions.
+//! Tracking of modes while the robot changes: branches by the MAC of motions.
 //!
-//! Modes sorted by frequency change places where curves cross. Where they veer instead, they come near, exchange their
-//! motions and part; a list by frequency does not tell. Here every mode goes on in the one of the next step whose motion
-//! is most like its own, all at once.
+//! Modes sorted by frequency exchange their order where curves cross. Where curves veer instead, they come near,
+//! exchange their motions and separate. A list by frequency does not distinguish the two. Here each mode is paired with
+//! the mode of the next step that has the most similar motion, for all modes together.
 
 use super::mac::mac;
 use pathfinding::kuhn_munkres::kuhn_munkres;
 use pathfinding::matrix::Matrix;
 
-/// A mode as tracking sees it.
+/// Frequency and motion of a mode for tracking.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tracked {
     /// Natural frequency [Hz].
     pub frequency_hz: f64,
-    /// Its motion in coordinates weighted by the square root of their masses, so that the square of its length is twice the
-    /// kinetic energy over the square of the frequency [1/s]. Any size but zero, either sign; of one number of coordinates
-    /// throughout.
+    /// Motion in coordinates weighted by the square roots of their masses: the square of its length is twice the
+    /// kinetic energy over the square of the frequency [1/s]. Size (not zero) and sign are arbitrary. All modes have
+    /// the same number of coordinates.
     pub motion: Vec<f64>,
 }
 
-/// Likeness from which on a mode is taken for that of the step before. Of two modes that exchange their motions, exactly
-/// one can be above it.
+/// Minimum MAC for which a mode continues the branch of a mode of the previous step. If two modes exchange their
+/// motions, only one pairing can be above it.
 pub const MIN_MAC: f64 = 0.5;
 
-/// Relative distance of frequencies below which motions are any mixture of each other, as of a symmetric robot.
+/// Relative distance of frequencies below which the motions of modes may be arbitrary mixtures, as for a symmetric
+/// robot.
 const TOGETHER: f64 = 1e-6;
 
 /// Modal assurance criterion of two motions in coordinates weighted by mass.
@@ -31,12 +32,12 @@ pub(crate) fn mac_of_motions(a: &[f64], b: &[f64]) -> f64 {
     mac(a, b, |a, b| a.iter().zip(b).map(|(x, y)| x * y).sum())
 }
 
-/// The branch of every mode of every step, from 0, in order of first appearance.
+/// Branch of every mode of every step: a number from 0, in the order of first appearance.
 ///
-/// Each step is compared with the last one that has modes: the pairs are those with the greatest sum of likenesses
-/// (Hungarian method). A pair that is less alike than [`MIN_MAC`] is none: one branch ends, another begins. What
-/// is one branch depends on the steps. If they are wider than the range in which two curves veer, branches cross, as motions
-/// do; if they are finer, they follow the curves apart.
+/// Each step is compared with the last step that has modes. The pairs are those with the maximum sum of MACs (Hungarian
+/// method). If the MAC of a pair is below [`MIN_MAC`], one branch ends and another begins. Branches depend on the step
+/// width. If steps are wider than the range in which two curves veer, branches cross, as the motions do. If steps are
+/// finer, branches follow the separating curves.
 ///
 /// # Example
 /// ```
@@ -53,17 +54,17 @@ pub fn track(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
     for step in steps {
         let mut of_step = vec![None; step.len()];
 
-        // Modes that go on in this step.
+        // Branches that continue in this step.
         if let Some((before, branch)) = &last {
-            let alike = all_macs(before, step);
-            for (i, j) in best_pairs(&alike, step.len()) {
-                if alike[i][j] >= MIN_MAC {
+            let macs = all_macs(before, step);
+            for (i, j) in best_pairs(&macs, step.len()) {
+                if macs[i][j] >= MIN_MAC {
                     of_step[j] = Some(branch[i]);
                 }
             }
         }
 
-        // New ones.
+        // New branches.
         let of_step: Vec<usize> = of_step
             .into_iter()
             .map(|branch| {
@@ -82,8 +83,8 @@ pub fn track(steps: &[Vec<Tracked>]) -> Vec<Vec<usize>> {
     found
 }
 
-/// Likeness of every mode before with every one after. Modes at one frequency share a space of motions, and which of them
-/// are listed is chance: with such it is the part of a motion that lies in the space.
+/// MAC of every mode before with every mode after. Modes at one frequency span a space of motions, and the listed
+/// motions are an arbitrary basis of it. For them the value is the fraction of a motion that lies in this space.
 fn all_macs(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
     let plain: Vec<Vec<f64>> =
         before.iter().map(|a| after.iter().map(|b| mac_of_motions(&a.motion, &b.motion)).collect()).collect();
@@ -96,7 +97,7 @@ fn all_macs(before: &[Tracked], after: &[Tracked]) -> Vec<Vec<f64>> {
     (0..before.len()).map(|i| (0..after.len()).map(|j| in_space(i, j).max(plain[i][j])).collect()).collect()
 }
 
-/// For each mode the places of those at its frequency; modes are in ascending order.
+/// Index range of the modes at the frequency of each mode; modes are in ascending order.
 fn degenerate_groups(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
     let mut degenerate_groups = Vec::with_capacity(modes.len());
     let mut begin = 0;
@@ -110,7 +111,7 @@ fn degenerate_groups(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
     degenerate_groups
 }
 
-/// Pairs (row, column) with the greatest sum of values in 0 to 1, as many as the shorter side has.
+/// Pairs (row, column) with the maximum sum of values from 0 to 1; their number is that of the shorter side.
 fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
     let rows = values.len();
     let (short, long) = (rows.min(columns), rows.max(columns));
@@ -118,7 +119,7 @@ fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
         return Vec::new();
     }
     let as_pair = |(short, long)| if rows <= columns { (short, long) } else { (long, short) };
-    // Whole numbers have an order; a part of 1e12 decides nothing.
+    // The method needs integers, which have a total order; rounding to 1e-12 does not matter.
     let weights = Matrix::from_fn(short, long, |place| {
         let (row, column) = as_pair(place);
         (1e12 * values[row][column]).round() as i64
@@ -131,8 +132,8 @@ fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
 mod tests {
     use super::*;
 
-    /// Two oscillators of unit mass with stiffnesses 10 ± p and a coupling c: squares of the frequencies 10 ± √(p² + c²),
-    /// motions (cos φ, sin φ) with tan 2φ = c/p, above, and at right angles to it below.
+    /// Two oscillators of unit mass with stiffnesses 10 ± p and a coupling c. The squares of the frequencies are 10 ±
+    /// √(p² + c²). The motion of the upper mode is (cos φ, sin φ) with tan 2φ = c/p, that of the lower is orthogonal.
     fn veering(p: f64, c: f64) -> Vec<Tracked> {
         let (root, phi) = (p.hypot(c), 0.5 * c.atan2(p));
         let hz = |square: f64| square.sqrt() / std::f64::consts::TAU;
@@ -189,20 +190,20 @@ mod tests {
         let steps = [vec![mode(1.0, 0), mode(2.0, 1)], vec![], vec![mode(1.5, 1), mode(1.7, 2)], vec![mode(1.0, 2)]];
         assert_eq!(track(&steps), [vec![0, 1], vec![], vec![1, 2], vec![2]]);
         assert_eq!(track(&[]), Vec::<Vec<usize>>::new());
-        // At rest: like nothing.
+        // A motion of zero has a MAC of zero.
         assert!(mac_of_motions(&[0.0, 0.0], &[1.0, 0.0]) <= 0.0);
     }
 
     #[test]
     fn the_pairs_have_the_greatest_sum_of_all() {
-        /// By trying every pairing of a row with a column that is left.
-        fn greatest(values: &[Vec<f64>], taken: &mut Vec<usize>) -> f64 {
+        /// Maximum sum by trying every pairing of a row with a remaining column.
+        fn maximum(values: &[Vec<f64>], taken: &mut Vec<usize>) -> f64 {
             let Some(row) = values.get(taken.len()) else { return 0.0 };
             let mut best = f64::NEG_INFINITY;
             for (j, value) in row.iter().enumerate() {
                 if !taken.contains(&j) {
                     taken.push(j);
-                    best = best.max(value + greatest(values, taken));
+                    best = best.max(value + maximum(values, taken));
                     taken.pop();
                 }
             }
@@ -218,7 +219,7 @@ mod tests {
                 let pairs = best_pairs(&values, columns);
                 assert_eq!(pairs.len(), rows);
                 let sum: f64 = pairs.iter().map(|&(i, j)| values[i][j]).sum();
-                assert!((sum - greatest(&values, &mut Vec::new())).abs() < 1e-11, "{rows}×{columns}, {seed}");
+                assert!((sum - maximum(&values, &mut Vec::new())).abs() < 1e-11, "{rows}×{columns}, {seed}");
             }
         }
     }

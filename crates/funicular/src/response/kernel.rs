@@ -1,7 +1,7 @@
-//! Receptance at many frequencies, [`LANES`] of them side by side.
+//! Receptance at many frequencies, of which [`LANES`] are computed side by side.
 
 use super::receptance;
-use crate::cable::catenary_dynamic::{ExactEnd, PoleResidue};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, PoleResidue};
 use crate::cable::shallow_dynamic::{self, Entire, SERIES_BELOW, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::dynamics::Dynamics;
@@ -11,16 +11,16 @@ use crate::math::{CMat6, Complex, Vec6};
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-/// Lower triangle by columns: entry (i, j), i ≥ j.
+/// Index of entry (i, j), i ≥ j, in a lower triangle by columns.
 const fn at(i: usize, j: usize) -> usize {
     j * 6 - j * (j + 1) / 2 + i
 }
 
-/// A pivot below this part of the largest diagonal entry sends its lane to the plain version: elimination without
-/// exchange then keeps at least ten digits.
+/// Minimum ratio of a pivot to the largest diagonal entry; lanes below it use the plain version. Above it, elimination
+/// without pivoting keeps at least ten digits.
 const MIN_PIVOT: f64 = 1e-6;
 
-/// A cable's projections, ready to be multiplied: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ.
+/// Products of a cable's axes: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ.
 struct Products {
     axial: [f64; 21],
     coupling: [f64; 21],
@@ -28,6 +28,7 @@ struct Products {
     out: [f64; 21],
 }
 
+/// Data of the linearised robot in the layout of the kernel: lower triangles by columns.
 struct Prepared<'a> {
     dynamics: &'a Dynamics,
     constant: [f64; 21],
@@ -49,7 +50,7 @@ impl<'a> Prepared<'a> {
         };
 
         let lacking = |i: usize| i >= dynamics.dof();
-        // Beyond the platform's coordinates there is a unit diagonal and nothing else.
+        // Beyond the platform's coordinates the matrix is an identity.
         let constant = lower(&|i, j| if lacking(i) && i == j { 1.0 } else { dynamics.constant_stiffness()[(i, j)] });
         let (mass, damping) = (dynamics.platform_mass(), dynamics.platform_damping());
 
@@ -76,7 +77,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// D(ω) of each lane, lower triangle.
+    /// Dynamic stiffness D(ω) at each lane, lower triangle.
     #[inline(always)]
     fn dynamic_stiffness(&self, omega: &Lane) -> [Complexes; 21] {
         let mut d: [Complexes; 21] = from_fn(|k| Complexes {
@@ -89,7 +90,7 @@ impl<'a> Prepared<'a> {
                 DynamicCable::ShallowDynamic(form) => {
                     (shallow_dynamic::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
                 }
-                DynamicCable::CatenaryDynamic(form) => (exact(form, omega), form.in_plane_only),
+                DynamicCable::CatenaryDynamic(form) => (catenary_dynamic(form, omega), form.in_plane_only),
             };
             for (entry, d) in d.iter_mut().enumerate() {
                 d.add_scaled(&k.axial, products.axial[entry]);
@@ -104,23 +105,23 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// The catenary-dynamic cable's stiffness at each lane.
+/// Stiffness of a catenary-dynamic cable at each lane.
 #[inline(always)]
-fn exact(form: &ExactEnd, omega: &Lane) -> LocalStiffness<Complexes> {
+fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         (re[i], im[i]) = form.damping.square(omega[i], form.mass_per_length);
     }
     let x = Complexes { re, im };
-    let [axial, coupling, normal] = pole_sum(form.plane(), &x);
+    let [axial, coupling, normal] = pole_sum(form.in_plane(), &x);
     let out_of_plane = match form.out_of_plane() {
-        Some(across) => pole_sum(across, &x)[0],
+        Some(family) => pole_sum(family, &x)[0],
         None => Complexes::ZERO,
     };
     LocalStiffness { axial, coupling, normal, out_of_plane }
 }
 
-/// `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)`.
+/// Entries of `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)` at each lane.
 #[inline(always)]
 fn pole_sum<const N: usize, const E: usize>(of: &PoleResidue<N, E>, x: &Complexes) -> [Complexes; E] {
     let mut sums = [Complexes::ZERO; E];
@@ -135,7 +136,7 @@ fn pole_sum<const N: usize, const E: usize>(of: &PoleResidue<N, E>, x: &Complexe
     from_fn(|e| Complexes::real(stiffness[e]) - *x * (Complexes::real(mass[e]) + *x * sums[e]))
 }
 
-/// The closed form's functions of γ at each lane, divided by cosh Im √γ.
+/// Functions of γ of the shallow-dynamic model at each lane, divided by cosh Im √γ.
 #[inline(always)]
 fn entire(form: &ShallowDynamic, omega: &Lane) -> Entire<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
@@ -159,6 +160,7 @@ fn entire(form: &ShallowDynamic, omega: &Lane) -> Entire<Complexes> {
     Entire { gamma, c, sigma, q: (sigma - c) / gamma }
 }
 
+/// Functions of γ lane by lane, for values outside the range of the vector functions.
 #[inline(never)]
 fn entire_by_lane(gamma: Complexes) -> Entire<Complexes> {
     let mut of = Entire { gamma, c: Complexes::ZERO, sigma: Complexes::ZERO, q: Complexes::ZERO };
@@ -171,8 +173,8 @@ fn entire_by_lane(gamma: Complexes) -> Entire<Complexes> {
     of
 }
 
-/// `L D Lᵀ` in place: L below the diagonal, the pivots' inverses on it. Returns per lane whether every pivot was large
-/// enough.
+/// Factors `L D Lᵀ` in place: L below the diagonal, inverse pivots on it. The result per lane is true if every pivot
+/// was large enough.
 #[inline(always)]
 fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
     let mut largest = [0.0_f64; LANES];
@@ -183,11 +185,11 @@ fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
         }
     }
 
-    let mut least = [f64::INFINITY; LANES];
+    let mut smallest = [f64::INFINITY; LANES];
     for k in 0..6 {
         let n = d[at(k, k)].norm_sqr();
         for i in 0..LANES {
-            least[i] = least[i].min(n[i]);
+            smallest[i] = smallest[i].min(n[i]);
         }
         let inverse = d[at(k, k)].inverse();
         d[at(k, k)] = inverse;
@@ -202,10 +204,10 @@ fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
             d[at(j, k)] = d[at(j, k)] * inverse;
         }
     }
-    from_fn(|i| least[i] > MIN_PIVOT * MIN_PIVOT * largest[i])
+    from_fn(|i| smallest[i] > MIN_PIVOT * MIN_PIVOT * largest[i])
 }
 
-/// `L⁻¹ v` for a real vector.
+/// Solution `L⁻¹ v` for a real vector v.
 #[inline(always)]
 fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
     let mut z: [Complexes; 6] = from_fn(|i| Complexes::real(v[i]));
@@ -218,7 +220,7 @@ fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
     z
 }
 
-/// `outputᵀ D⁻¹ input` at each frequency [Hz].
+/// Response `outputᵀ D⁻¹ input` at each frequency [Hz].
 pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
     let scale = dynamics.scale();
     let vector = |v: &Vec6| dynamics.coordinates().motion().reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
@@ -236,7 +238,7 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
         values: &mut values,
     };
 
-    // Of 512 bits the compiler makes gathers here: half as slow again.
+    // With registers of 512 bits the compiler makes gathers here, which take half as long again.
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = pulp::x86::V3::try_new() {
         pulp::Simd::vectorize(simd, entries);
@@ -246,15 +248,15 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
     values
 }
 
-/// The whole receptance at each frequency [Hz].
+/// Complete receptance at each frequency [Hz].
 pub(super) fn all_entries(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Vec<CMat6> {
     let mut values = vec![CMat6::zeros(); frequencies_hz.len()];
     pulp::Arch::new().dispatch(AllEntries { prepared: Prepared::new(dynamics), frequencies_hz, values: &mut values });
     values
 }
 
-/// The loop of [`one_entry`]. A type of its own, since its call must be inlined into the function that has the vector
-/// instructions; nothing promises that for the call operator of a closure.
+/// Loop of [`one_entry`]. It is a type because its call must be inlined into the function that has the vector
+/// instructions; this is not guaranteed for the call operator of a closure.
 struct OneEntry<'a> {
     prepared: Prepared<'a>,
     frequencies_hz: &'a [f64],
@@ -286,7 +288,7 @@ impl pulp::NullaryFnOnce for OneEntry<'_> {
     }
 }
 
-/// The loop of [`all_entries`].
+/// Loop of [`all_entries`].
 struct AllEntries<'a> {
     prepared: Prepared<'a>,
     frequencies_hz: &'a [f64],
@@ -329,7 +331,7 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
     }
 }
 
-/// `L⁻ᵀ D⁻¹ L⁻¹`, lower triangle, from [`factorise`].
+/// Inverse `L⁻ᵀ D⁻¹ L⁻¹`, lower triangle, from [`factorise`].
 #[inline(always)]
 fn invert(l: &[Complexes; 21]) -> [Complexes; 21] {
     // Columns of L⁻¹, below the unit diagonal.
@@ -358,7 +360,7 @@ fn invert(l: &[Complexes; 21]) -> [Complexes; 21] {
     result
 }
 
-/// ω of a block; a short last block repeats its last frequency.
+/// Angular frequencies ω of a block; a short last block repeats its last frequency.
 #[inline(always)]
 fn angular(block: &[f64]) -> Lane {
     from_fn(|i| block[i.min(block.len() - 1)] * TAU)

@@ -1,15 +1,15 @@
-//! Peaks of a frequency response, as an engineer reads them off a curve in decibels.
+//! Peaks of a frequency response in decibels.
 
 use crate::math::Complex;
 
-/// A peak of |response|.
+/// Peak of |response|.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// Frequency of the vertex of the parabola through the highest point and its neighbours, in decibels [Hz].
     pub frequency_hz: f64,
     /// Height above the higher of the two valleys that separate it from higher ground [dB].
     pub prominence_db: f64,
-    /// |response| at the highest point.
+    /// Magnitude |response| at the highest point.
     pub magnitude: f64,
 }
 
@@ -20,7 +20,7 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], min_prominence_db: f64)
     let mut found = Vec::new();
     let mut i = 1;
     while i + 1 < level.len() {
-        // A plateau has its peak in the middle.
+        // The peak of a plateau is in its middle.
         let mut end = i;
         while end + 1 < level.len() && level[end + 1] <= level[i] && level[end + 1] >= level[i] {
             end += 1;
@@ -40,7 +40,7 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], min_prominence_db: f64)
     found
 }
 
-/// The higher of the lowest levels on both sides, each up to the next higher ground or the end.
+/// Higher of the lowest levels on both sides, each up to the next higher level or the end.
 fn valley(level: &[f64], start: usize, end: usize) -> f64 {
     let height = level[start];
     let lowest =

@@ -1,4 +1,4 @@
-//! Signals: where a force acts or a motion is measured, as data ([`Signal`]) and on a linearised robot ([`Port`]).
+//! Places and directions of forces and measured motions, as data ([`Signal`]) and on a linearised robot ([`Port`]).
 
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::Dynamics;
@@ -15,7 +15,7 @@ pub enum Signal {
     Along {
         /// Direction, world axes.
         direction_w: Vec3,
-        /// The point, platform frame [m].
+        /// Point, platform frame [m].
         point_p: Vec3,
     },
     /// A moment on, or a rotation of, the platform about a direction in world axes (normalised on use).
@@ -25,9 +25,9 @@ pub enum Signal {
     },
     /// A force on, or a translation of, a point of a cable along a direction in world axes (normalised on use).
     OnCable {
-        /// Which cable, file order.
+        /// Index of the cable, in the order of the file.
         cable: usize,
-        /// Fraction of its unstrained length from the platform, 0 to 1.
+        /// Fraction of the unstrained length from the platform, 0 to 1.
         fraction: f64,
         /// Direction, world axes.
         direction_w: Vec3,
@@ -35,8 +35,9 @@ pub enum Signal {
 }
 
 impl Signal {
-    /// The 6-vector u of a signal on the platform at a pose: a force f there is the wrench `u f` about the platform origin,
-    /// and the motion there is `uᵀ x`. `None` on a cable, whose vector depends on frequency.
+    /// Vector u (6 components) of a signal on the platform at a pose: a force f there is the wrench `u f` about the
+    /// platform origin, and the motion there is `uᵀ x`. `None` for a signal on a cable, whose vector depends on
+    /// frequency.
     pub fn platform_vector(&self, pose: &Pose) -> Option<Vec6> {
         match self {
             Self::Along { direction_w, point_p } => Some(along(direction_w, point_p, pose)),
@@ -46,7 +47,7 @@ impl Signal {
     }
 }
 
-/// The 6-vector u of a platform point along a direction, as [`Signal::Along`] has them, at a pose: a force f there is
+/// Vector u (6 components) of a platform point along a direction at a pose, for [`Signal::Along`]: a force f there is
 /// the wrench `u f` about the platform origin, and the motion there is `uᵀ x`.
 pub fn along(direction_w: &Vec3, point_p: &Vec3, pose: &Pose) -> Vec6 {
     let u = direction_w.normalize();
@@ -54,22 +55,22 @@ pub fn along(direction_w: &Vec3, point_p: &Vec3, pose: &Pose) -> Vec6 {
     Vec6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
 }
 
-/// The 6-vector u of a moment on, or a rotation of, the platform about an axis in world axes; see [`along`].
+/// Vector u (6 components) of a moment on, or a rotation of, the platform about an axis in world axes; see [`along`].
 pub fn about(axis_w: &Vec3) -> Vec6 {
     let u = axis_w.normalize();
     Vec6::new(0.0, 0.0, 0.0, u.x, u.y, u.z)
 }
 
-/// A signal on a robot that is linearised about an equilibrium.
+/// Signal on a robot linearised about an equilibrium.
 #[derive(Debug, Clone)]
 pub enum Port {
-    /// On the platform; a vector of [`along`] or [`about`].
+    /// Signal on the platform, with its vector by [`along`] or [`about`].
     Platform(Vec6),
-    /// At a station of a cable. Ports on the same cable share its stations.
+    /// Signal at a station of a cable. Ports on the same cable share its stations.
     Cable {
         /// Stations of the cable.
         stations: Arc<CableStations>,
-        /// Which of them.
+        /// Index of the station.
         station: usize,
         /// Direction in world axes, a unit vector.
         direction_w: Vec3,
@@ -77,8 +78,8 @@ pub enum Port {
 }
 
 impl Port {
-    /// Ports of signals, in their order. All points of one cable become stations of one [`CableStations`], since a force
-    /// at one of them moves the others; forces may act on them if they are `loaded`.
+    /// Ports of signals, in the same order. All points of one cable become stations of one [`CableStations`], because a
+    /// force at one of them moves the others. With `loaded`, forces may act on the stations.
     ///
     /// # Errors
     /// [`CableMotionError`]: a model without motion along the cables, or a cable that cannot be discretised.
@@ -89,7 +90,7 @@ impl Port {
         signals: &[Signal],
         loaded: bool,
     ) -> Result<Vec<Self>, CableMotionError> {
-        // The points of each cable, cables in the order in which they first appear.
+        // Points of each cable; cables in the order of first appearance.
         let mut points: Vec<(usize, Vec<f64>)> = Vec::new();
         for signal in signals {
             if let Signal::OnCable { cable, fraction, .. } = signal {
@@ -105,7 +106,7 @@ impl Port {
             })
             .collect::<Result<Vec<_>, _>>()?;
 
-        // The stations of a cable have the order in which its signals come.
+        // The stations of a cable have the order of its signals.
         let mut next = vec![0; stations.len()];
         let port = |signal: &Signal| match signal {
             Signal::Along { direction_w, point_p } => Self::Platform(along(direction_w, point_p, &equilibrium.pose)),
@@ -120,7 +121,7 @@ impl Port {
         Ok(signals.iter().map(port).collect())
     }
 
-    /// Position of a port on a cable at rest [m, world axes]; `None` on the platform.
+    /// Position at equilibrium of a port on a cable [m, world axes]; `None` for a port on the platform.
     pub fn cable_point_w(&self) -> Option<Vec3> {
         match self {
             Self::Platform(_) => None,
@@ -128,8 +129,8 @@ impl Port {
         }
     }
 
-    /// Motion of the port in a mode, or how a force there drives the mode [m, as `Mode::shape`]; with two ports the
-    /// residue of the mode is their product over its modal mass.
+    /// Motion of the port in a mode, in the scale of `Mode::shape` [m]. By reciprocity it is also the modal force per
+    /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass.
     pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
         match self {
             Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
@@ -140,7 +141,7 @@ impl Port {
         }
     }
 
-    /// The vector about the platform origin at ω [rad/s].
+    /// Vector of the port about the platform origin at ω [rad/s].
     pub(super) fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
         match self {
             Self::Platform(vector) => vector.map(Complex::from),

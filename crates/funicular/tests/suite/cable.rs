@@ -1,8 +1,8 @@
-//! A deliberately plain finite-element cable, and what every cable model has to share with it.
+//! Deliberately plain finite-element cable, compared with every cable model.
 //!
-//! Straight bars with two nodes, consistent mass; of the program it takes the static state only: where the nodes are, and
-//! the tension in the middle of each bar (the bar's own stretch would give it with an error of EA (κh)²/24, which is
-//! large in a stiff rope).
+//! It has straight bars with two nodes and consistent mass. From the program it uses only the equilibrium: the places
+//! of the nodes, and the tension in the middle of each bar. (The bar's own stretch would give the tension with an error
+//! of EA (κh)²/24, which is large in a stiff rope.)
 
 mod catenary_dynamic;
 mod shallow_dynamic;
@@ -15,7 +15,8 @@ use funicular::math::{DMat, Vec3};
 use funicular::robot::Damping;
 use std::f64::consts::{PI, TAU};
 
-/// Stiffness and mass over the nodes, components (horizontal, up, across) a node; first and last are the ends.
+/// Stiffness and mass over the nodes, with components (horizontal, up, out of plane) per node; first and last are the
+/// ends.
 struct Bars {
     stiffness: DMat,
     mass: DMat,
@@ -36,7 +37,7 @@ impl Bars {
             for i in 0..3 {
                 for j in 0..3 {
                     let same = f64::from(u8::from(i == j));
-                    // EA/h along, T/l across.
+                    // EA/h along the bar, T/l normal to it.
                     let k = rope.axial_stiffness / h * t[i] * t[j] + tension / length * (same - t[i] * t[j]);
                     let m = mass_per_length * h / 6.0 * same;
                     for (p, q, sign, factor) in
@@ -51,7 +52,7 @@ impl Bars {
         Self { stiffness, mass }
     }
 
-    /// Dynamic stiffness of the first node, the last held.
+    /// Dynamic stiffness of the first node with the last node held.
     fn start(&self, omega: f64) -> DMat {
         let d = &self.stiffness - &self.mass * (omega * omega);
         let inner = d.nrows() - 6;
@@ -78,7 +79,7 @@ const MASS_PER_LENGTH: f64 = 0.067;
 /// Highest frequency [rad/s].
 const LIMIT: f64 = 7.0 * TAU;
 
-/// (span, rise, length over chord): taut, sagging, inclined up and down, deep.
+/// Cables as (span, rise, ratio of length to chord): taut, sagging, inclined up and down, deep sag.
 const CABLES: [(f64, f64, f64); 5] =
     [(6.0, 0.0, 1.0003), (5.5, 4.0, 1.0008), (5.5, -4.0, 1.004), (6.0, 0.5, 1.03), (2.0, 6.0, 1.01)];
 
@@ -89,28 +90,28 @@ fn cable((span, rise, ratio): (f64, f64, f64)) -> Catenary {
 }
 
 #[test]
-fn the_exact_cable_is_the_limit_of_ever_more_bars() {
+fn the_catenary_dynamic_cable_is_the_limit_of_ever_more_bars() {
     for given in CABLES {
         let cable = cable(given);
-        let exact = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let catenary_dynamic = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
         let (coarse, fine) = (Bars::new(&cable, MASS_PER_LENGTH, 60), Bars::new(&cable, MASS_PER_LENGTH, 120));
         for frequency in [0.2, 0.9, 2.3, 3.6] {
             let omega = frequency * TAU;
-            let poles = exact.in_plane.poles.iter().chain(&exact.out_of_plane.poles);
+            let poles = catenary_dynamic.in_plane.poles.iter().chain(&catenary_dynamic.out_of_plane.poles);
             let distance = poles.map(|p| (p.sqrt() / omega - 1.0).abs()).fold(1.0, f64::min);
             if distance < 0.03 {
                 continue;
             }
-            let k = exact.undamped(omega);
+            let k = catenary_dynamic.undamped(omega);
             let (coarse, fine) = (coarse.start(omega), fine.start(omega));
             let size = k.axial.abs().max(k.normal.abs()).max(k.coupling.abs());
             for ((i, j), ours) in
                 [((0, 0), k.axial), ((0, 1), k.coupling), ((1, 1), k.normal), ((2, 2), k.out_of_plane)]
             {
-                // The error of straight bars is of second order in their length: a quarter at half of it.
+                // The error of straight bars is of second order in their length: half the length has a quarter of it.
                 let extrapolated = (4.0 * fine[(i, j)] - coarse[(i, j)]) / 3.0;
                 let (left, once) = ((extrapolated - ours).abs(), (fine[(i, j)] - ours).abs());
-                // What is left moves the poles by 1e-5, and the stiffness by that over the distance to them.
+                // The remaining error moves the poles by 1e-5, and the stiffness by 1e-5 over the distance to them.
                 assert!(
                     left < 3e-5 / distance * size.max(k.out_of_plane.abs()),
                     "{given:?} {frequency} Hz ({i}, {j}): {extrapolated} for {ours}"
@@ -122,18 +123,24 @@ fn the_exact_cable_is_the_limit_of_ever_more_bars() {
 }
 
 #[test]
-fn the_exact_cable_has_as_many_clamped_modes_as_the_bars() {
+fn the_catenary_dynamic_cable_has_as_many_clamped_modes_as_the_bars() {
     for given in CABLES {
         let cable = cable(given);
-        let exact = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
-        let mut ours: Vec<f64> =
-            exact.in_plane.poles.iter().chain(&exact.out_of_plane.poles).map(|pole| pole.sqrt()).collect();
+        let catenary_dynamic = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let mut ours: Vec<f64> = catenary_dynamic
+            .in_plane
+            .poles
+            .iter()
+            .chain(&catenary_dynamic.out_of_plane.poles)
+            .map(|pole| pole.sqrt())
+            .collect();
         ours.sort_by(f64::total_cmp);
         let bars = Bars::new(&cable, MASS_PER_LENGTH, 120).clamped();
         let below = ours.iter().filter(|omega| **omega < LIMIT).count();
         assert!(below > 3);
         for (k, (a, b)) in ours.iter().zip(&bars).take(below).enumerate() {
-            // Half-wave number n of the highest family, error (nπ/N)²/24 of consistent mass, and as much of the shape.
+            // Error (nπ/N)²/24 of consistent mass with n half waves of the highest family, and as much again of the
+            // shape.
             let bound = 4.0 * (PI * (k as f64 + 2.0) / 120.0).powi(2) / 24.0 + 1e-3;
             assert!((a / b - 1.0).abs() < bound, "{given:?}, mode {k}: {a} {b}");
         }
@@ -141,7 +148,7 @@ fn the_exact_cable_has_as_many_clamped_modes_as_the_bars() {
 }
 
 #[test]
-fn the_closed_form_agrees_with_the_bars_where_sag_is_shallow() {
+fn the_shallow_dynamic_model_agrees_with_the_bars_where_sag_is_shallow() {
     for given in [CABLES[0], CABLES[1]] {
         let cable = cable(given);
         let chord = f64::hypot(given.0, given.1);
@@ -160,15 +167,16 @@ fn the_closed_form_agrees_with_the_bars_where_sag_is_shallow() {
         let closed = form.clamped_frequencies_below(LIMIT);
         assert!(closed.len() > 3);
         for (a, b) in closed.iter().zip(&bars) {
-            // Theory of first order in the sag: some (d/l)² and the variation of tension along an inclined cable.
+            // The theory is of first order in the sag: it leaves out (d/l)² and the variation of tension along the
+            // cable.
             assert!((a / b - 1.0).abs() < 0.01, "{given:?}: {a} {b}");
         }
     }
 }
 
 #[test]
-fn the_warning_about_deep_sag_says_how_far_the_closed_form_is_off() {
-    // The paper's cable, lengthened until it sags by d/l.
+fn the_warning_about_deep_sag_says_the_error_of_the_shallow_dynamic_model() {
+    // The paper's cable, lengthened until its sag ratio is d/l.
     let first = |degrees: f64, ratio: f64| {
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
         let (chord, ea) = (6.848, 20e9 * 1.2566e-5);
@@ -184,10 +192,10 @@ fn the_warning_about_deep_sag_says_how_far_the_closed_form_is_off() {
             if with(middle).1.ratio() < ratio { low = middle } else { high = middle }
         }
         let (cable, sag) = with(low);
-        let exact = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
+        let catenary_dynamic = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
         let axes = LocalAxes::of_chord(&Vec3::zeros(), &Vec3::new(cos, 0.0, sin), &Vec3::z());
         let closed = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), true).clamped_frequencies_below(LIMIT)[0];
-        closed / exact.in_plane.poles[0].sqrt() - 1.0
+        closed / catenary_dynamic.in_plane.poles[0].sqrt() - 1.0
     };
     for (degrees, ratio, expected) in [
         (36.0, 0.02, 0.003),
@@ -198,7 +206,7 @@ fn the_warning_about_deep_sag_says_how_far_the_closed_form_is_off() {
         (60.0, 0.10, 0.154),
     ] {
         let off = first(degrees, ratio);
-        // To the digits that docs/theory.md prints in its section 6, and the warning rounds.
+        // To the digits of docs/theory.md, section 6, and of the warning.
         assert!(
             (off - expected).abs() < 0.0006 + 0.002 * f64::from(u8::from(expected >= 0.07)),
             "{degrees}°, d/l {ratio}: {off}"

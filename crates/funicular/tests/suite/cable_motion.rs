@@ -1,4 +1,4 @@
-//! Points along the cables: forces on them, and what a mode adds to their responses.
+//! Points along the cables: forces on them, and the contribution of a mode to their responses.
 
 use crate::library::{at_rest, independent_robot};
 use funicular::cable::CableModel;
@@ -31,8 +31,8 @@ fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {
 
 #[test]
 fn what_a_mode_adds_to_a_response_is_its_residue() {
-    // Beside a natural frequency, undamped, (ω_n² − ω²) X tends to the product of what both ports see, over the modal
-    // mass; also where a cable's pole lies so near that its amplitude is an unknown of its own.
+    // Near a natural frequency without damping, (ω_n² − ω²) X tends to the product of the mode's motions at both ports
+    // over the modal mass; also if a cable's pole is so near that its amplitude is a separate unknown.
     let mut robot = independent_robot("insa-4mm-10.55kg");
     for cable in &mut robot.cables {
         cable.material.damping = Damping::Ratio(0.0);
@@ -73,7 +73,7 @@ fn what_a_mode_adds_to_a_response_is_its_residue() {
             let response =
                 response::between(&dynamics, &[beside], &pair.0, &pair.1, Quantity::Displacement).unwrap()[0];
             let residue = residue(pair, mode);
-            // A neighbour at `gap` adds 1e-5 of its own.
+            // A neighbouring mode at the distance `gap` contributes 1e-5 of its residue.
             let off = (response.re * distance - residue).abs();
             assert!(off < 1e-3 * residue.abs() + 3e-5 * largest, "mode {i}: {off:e} of {residue}");
         }

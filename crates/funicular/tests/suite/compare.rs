@@ -7,7 +7,7 @@ use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
 
 #[test]
-fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reach() {
+fn the_reference_is_shallow_dynamic_if_catenary_dynamic_cables_need_too_many_unknowns() {
     let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     let State::Lengths(mut lengths) = robot.state.clone() else { panic!("given by lengths") };
     let reference = |lengths: &[f64], below_hz: f64| {
@@ -20,6 +20,6 @@ fn compare_measures_against_the_closed_form_where_the_exact_cable_is_out_of_reac
     lengths[0] = 14.0;
     let slack = reference(&lengths, 60.0);
     assert_eq!(slack.reference, CableModel::ShallowDynamic);
-    let exact = slack.models.iter().find(|m| m.model == CableModel::CatenaryDynamic).unwrap();
-    assert!(exact.modes.as_ref().unwrap_err().to_string().contains("unknowns for one cable"));
+    let catenary_dynamic = slack.models.iter().find(|m| m.model == CableModel::CatenaryDynamic).unwrap();
+    assert!(catenary_dynamic.modes.as_ref().unwrap_err().to_string().contains("unknowns for one cable"));
 }

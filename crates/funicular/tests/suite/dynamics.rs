@@ -1,4 +1,4 @@
-//! The robot linearised: its count of natural frequencies, and a double pendulum known in closed form.
+//! Linearised robots: the count of natural frequencies, and a double pendulum with a closed form.
 
 use crate::library::at_rest;
 use crate::statics::crane;
@@ -37,9 +37,9 @@ fn a_body_on_one_cable_hangs_with_its_centre_of_mass_below_the_anchor_and_swings
         assert!((point - anchor).xy().norm() < 1e-8 && point.z < anchor.z, "{point}");
     }
     assert!(center.z < attachment.z);
-    // It may turn about the cable: indifferent, not unstable.
+    // Rotation about the cable is indifferent, not unstable.
     assert!(matches!(rest.stability, Stability::Unstable { directions: 1, min_stiffness: 0.0 }));
-    // A double pendulum about each of its two principal axes across the line: l1 the cable, l2 to the centre of mass.
+    // Double pendulum about each of its two principal axes normal to the cable: l1 the cable, l2 to the centre of mass.
     let (l1, l2) = ((anchor - attachment).norm(), (attachment - center).norm());
     let down = rest.pose.rot_wp.inverse() * Vec3::z();
     let [a, b] = {
@@ -47,7 +47,7 @@ fn a_body_on_one_cable_hangs_with_its_centre_of_mass_below_the_anchor_and_swings
         [first, down.cross(&first)]
     };
     let inertia = robot.platform.inertia_p;
-    // What turns about the line freely follows the swing: the moments of inertia without its share.
+    // Free rotation about the cable follows the swing: it is eliminated from the moments of inertia.
     let of = |u: Vec3, v: Vec3| {
         let moment = |u: Vec3, v: Vec3| u.dot(&(inertia * v));
         moment(u, v) - moment(u, down) * moment(v, down) / moment(down, down)

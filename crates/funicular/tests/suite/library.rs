@@ -1,4 +1,4 @@
-//! Every robot of robots/ loads, comes to rest within its limits, and its modes are certified.
+//! Every robot of robots/ loads, has an equilibrium within its limits, and its modes are certified.
 
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes;
@@ -7,12 +7,12 @@ use funicular::statics::{self, Equilibrium, Stability, StaticModel, TensionRule}
 use funicular::warnings;
 use serde_json::Value;
 
-/// A robot of the library, or the reader's message.
+/// Robot of the library; panics with the reader's message.
 fn read(name: &str, text: &str) -> Robot {
     Robot::from_toml(text).unwrap_or_else(|error| panic!("{}", error.render(name, text, false)))
 }
 
-/// Every robot by its file's name, and its equilibrium.
+/// Every robot of the library with the name of its file and its equilibrium.
 pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
     funicular_robots::ALL
         .into_iter()
@@ -29,8 +29,8 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
         .collect()
 }
 
-/// The robots of reference/independent.json by their ids. Their numbers are compared in the validation; here they are
-/// robots like others.
+/// Robots of reference/independent.json by their ids. Their numbers are compared in the validation; here they are used
+/// like other robots.
 fn independent() -> impl Iterator<Item = (String, Robot)> {
     let all: Value = serde_json::from_str(include_str!("../../../funicular-study/reference/independent.json")).unwrap();
     let Value::Array(cases) = all["cases"].clone() else { panic!("a list of cases") };
@@ -40,7 +40,7 @@ fn independent() -> impl Iterator<Item = (String, Robot)> {
     })
 }
 
-/// All of them with their equilibria.
+/// All robots of reference/independent.json with their equilibria.
 pub(crate) fn independent_robots() -> Vec<(String, Robot, Equilibrium)> {
     let at_rest = |(id, robot): (String, Robot)| {
         let rest = at_rest(&robot);
@@ -49,12 +49,12 @@ pub(crate) fn independent_robots() -> Vec<(String, Robot, Equilibrium)> {
     independent().map(at_rest).collect()
 }
 
-/// One of them.
+/// One robot of reference/independent.json.
 pub(crate) fn independent_robot(id: &str) -> Robot {
     independent().find(|(other, _)| other == id).expect(id).1
 }
 
-/// Catenaries of the lengths that a robot's file gives.
+/// Equilibrium with catenaries of the lengths that a robot's file gives.
 pub(crate) fn at_rest(robot: &Robot) -> Equilibrium {
     let State::Lengths(lengths) = &robot.state else { panic!("{} is given by lengths", robot.name) };
     statics::forward(robot, lengths, StaticModel::Catenary, None).unwrap_or_else(|e| panic!("{}: {e}", robot.name))
@@ -80,7 +80,7 @@ fn every_robot_of_the_library_rests_stably_within_its_limits() {
             assert!(hanging.min_tension() >= limits.minimum.unwrap_or(0.0), "{name}, cable {}", cable.name);
             assert!(hanging.max_tension() <= limits.maximum.unwrap_or(f64::INFINITY), "{name}, cable {}", cable.name);
         }
-        // The lengths of the paper's robots are of ideal cables under more load; there the program has to warn.
+        // The lengths of the paper's robots are for ideal cables under more load: there the program has to warn.
         if !name.starts_with("yuan2014") {
             assert_eq!(warnings::of_statics(&robot, &rest), [], "{name}");
         }
@@ -146,8 +146,9 @@ fn the_library_has_the_published_numbers() {
     let thick = read("yuan2014-8mm", funicular_robots::YUAN2014_8MM);
     assert!((thick.cables[0].material.axial_stiffness - 1.005_310e6).abs() < 1.0);
     assert_eq!(thick.state, State::Lengths(vec![4.859, 4.552, 4.83, 4.586, 9.417, 9.284]));
-    // Of the printed matrices at the centre of mass and at the platform origin, the parallel-axis theorem has to hold.
-    // With the centre of mass rounded to 1 mm it does within 0.01; with the signs as printed it misses by 0.8 and more.
+    // The printed matrices at the centre of mass and at the platform origin have to satisfy the parallel-axis theorem.
+    // With the centre of mass rounded to 1 mm they do within 0.01; with the signs as printed they miss it by 0.8 and
+    // more.
     let cogiro = read("cogiro", funicular_robots::COGIRO).platform;
     let c = cogiro.center_of_mass_p;
     let at_origin =

@@ -6,7 +6,7 @@ mod tracking;
 
 use crate::random::any_robot;
 use funicular::cable::CableModel;
-use funicular::cable::catenary_dynamic::ExactError;
+use funicular::cable::catenary_dynamic::CatenaryDynamicError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{Mat6, Vec3, rotation};
 use funicular::modes::{self, Kind};
@@ -35,7 +35,7 @@ fn constant_models_give_the_eigenvalues_of_stiffness_and_mass() {
             Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 20.0).unwrap();
         let found = modes::below(&dynamics, 100.0);
         assert!(found.certified);
-        // Another algorithm: Cholesky of M, eigenvalues of L⁻¹ K L⁻ᵀ.
+        // Independent algorithm: Cholesky factor of M, eigenvalues of L⁻¹ K L⁻ᵀ.
         let factor = dynamics.mass().cholesky().unwrap().l();
         let inverse: Mat6 = factor.try_inverse().unwrap();
         let k = dynamics.stiffness(0.0).map(|k| k.re);
@@ -82,7 +82,7 @@ fn damping_to_first_order_is_the_width_of_the_resonance() {
         if !alone || mode.platform_energy_fraction < 0.02 {
             continue;
         }
-        // xᵀ X x about the mode: one peak, |X|² falls to half at ±ζ.
+        // Near the mode xᵀ X x has one peak, and |X|² falls to half at ±ζ.
         let x = funicular::math::Vec6::from(mode.shape);
         let f = mode.frequency_hz;
         let level = |f: f64| {
@@ -128,7 +128,8 @@ fn turning_the_whole_world_changes_no_frequency() {
 
 #[test]
 fn an_unstable_robot_says_so_and_still_lists_what_vibrates() {
-    // The centre of mass high above the attachments, by external hand held at the pose of springs without moment arm.
+    // The centre of mass is moved high above the attachments, while the cables keep the forces of the stable
+    // equilibrium.
     let (mut robot, _) = load(funicular_robots::YUAN2014_4MM);
     let (_, rest) = yuan();
     robot.platform.center_of_mass_p = Vec3::new(0.0, 0.0, 200.0);
@@ -144,24 +145,24 @@ proptest! {
     #[test]
     fn lists_of_random_robots_agree_with_the_count_at_any_frequency(
         (robot, lengths) in any_robot(),
-        parts in prop::collection::vec(0.0f64..1.0, 40),
+        fractions in prop::collection::vec(0.0f64..1.0, 40),
         in_plane_only in any::<bool>(),
-        exact in any::<bool>(),
+        catenary in any::<bool>(),
     ) {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        let (cable_model, limit) = if exact { (CableModel::CatenaryDynamic, 6.0) } else { (CableModel::ShallowDynamic, 12.0) };
+        let (cable_model, limit) = if catenary { (CableModel::CatenaryDynamic, 6.0) } else { (CableModel::ShallowDynamic, 12.0) };
         let linearisation = Linearisation { cable_model, in_plane_only, ..Default::default() };
         let dynamics = match Dynamics::about(&robot, &rest, linearisation, limit) {
             Ok(dynamics) => dynamics,
-            // Very slack and heavy cables have hundreds of resonances there: refused with a reason.
-            Err(DynamicsError::CatenaryDynamic { reason: ExactError::TooFine { .. }, .. }) => return Ok(()),
+            // Very slack and heavy cables have hundreds of resonances in this range and are refused with a reason.
+            Err(DynamicsError::CatenaryDynamic { reason: CatenaryDynamicError::TooFine { .. }, .. }) => return Ok(()),
             Err(other) => return Err(TestCaseError::fail(other.to_string())),
         };
         let found = modes::below(&dynamics, limit);
         prop_assert!(found.certified, "{} of {}", found.modes.len(), found.count_below);
         prop_assert!(found.modes.windows(2).all(|pair| pair[0].frequency_hz <= pair[1].frequency_hz));
-        for part in parts {
-            let f = limit * part;
+        for fraction in fractions {
+            let f = limit * fraction;
             let listed = found.modes.iter().filter(|m| m.frequency_hz < f).count();
             // A frequency drawn within rounding of a mode may fall on either side.
             prop_assume!(found.modes.iter().all(|m| (m.frequency_hz / f - 1.0).abs() > 1e-11));
@@ -171,7 +172,7 @@ proptest! {
 }
 
 #[test]
-fn a_list_beyond_the_resolution_of_exact_cables_is_not_certified() {
+fn a_list_beyond_the_resolution_of_catenary_dynamic_cables_is_not_certified() {
     let (robot, rest) = yuan();
     let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Default::default() };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, 5.0).unwrap();

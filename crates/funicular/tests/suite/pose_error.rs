@@ -1,4 +1,4 @@
-//! Errors of the pose by simpler static models: limits in which they vanish, and the mass that is heavy enough.
+//! Pose errors of the simpler static models: limits in which they vanish, and the minimum mass.
 
 use funicular::pose_error::{PoseDifference, PoseErrorPoint, Threshold, threshold};
 use funicular::robot::{Pose, Robot, State};
@@ -44,7 +44,7 @@ fn without_their_weight_catenaries_are_springs_and_stiff_springs_are_rigid() {
         distance(point.spring_from_ideal())
     };
 
-    // The stretch, and with it the way of the platform, is in proportion to the compliance.
+    // The stretch, and with it the displacement of the platform, is in proportion to the compliance.
     let (soft, stiff) = (stretched(100.0), stretched(10_000.0));
     assert!(stiff > 0.0 && (soft / stiff / 100.0 - 1.0).abs() < 0.02, "{soft:e} {stiff:e}");
 }
@@ -58,7 +58,7 @@ fn from_the_threshold_on_springs_are_good_enough_and_just_below_they_are_not() {
     for tolerance in [0.002, 0.005] {
         let Threshold::From(mass) = threshold(&robot, &lengths, &points, tolerance) else { panic!("{tolerance}") };
         let at = |mass: f64| distance(PoseErrorPoint::at_mass(&robot, &lengths, mass).spring_from_catenary());
-        // 1e-6 of the mass, and a distance that falls by less than a millimetre a kilogram.
+        // The bound: 1e-6 of the mass, and a distance that falls by less than a millimetre per kilogram.
         assert!((at(mass) - tolerance).abs() < 1e-7, "{mass} kg: {} for {tolerance}", at(mass));
         assert!(at(0.999 * mass) > tolerance && at(1.001 * mass) < tolerance, "{mass} kg");
         for point in &points {

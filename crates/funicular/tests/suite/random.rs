@@ -1,4 +1,4 @@
-//! Random robots: those of property tests, and in `campaign` a suite over many, all rooms at once.
+//! Random robots: those of property tests, and in `campaign` a suite over many robots and all modules.
 
 pub(crate) mod campaign;
 
@@ -6,7 +6,7 @@ use funicular::math::Vec3;
 use funicular::robot::{Robot, State};
 use proptest::prelude::*;
 
-/// Numbers without pattern from a seed (splitmix64).
+/// Pseudo-random numbers from a seed (splitmix64).
 pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
@@ -19,23 +19,23 @@ impl Draw {
         (bits >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Even between two numbers.
+    /// Uniformly distributed between two numbers.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 
-    /// Even in the logarithm, between two powers of ten.
+    /// Uniformly distributed in the logarithm, between two powers of ten.
     pub(crate) fn decades(&mut self, low: f64, high: f64) -> f64 {
         10f64.powf(self.between(low, high))
     }
 
-    /// Three components up to a size.
+    /// Vector with three components up to a size.
     pub(crate) fn vector(&mut self, size: f64) -> [f64; 3] {
         std::array::from_fn(|_| size * self.between(-1.0, 1.0))
     }
 }
 
-/// A robot of 6 to 9 cables around and above (or also below) a platform, with lengths near those of a random pose.
+/// Robots with 6 to 9 cables around and above (or also below) a platform, with lengths near those of a random pose.
 pub(crate) fn any_robot() -> impl Strategy<Value = (Robot, Vec<f64>)> {
     let cable = (0.0f64..1.0, 0.6f64..1.4, 0.0f64..1.0, 0.05f64..0.5, -0.3f64..0.3, 0.985f64..1.02);
     let rope = (2.0f64..6.0, -3.0f64..0.0);

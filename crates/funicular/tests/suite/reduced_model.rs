@@ -1,4 +1,4 @@
-//! The reduced second-order model against the full one.
+//! Reduced second-order model against the full one.
 
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, Vec3};
@@ -51,7 +51,7 @@ fn with_viscous_damping_it_has_the_responses_and_the_damped_frequencies_of_the_f
         let reduced = found.receptance(frequency_hz * TAU).unwrap()[(0, 0)];
         assert!((full - reduced).norm() < 1e-9 * full.norm(), "{frequency_hz}: {full} {reduced}");
     }
-    // Eigenvalues of the state matrix, by a general method that knows nothing of poles.
+    // Eigenvalues of the state matrix, by a general method that does not use the poles.
     let undamped = modes::below(&dynamics, 5.0);
     let damped = modes::damped::damped_modes(&dynamics, &undamped);
     assert!(damped.certified);
@@ -59,7 +59,8 @@ fn with_viscous_damping_it_has_the_responses_and_the_damped_frequencies_of_the_f
     for mode in &damped.modes {
         let lambda = mode.eigenvalue();
         let nearest = eigenvalues.iter().map(|other| (other - lambda).norm()).fold(f64::INFINITY, f64::min);
-        // The state matrix reaches to a thousand times the limit, and its eigenvalues are known to 1e-16 of that squared.
+        // The state matrix has frequencies up to a thousand times the limit; the error of its eigenvalues is 1e-16 of
+        // that squared.
         assert!(nearest < 1e-6 * lambda.norm(), "{lambda}: {nearest:e}");
     }
 }
@@ -69,12 +70,12 @@ fn a_small_model_is_as_good_as_it_says() {
     for damping in [Damping::Ratio(0.003), Damping::Ratio(0.03), Damping::Viscous(0.02)] {
         let (found, rest, dynamics) = model(damping, WANTED);
         assert!(found.truncation_error.unwrap() <= 1e-3, "{:?}", found.truncation_error);
-        // A hundred of the cables' own, and three a cable for all the others.
+        // About a hundred clamped modes of the cables, and three per cable for all the others.
         assert!(found.mass.nrows() < 140, "{}", found.mass.nrows());
         let x = response::along(&Vec3::x(), &Vec3::new(0.1, 0.0, 0.0), &rest.pose);
         let z = response::along(&Vec3::z(), &Vec3::new(0.1, 0.0, 0.0), &rest.pose);
         let all = found.damping_error.unwrap() + 1e-3;
-        // Damping that is right at each natural frequency is off by its second order in the response at peaks.
+        // Damping that is correct at each natural frequency has an error of second order in the response at peaks.
         assert!(all < 0.05, "{damping:?}: {all}");
         for frequency_hz in modes::below(&dynamics, 5.0).modes.iter().map(|mode| mode.frequency_hz).step_by(3) {
             let full = response::frf(&dynamics, &[frequency_hz], &x, &z, Quantity::Displacement).unwrap()[0];
@@ -112,7 +113,7 @@ fn damping_at_one_frequency_is_right_there_and_grows_wrong_away_from_it() {
     let at = |damping_at| model(Damping::Ratio(ratio), Wanted { damping_at, ..WANTED }).0;
     let (own, one) = (at(DampingAt::NaturalFrequencies), at(DampingAt::Hz(2.5)));
     assert!(own.damping_error.unwrap() < 0.2 * one.damping_error.unwrap(), "{own:?}");
-    // C of one frequency is 2ξω times the cables' mass: on a clamped coordinate 2ξω.
+    // C for one frequency is 2ξω times the cables' mass: 2ξω for the coordinate of a clamped mode.
     let last = one.mass.nrows() - 1;
     assert!((one.damping[(last, last)] - 2.0 * ratio * 2.5 * TAU).abs() < 1e-12);
     assert!(matches!(one.coordinates[last], Coordinate::Clamped { out_of_plane: true, .. }));

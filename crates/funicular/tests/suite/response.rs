@@ -1,4 +1,4 @@
-//! Frequency responses: the vector kernel against plain elimination, physics against identities.
+//! Frequency responses: the vector kernel against plain elimination, and the physics against identities.
 
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -24,7 +24,7 @@ const ROBOTS: [&str; 4] = [
 
 #[test]
 fn the_vector_kernel_equals_plain_elimination() {
-    // 0 Hz, the series near rest, single lanes at the end of a block, damping beyond the range of the fast functions.
+    // 0 Hz, the series near 0 Hz, single lanes at the end of a block, damping beyond the range of the fast functions.
     let frequencies: Vec<f64> = (0..1003).map(|i| 0.03 * f64::from(i)).collect();
     for text in ROBOTS {
         let (robot, rest) = load(text);
@@ -44,7 +44,7 @@ fn the_vector_kernel_equals_plain_elimination() {
                     for (i, frequency) in frequencies.iter().enumerate() {
                         let plain = response::receptance(&dynamics, frequency * TAU);
                         let gap = (fast[i] - plain).norm() / plain.norm();
-                        // Elimination without exchange may lose six digits of sixteen (see the kernel).
+                        // Elimination without pivoting may lose six of sixteen digits (see the kernel).
                         assert!(gap < 1e-9, "{} {damping:?} {cable_model} {frequency} Hz: {gap:e}", robot.name);
                         let wanted: Complex = (0..6)
                             .flat_map(|r| (0..6).map(move |c| (r, c)))
@@ -102,7 +102,7 @@ fn velocity_and_acceleration_are_the_derivatives_of_displacement() {
 #[test]
 fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
     let (mut robot, rest) = load(ROBOTS[0]);
-    // Springs of no stiffness: at 0 Hz nothing resists.
+    // Springs without stiffness: nothing resists at 0 Hz.
     for cable in &mut robot.cables {
         cable.material.axial_stiffness = 1e-12;
     }

@@ -1,4 +1,4 @@
-//! Warnings: where a model leaves its range.
+//! Warnings about results outside the range of a model.
 
 use crate::library::at_rest;
 use funicular::cable::{CableModel, EndStiffness};
@@ -14,7 +14,7 @@ fn cables_are_warned_about_outside_the_models_range() {
     let [Warning::DeepSag { cables, .. }] = &warnings[..] else { panic!("{warnings:?}") };
     assert!(cables.iter().all(|deep| deep.ratio > 0.05 && deep.ratio < 0.07));
     for deep in cables {
-        // Measured here: the first clamped frequency in plane of either model.
+        // The error measured here: first clamped frequency in plane of both models.
         let i = robot.cables.iter().position(|cable| cable.name == deep.cable).unwrap();
         let first = |cable_model| {
             let one = EndStiffness::new(&robot, i, &rest.cables[i], cable_model, true, 5.0).unwrap();
@@ -27,7 +27,7 @@ fn cables_are_warned_about_outside_the_models_range() {
     }
     let names: Vec<&str> = cables.iter().map(|deep| deep.cable.as_str()).collect();
     assert_eq!(names, ["5", "6"], "the long cables sag by some 6 % of the chord");
-    assert!(warnings[0].to_string().contains("more than 1/20"));
+    assert!(warnings[0].to_string().contains("the limit is 1/20"));
     assert!(warnings::of_dynamics(&robot, &rest, CableModel::CatenaryStatic, 20.0).is_empty());
     let axial = warnings::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);
     assert!(matches!(&axial[..], [Warning::AxialWaves { .. }]), "{axial:?}");

@@ -1,33 +1,33 @@
-//! What `import` refuses, at which line, and why.
+//! Refusals of `import`, with line and reason.
 
 use super::*;
 
-/// Files, change, more arguments, what the message says.
+/// Files, change of the text, more arguments, part of the message.
 type Refused = (&'static [&'static str], (&'static str, &'static str), &'static [&'static str], &'static str);
 
 #[test]
 #[expect(clippy::too_many_lines, reason = "a table")]
-fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
+fn bad_files_are_refused_at_their_line_with_the_reason() {
     const WIREX: &[&str] = &["tripod.wcrfx"];
     const MOORDYN: &[&str] = &["tripod.txt"];
     const POSE: &str = "SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"";
     let cases: &[Refused] = &[
         // CASPR: bodies.
         (&CASPR, (POSE, "R_Z\" q_initial=\"0\""), &[], "joint `R_Z` is a link that only rotates about a fixed point"),
-        (&CASPR, (POSE, "P_XY\" q_initial=\"0 0\""), &[], "translates along less than three axes"),
-        (&CASPR, (POSE, "HINGE\" q_initial=\"0\""), &[], "joint `HINGE` is of a kind that is not known"),
+        (&CASPR, (POSE, "P_XY\" q_initial=\"0 0\""), &[], "translates along fewer than three axes"),
+        (&CASPR, (POSE, "HINGE\" q_initial=\"0\""), &[], "joint `HINGE` is of an unknown kind"),
         (&CASPR, (POSE, "T_XYZ\" actuated=\"true\" q_initial=\"0 0 0\""), &[], "the joint is actuated"),
-        (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03"), &[], "holds 5 numbers, SPATIAL_EULER_XYZ has 6"),
+        (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03"), &[], "holds 5 numbers, SPATIAL_EULER_XYZ needs 6"),
         (&CASPR, ("0.02 -0.03 0.05", "0.02 -0.03 x"), &[], "`q_initial` holds `x`, which is not a number"),
         (&CASPR, (POSE, "SPATIAL_QUATERNION\" q_initial=\"0 0 1 0 0 0 0\""), &[], "the quaternion zero"),
         (&CASPR, ("</link_rigid>", "</link_rigid><link_rigid num=\"2\"/>"), &[], "the robot has 2 links"),
-        (&CASPR, ("<num>0", "<num>1"), &[], "hang on the base, link 0"),
+        (&CASPR, ("<num>0", "<num>1"), &[], "has to be the base, link 0"),
         (&CASPR, ("<mass>60.0</mass>", ""), &[], "bodies.xml:8:7: <physical> has no <mass>"),
         (&CASPR, ("<mass>60.0", "<mass>-1"), &[], "bodies.xml:9:9: <mass> is -1 kg, it must be positive"),
         (&CASPR, ("<mass>60.0", "<mass>60,0"), &[], "decimals are written with a point"),
         (&CASPR, ("<mass>60.0", "<mass>NaN"), &[], "<mass> is NaN, which is not a finite number"),
         (&CASPR, ("<mass>60.0", "<mass>60 kg"), &[], "<mass> is `60 kg`, which is not a number"),
-        (&CASPR, ("<com_location>0.01 ", "<com_location>"), &[], "<com_location> holds 2 numbers, it must be three"),
+        (&CASPR, ("<com_location>0.01 ", "<com_location>"), &[], "<com_location> holds 2 numbers; it must hold three"),
         (&CASPR, ("ref=\"com\"", "ref=\"end\""), &[], "attribute `ref` of <inertia> is `end`"),
         (&CASPR, ("<Ixx>4.0", "<Ixx>40"), &[], "fits no body"),
         (&CASPR, ("<Ixx>4.0", "<Ixx>-4"), &[], "--inertia-kg-m2"),
@@ -51,11 +51,16 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
         (&CASPR, ("<location>0.15 4.0 5.0</location>", ""), &[], "<attachment> has no <location>"),
         (&CASPR, ("<K>1e6", "<K>0"), &["--cable-set", "springs"], "<K> of cable \"1\" is 0 N, it must be positive"),
         (&CASPR, ("default_cable_set=\"ideal\"", ""), &[], "choose one with --cable-set: \"ideal\" and \"springs\""),
-        (&CASPR, ("default_cable_set=\"ideal\"", "default_cable_set=\"old\""), &[], "which default_cable_set names"),
+        (
+            &CASPR,
+            ("default_cable_set=\"ideal\"", "default_cable_set=\"old\""),
+            &[],
+            "default_cable_set names the set \"old\", which does not exist",
+        ),
         (&CASPR, ("id=\"springs\"", "id=\"ideal\""), &[], "a second set is called \"ideal\""),
         (&CASPR, ("<cables ", "<cables "), &["--cable-set", "spring"], "did you mean \"springs\"?"),
         // WireX.
-        (WIREX, ("3R3T", "2R3T"), &[], "motion pattern 2R3T is none that a robot file can hold"),
+        (WIREX, ("3R3T", "2R3T"), &[], "a robot file cannot hold the motion pattern 2R3T"),
         (WIREX, ("3R3T", "6T"), &[], "attribute `motionpattern` is `6T`"),
         (WIREX, ("x=\"0.15\"", "x=\"0,15\""), &[], "tripod.wcrfx:5:17: attribute `x` of <base> is `0,15`"),
         (WIREX, ("x=\"0.15\"", ""), &[], "<base> has no attribute `x`"),
@@ -101,8 +106,13 @@ fn what_cannot_be_read_is_refused_at_its_line_with_the_reason() {
         (MOORDYN, ("1     Fixed ", "1     Free  "), &[], "ends at point 1, which is not fixed"),
         (MOORDYN, ("1     Fixed ", "1     Loose "), &[], "tripod.txt:14: point 1 is `LOOSE`"),
         (MOORDYN, ("3     Fixed ", "1     Fixed "), &[], "a second point has the number 1"),
-        (MOORDYN, ("1     free ", "1     fixed"), &[], "body 1 is fixed: nothing moves"),
-        (MOORDYN, ("0.05     1e6 ", "0.05     curve.txt "), &[], "in a file of its own is not read"),
+        (MOORDYN, ("1     free ", "1     fixed"), &[], "body 1 is fixed, so nothing moves"),
+        (
+            MOORDYN,
+            ("0.05     1e6 ", "0.05     curve.txt "),
+            &[],
+            "a separate file with a table of tension over strain is not read",
+        ),
         (MOORDYN, ("4.98331806931662", "-4.9"), &[], "column 5 (UnstrLen) is -4.9 m, it must be positive"),
         (MOORDYN, ("4.0|5.0|7.0", "4.0|5.0"), &[], "column 11 (I) holds 2 numbers"),
         (MOORDYN, ("60.0", "60,0"), &[], "tripod.txt:10: column 9 (Mass) is `60,0`, which is not a number"),
@@ -125,7 +135,7 @@ fn kinds_of_cables_that_a_robot_file_does_not_have_are_refused() {
         ("cable_passive_linear_spring", "a passive spring"),
         ("cable_vsd_torsion_spring", "a device of variable stiffness"),
         ("muscle_hill_type", "a muscle"),
-        ("rope", "of a kind that is not known"),
+        ("rope", "of an unknown kind"),
     ] {
         let cables = format!("<cables default_cable_set='a'><cable_set id='a'><{kind} name='s'/></cable_set></cables>");
         let message = caspr_with_cables(&cables);
@@ -169,7 +179,7 @@ fn files_that_are_none_of_one_robot_are_refused() {
         (&[&bodies], "no CASPR cables file"),
         (&[&cables], "no CASPR bodies file"),
         (&[&bodies, &bodies, &cables], "are both a CASPR bodies file"),
-        (&[&bodies, &cables, &wirex], "of more than one program"),
+        (&[&bodies, &cables, &wirex], "to more than one program"),
         (&[&wirex, &wirex], "are both a WireX file"),
         (&[&moordyn, &moordyn], "2 MoorDyn input files"),
         (&[&yuan], "neither XML"),

@@ -1,4 +1,4 @@
-//! The file of bodies: one link, its joint, its inertia, its pose.
+//! CASPR's file of bodies: one link with its joint, inertia and pose.
 
 use crate::import::draft::{DraftMotion, rotation_xyz};
 use crate::import::text::{self, clean};
@@ -8,31 +8,31 @@ use funicular::math::{Mat3, Rotation, Vec3};
 use funicular::robot::Pose;
 use roxmltree::Node;
 
-/// The one body that moves.
-pub(super) struct Body {
+/// Link of a CASPR model: the only body that moves.
+pub(super) struct CasprLink {
     pub(super) name: String,
     pub(super) mass: Option<f64>,
     pub(super) inertia_p: Option<Mat3>,
-    /// From the joint, body axes [m].
+    /// Centre of mass relative to the joint, body axes [m].
     pub(super) center_of_mass_p: Vec3,
     pub(super) motion: DraftMotion,
-    /// `None` where the file has no coordinates of the joint.
+    /// Pose; `None` if the file has no coordinates of the joint.
     pub(super) pose: Option<Pose>,
     pub(super) place: String,
     pub(super) assumed: Vec<String>,
     pub(super) lost: Vec<String>,
 }
 
-/// What a kind of joint lets the body do, and where the body is at its coordinates.
+/// Kind of joint: motion of the body, and its place as a function of the joint's coordinates.
 struct Joint {
     motion: DraftMotion,
     /// Number of coordinates.
     count: usize,
-    /// Translation [m] and rotation from the base.
+    /// Translation [m] and rotation relative to the base.
     place: fn(&[f64]) -> (Vec3, Rotation),
 }
 
-/// The kinds of joint that are a platform, by their names in CASPR, the old ones too.
+/// Joint of a platform by its name in CASPR, old names included; `None` for other joints.
 fn joint_of(kind: &str) -> Option<Joint> {
     let planar = |plane| DraftMotion::Planar { plane };
     Some(match kind {
@@ -70,24 +70,24 @@ fn joint_of(kind: &str) -> Option<Joint> {
     })
 }
 
-/// The rotation of a quaternion of any length but zero.
+/// Rotation of a quaternion, which need not be normalized but must not be zero.
 fn from_quaternion(w: f64, v: &Vec3) -> Rotation {
     let sine = v.norm();
     if sine == 0.0 { Rotation::identity() } else { Rotation::from_scaled_axis(v * (2.0 * sine.atan2(w) / sine)) }
 }
 
-/// The body of a file.
-pub(super) fn read(xml: &Xml) -> Result<Body> {
+/// Reads the body of a file.
+pub(super) fn read(xml: &Xml) -> Result<CasprLink> {
     let root = xml.root();
     let links = if tag(root) == "links" { root } else { xml.required(root, "links")? };
     let all: Vec<Node> = links.children().filter(Node::is_element).collect();
     let link = match all[..] {
         [link] => link,
-        [] => bail!(xml.error(links, "<links> has no <link_rigid>: the robot has no body that moves")),
+        [] => bail!(xml.error(links, "<links> has no <link_rigid>: the robot has no moving body")),
         [_, second, ..] => bail!(xml.error(
             second,
             format!(
-                "the robot has {} links; funicular knows robots with one moving platform, chains of links are refused",
+                "the robot has {} links; only robots with one moving platform are supported, no chains of links",
                 all.len()
             )
         )),
@@ -95,17 +95,25 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
     if tag(link) != "link_rigid" {
         bail!(xml.error(link, format!("<{}> is not known; a platform is a <link_rigid>", tag(link))));
     }
+
     let parent = xml.required(link, "parent")?;
     let parent_link = xml.child_number(parent, "num")?;
     if parent_link != 0.0 {
-        bail!(xml.error(parent, format!("<num> is {parent_link}; the only link has to hang on the base, link 0")));
+        bail!(
+            xml.error(
+                parent,
+                format!("<num> is {parent_link}; the parent of the only link has to be the base, link 0")
+            )
+        );
     }
+
     let joint_node = xml.required(link, "joint")?;
     let (motion, place) = joint(xml, joint_node)?;
     let location = xml.child_vector(parent, "location")?;
     let physical = xml.required(link, "physical")?;
     let center_of_mass_p = xml.child_vector(physical, "com_location")?;
     let mass = mass(xml, physical)?;
+
     let mut assumed = Vec::new();
     let mut lost = Vec::new();
     let inertia_node = xml.required(physical, "inertia")?;
@@ -122,7 +130,8 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
     if children(root, "operational_spaces").next().is_some() {
         lost.push("<operational_spaces>".to_owned());
     }
-    Ok(Body {
+
+    Ok(CasprLink {
         name: clean(link.attribute("name").unwrap_or_default()),
         mass,
         inertia_p,
@@ -135,15 +144,15 @@ pub(super) fn read(xml: &Xml) -> Result<Body> {
     })
 }
 
-/// The degrees of freedom of a joint, and where it is if the file says so.
+/// Motion of a joint, and its place if the file gives the joint's coordinates.
 fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>)> {
     let kind = node.attribute("type").unwrap_or_default().trim();
     let Some(joint) = joint_of(kind) else {
         let which = match kind.split('_').next().unwrap_or_default() {
             "" => bail!(xml.error(node, "<joint> has no attribute `type`")),
-            "P" => "a platform that only translates along less than three axes",
+            "P" => "a platform that translates along fewer than three axes and cannot rotate",
             "R" | "U" | "S" => "a link that only rotates about a fixed point",
-            _ => "of a kind that is not known",
+            _ => "of an unknown kind",
         };
         bail!(xml.error(
             node,
@@ -157,16 +166,17 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
     if node.attribute("actuated").is_some_and(|text| text.trim() == "true") {
         bail!(xml.error(
             node,
-            "the joint is actuated: forces beside those of the cables hold the platform, which a robot file cannot hold"
+            "the joint is actuated: other forces than those of cables hold the platform, which a robot file cannot \
+             describe"
         ));
     }
     let text = node.attribute("q_initial").map(str::trim).filter(|text| !text.is_empty());
-    // Models of before 2017 have none.
+    // Models from before 2017 have no coordinates.
     let Some(text) = text else { return Ok((joint.motion, None)) };
     let q = text::numbers(text).map_err(|wrong| xml.error(node, format!("attribute `q_initial` holds {wrong}")))?;
     if q.len() != joint.count {
         let count = joint.count;
-        bail!(xml.error(node, format!("attribute `q_initial` holds {} numbers, {kind} has {count}", q.len())));
+        bail!(xml.error(node, format!("attribute `q_initial` holds {} numbers, {kind} needs {count}", q.len())));
     }
     if joint.count == 7 && q[3..].iter().all(|part| *part == 0.0) {
         bail!(xml.error(node, "attribute `q_initial` holds the quaternion zero, which is no orientation"));
@@ -174,7 +184,7 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
     Ok((joint.motion, Some((joint.place)(&q))))
 }
 
-/// The mass; zero, which stands in files that nobody filled in, is none.
+/// Mass of the body; zero, a placeholder in incomplete files, counts as missing.
 fn mass(xml: &Xml, physical: Node) -> Result<Option<f64>> {
     let node = xml.required(physical, "mass")?;
     let mass = xml.number(node)?;
@@ -184,7 +194,7 @@ fn mass(xml: &Xml, physical: Node) -> Result<Option<f64>> {
     Ok((mass > 0.0).then_some(mass))
 }
 
-/// The tensor about the centre of mass; `None` where all of it is zero.
+/// Inertia tensor about the centre of mass; `None` if all entries are zero.
 fn inertia(
     xml: &Xml,
     node: Node,
@@ -201,16 +211,16 @@ fn inertia(
     }
     if [xy, xz, yz].iter().any(|product| *product != 0.0) {
         assumed.push(
-            "Ixy, Ixz and Iyz are entries of the tensor, as CASPR takes them; if they are products of inertia, the \
-             integrals of xy dm, xz dm and yz dm, change their signs"
+            "Ixy, Ixz and Iyz are entries of the tensor, as in CASPR; if they are products of inertia, the integrals \
+             of xy dm, xz dm and yz dm, change their signs"
                 .to_owned(),
         );
     }
-    // Models of before 2017 write CoM.
+    // Models from before 2017 write CoM.
     match node.attribute("ref").map(|text| text.trim().to_ascii_lowercase()).as_deref() {
         Some("com") => Ok(Some(tensor)),
         Some("joint") => {
-            // Another mass would belong to another tensor.
+            // Without the mass the tensor cannot be shifted to the centre of mass.
             let Some(mass) = mass else { return Ok(None) };
             let shift = Mat3::identity() * center_p.norm_squared() - center_p * center_p.transpose();
             Ok(Some(tensor - shift * mass))
@@ -229,7 +239,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_quaternion_turns_as_its_axis_and_angle_say_whatever_its_length() {
+    fn a_quaternion_of_any_length_gives_the_rotation_of_its_axis_and_angle() {
         let (s, c) = (0.35_f64.sin(), 0.35_f64.cos());
         let turned = from_quaternion(2.0 * c, &Vec3::new(0.0, 0.0, 2.0 * s)) * Vec3::x();
         assert!((turned - Vec3::new(0.7_f64.cos(), 0.7_f64.sin(), 0.0)).norm() < 1e-15, "{turned}");

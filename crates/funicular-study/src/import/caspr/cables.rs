@@ -1,4 +1,4 @@
-//! The file of cables: one of its sets.
+//! CASPR's file of cables, of which one set is read.
 
 use crate::import::draft::{DraftCable, DraftRope, listed};
 use crate::import::text::clean;
@@ -8,47 +8,52 @@ use funicular::math::Vec3;
 use funicular::suggest::nearest;
 use roxmltree::Node;
 
-/// A set of cables.
-pub(super) struct Set {
+/// Set of cables.
+pub(super) struct CableSet {
     pub(super) id: String,
-    /// Whether the file has no other.
+    /// True if the file has no other set.
     pub(super) is_only: bool,
     pub(super) cables: Vec<DraftCable>,
     pub(super) lost: Vec<String>,
 }
 
-/// The set that is wanted, or the one that the file says is the default.
-pub(super) fn read(xml: &Xml, wanted: Option<&str>, center_of_mass_p: &Vec3) -> Result<Set> {
+/// Reads the requested set, or the file's default set.
+pub(super) fn read(xml: &Xml, requested: Option<&str>, center_of_mass_p: &Vec3) -> Result<CableSet> {
     let root = xml.root();
     let sets: Vec<Node> = children(root, "cable_set").collect();
     let ids: Vec<String> = sets.iter().map(|set| clean(id_of(set))).collect();
-    let node = chosen(xml, &sets, &ids, wanted)?;
+    let node = chosen(xml, &sets, &ids, requested)?;
     let id = clean(id_of(&node));
-    let mut left = Left::default();
+    let mut losses = CasprLosses::default();
     let mut cables = Vec::new();
     for cable in node.children().filter(Node::is_element) {
-        cables.push(read_cable(xml, cable, center_of_mass_p, &mut left)?);
+        cables.push(read_cable(xml, cable, center_of_mass_p, &mut losses)?);
     }
     if cables.is_empty() {
         bail!(xml.error(node, format!("cable set \"{id}\" has no cables")));
     }
-    let mut lost = left.lost();
+    let mut lost = losses.lost();
     let others: Vec<String> = sets.iter().zip(ids).filter(|(set, _)| **set != node).map(|(_, id)| id).collect();
     if !others.is_empty() {
-        lost.push(format!("the other sets of cables, {}; ⟪cable_set⟫ chooses one", listed(&others)));
+        lost.push(format!("the other cable sets, {}; ⟪cable_set⟫ chooses one", listed(&others)));
     }
-    Ok(Set { is_only: sets.len() == 1, id, cables, lost })
+    Ok(CableSet { is_only: sets.len() == 1, id, cables, lost })
 }
 
-/// The name of a set, as the file has it.
+/// Name of a set exactly as in the file.
 fn id_of<'n>(set: &Node<'n, '_>) -> &'n str {
     set.attribute("id").unwrap_or_default()
 }
 
-/// The set to read.
-fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: Option<&str>) -> Result<Node<'n, 'a>> {
+/// Chooses the set to read.
+fn chosen<'n, 'a>(
+    xml: &Xml<'a>,
+    sets: &[Node<'n, 'a>],
+    ids: &[String],
+    requested: Option<&str>,
+) -> Result<Node<'n, 'a>> {
     let root = xml.root();
-    let (name, whose) = match (wanted, root.attribute("default_cable_set").map(str::trim)) {
+    let (name, whose) = match (requested, root.attribute("default_cable_set").map(str::trim)) {
         (Some(name), _) => (name, "⟪cable_set⟫"),
         (None, Some(name)) if !name.is_empty() => (name, "default_cable_set"),
         _ => match sets {
@@ -56,13 +61,16 @@ fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: 
             [] => bail!(xml.error(root, "<cables> has no <cable_set>")),
             _ => bail!(xml.error(
                 root,
-                format!("the file says no default_cable_set; choose one with ⟪cable_set⟫: {}", listed(ids))
+                format!(
+                    "the file has several sets and no default_cable_set; choose one with ⟪cable_set⟫: {}",
+                    listed(ids)
+                )
             )),
         },
     };
-    // In full: names that are shown are cut, and two long ones may begin alike.
-    let is_wanted = |id: &str| id.split_whitespace().eq(name.split_whitespace());
-    let mut found = sets.iter().filter(|set| is_wanted(id_of(set))).copied();
+    // Compare complete names: names in messages are cut off, and two long names may begin alike.
+    let is_requested = |id: &str| id.split_whitespace().eq(name.split_whitespace());
+    let mut found = sets.iter().filter(|set| is_requested(id_of(set))).copied();
     match (found.next(), found.next()) {
         (Some(set), None) => Ok(set),
         (Some(_), Some(second)) => bail!(xml.error(second, format!("a second set is called \"{}\"", clean(name)))),
@@ -73,13 +81,17 @@ fn chosen<'n, 'a>(xml: &Xml<'a>, sets: &[Node<'n, 'a>], ids: &[String], wanted: 
                 .unwrap_or_default();
             bail!(xml.error(
                 root,
-                format!("there is no set \"{}\", which {whose} names: {near}the file has {}", clean(name), listed(ids))
+                format!(
+                    "{whose} names the set \"{}\", which does not exist: {near}the file has {}",
+                    clean(name),
+                    listed(ids)
+                )
             ))
         }
     }
 }
 
-fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, left: &mut Left) -> Result<DraftCable> {
+fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, losses: &mut CasprLosses) -> Result<DraftCable> {
     let name = clean(node.attribute("name").unwrap_or_default());
     let has_stiffness = match tag(node) {
         "cable_ideal" => false,
@@ -91,7 +103,7 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, left: &mut Left) -
                     "a cable in series with a device of variable stiffness, which a robot file cannot hold"
                 }
                 "muscle_hill_type" | "pneumatic_artificial_muscle" => "a muscle, which a robot file cannot hold",
-                _ => "of a kind that is not known",
+                _ => "of an unknown kind",
             };
             bail!(xml.error(
                 node,
@@ -119,10 +131,10 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, left: &mut Left) -
     let mut limits = [None; 2];
     if let Some(properties) = xml.optional(node, "properties")? {
         limits = [limit(xml, properties, "force_min")?, limit(xml, properties, "force_max")?];
-        left.diameters |= xml.optional(properties, "diameter")?.is_some();
+        losses.diameters |= xml.optional(properties, "diameter")?.is_some();
     }
     if has_stiffness {
-        // CASPR divides it by the cable's length to get a stiffness in N/m: it is EA.
+        // K is EA: CASPR divides it by the cable's length to get a stiffness in N/m.
         let stiffness = xml.required(xml.required(node, "properties")?, "K")?;
         let value = xml.number(stiffness)?;
         if value <= 0.0 {
@@ -130,28 +142,28 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, left: &mut Left) -
         }
         rope.axial_stiffness = Some(value);
     }
-    let [anchor_w, attachment_p] = ends(xml, xml.required(node, "attachments")?, &name, left)?;
+    let [anchor_w, attachment_p] = ends(xml, xml.required(node, "attachments")?, &name, losses)?;
     let attachment_p = if from_center { attachment_p + center_of_mass_p } else { attachment_p };
     Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None })
 }
 
-/// A tension limit; infinite is none.
+/// Tension limit; an infinite one counts as none.
 fn limit(xml: &Xml, properties: Node, name: &str) -> Result<Option<f64>> {
     let Some(node) = xml.optional(properties, name)? else { return Ok(None) };
     let infinite = node.text().is_some_and(|text| text.trim().parse::<f64>().is_ok_and(f64::is_infinite));
     if infinite { Ok(None) } else { xml.number(node).map(Some) }
 }
 
-/// The end on the base, in world axes, and the end on the platform, in platform axes.
-fn ends(xml: &Xml, attachments: Node, cable: &str, left: &mut Left) -> Result<[Vec3; 2]> {
+/// Anchor of a cable in world axes, and its attachment in platform axes.
+fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> Result<[Vec3; 2]> {
     let points: Vec<Node> = attachments.children().filter(Node::is_element).collect();
     let [first, second] = points[..] else {
         let count = points.len();
         let why = if count < 2 {
             "it needs two"
         } else {
-            "a cable of a robot file runs straight from its anchor to the platform, so one that is led over further points \
-             is refused"
+            "a cable of a robot file runs straight from its anchor to the platform and cannot be led over further \
+             points"
         };
         bail!(xml.error(attachments, format!("cable \"{cable}\" has {count} attachments; {why}")));
     };
@@ -174,14 +186,19 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, left: &mut Left) -> Result<[V
                 };
                 (is_platform, xml.child_vector(node, "location")?)
             }
-            "base_rotating_pulley" => (false, left.pulley(xml, node, cable, "fixed_location")?),
-            "screw_base_rotating_pulley" => (false, left.pulley(xml, node, cable, "constant_winch_point")?),
-            other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is no attachment that is known"))),
+            "base_rotating_pulley" => (false, losses.pulley(xml, node, cable, "fixed_location")?),
+            "screw_base_rotating_pulley" => (false, losses.pulley(xml, node, cable, "constant_winch_point")?),
+            other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is an unknown kind of attachment"))),
         };
         let end = if is_platform { &mut platform } else { &mut base };
         if end.replace(point).is_some() {
             let both = if is_platform { "the platform" } else { "the base" };
-            bail!(xml.error(node, format!("cable \"{cable}\" has both ends on {both}; it moves nothing")));
+            bail!(xml.error(
+                node,
+                format!(
+                    "cable \"{cable}\" has both ends on {both}; it needs one end on the base and one on the platform"
+                )
+            ));
         }
     }
     let (Some(anchor_w), Some(attachment_p)) = (base, platform) else {
@@ -190,17 +207,18 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, left: &mut Left) -> Result<[V
     Ok([anchor_w, attachment_p])
 }
 
-/// What of the cables is not read, gathered so that it is said once. Of a pulley it is all but its fixed point.
+/// Data of the cables that are not read, collected so that each kind is reported once. Only the fixed point of a pulley
+/// is read.
 #[derive(Default)]
-struct Left {
-    /// Cables that run over pulleys.
+struct CasprLosses {
+    /// Names of cables that run over pulleys.
     cables: Vec<String>,
     radii: Vec<f64>,
-    /// Whether a cable has a `<diameter>`: its unit is stated nowhere, and files have 0.367.
+    /// True if a cable has a `<diameter>`. Its unit is not documented, and files have values such as 0.367.
     diameters: bool,
 }
 
-impl Left {
+impl CasprLosses {
     fn pulley(&mut self, xml: &Xml, node: Node, cable: &str, point: &str) -> Result<Vec3> {
         self.cables.push(cable.to_owned());
         if let Some(radius) = xml.optional(node, "pulley_radius")? {
@@ -235,7 +253,7 @@ mod tests {
     use crate::import::text::SourceFile;
 
     #[test]
-    fn a_limit_that_is_infinite_is_none() {
+    fn an_infinite_limit_counts_as_none() {
         let file = SourceFile::decode("a.xml".into(), b"<p><a>Inf</a><b>-inf</b><c>5</c><d>x</d></p>").unwrap();
         let xml = Xml::parse(&file).unwrap();
         let of = |name| limit(&xml, xml.root(), name);

@@ -1,4 +1,4 @@
-//! The draft as the text of a robot file.
+//! Text of the robot file of a draft.
 
 use super::{Draft, DraftCable, DraftMotion, DraftRope, DraftState};
 use crate::import::text::clean;
@@ -11,11 +11,11 @@ use std::fmt::Write;
 const WIDTH: usize = 118;
 
 impl Draft {
-    /// The robot file. What comes out has been read back.
+    /// Writes the robot file and checks that it can be read.
     ///
     /// # Errors
     ///
-    /// A robot that a robot file cannot hold, and why.
+    /// The reason why a robot file cannot hold the robot.
     pub(crate) fn to_toml(&self) -> Result<String> {
         let mut out = String::new();
         self.head(&mut out);
@@ -23,11 +23,8 @@ impl Draft {
         Robot::from_toml(&out).map_err(|error| {
             let issues: Vec<String> = error.issues().iter().map(|issue| issue.message.clone()).collect();
             let of_inertia = issues.iter().any(|issue| issue.contains("inertia_kg_m2"));
-            let hint = if of_inertia {
-                "; give ⟪inertia_kg_m2⟫ XX,YY,ZZ, or mend the source"
-            } else {
-                "; mend the source"
-            };
+            let hint =
+                if of_inertia { "; give ⟪inertia_kg_m2⟫ XX,YY,ZZ, or fix the source" } else { "; fix the source" };
             anyhow!("{}: a robot file cannot hold it: {}{hint}", self.platform.place, issues.join("; "))
         })?;
         Ok(out)
@@ -37,8 +34,8 @@ impl Draft {
         comment(out, "", &format!("Written by funicular {}, import.", env!("CARGO_PKG_VERSION")));
         for (title, lines) in [
             ("How it was read:", &self.notes),
-            ("ASSUMED, the source does not say it:", &self.assumed),
-            ("In the source and not here:", &self.lost),
+            ("Assumed, because the source does not state it:", &self.assumed),
+            ("In the source, but not in this file:", &self.lost),
         ] {
             if !lines.is_empty() {
                 out.push_str("#\n");
@@ -62,15 +59,15 @@ impl Draft {
             of @ (DraftMotion::Rigid | DraftMotion::Planar { .. }) => {
                 if let DraftMotion::Planar { plane } = of {
                     line(format!("motion = \"planar-{plane}\""));
-                    // The plane of a planar robot is the one that its pose is in.
-                    if let (DraftState::Pose(pose), Some(across)) = (&self.state, of.across()) {
-                        line(format!("plane_offset_m = {}", float(pose.position_w[across])));
+                    // The plane of a planar robot goes through its pose.
+                    if let (DraftState::Pose(pose), Some(normal)) = (&self.state, of.normal_axis()) {
+                        line(format!("plane_offset_m = {}", float(pose.position_w[normal])));
                     }
                 }
                 let inertia = self.platform.inertia_p.unwrap_or_default();
-                // Of planar robots the sources leave all but the moment about the normal at zero, which is no body's
-                // tensor; the robot file takes that moment alone.
-                line(match of.across() {
+                // For planar robots the sources give only the moment about the normal. The other moments are zero,
+                // which no body has, so the robot file gets this one moment.
+                line(match of.normal_axis() {
                     Some(normal) => format!("inertia_kg_m2 = {}", float(inertia[(normal, normal)])),
                     None => format!("inertia_kg_m2 = {}", tensor(&inertia)),
                 });
@@ -129,7 +126,7 @@ impl Draft {
         text
     }
 
-    /// The different ropes, each with a name of its own.
+    /// Distinct ropes, each with a unique name.
     fn ropes(&self) -> Vec<(String, &DraftRope)> {
         let mut ropes: Vec<(String, &DraftRope)> = Vec::new();
         for rope in self.cables.iter().map(|cable| &cable.rope) {
@@ -149,7 +146,7 @@ impl Draft {
     }
 }
 
-/// Whether two ropes can be one material: the file writes E and diameter only where there is no EA.
+/// True if two ropes can share one material. The file gives E and diameter only if there is no EA.
 fn same(a: &DraftRope, b: &DraftRope) -> bool {
     let key = |rope: &DraftRope| match rope.axial_stiffness {
         Some(_) => (rope.axial_stiffness, None, None),
@@ -159,12 +156,12 @@ fn same(a: &DraftRope, b: &DraftRope) -> bool {
     same && a.breaking_load == b.breaking_load
 }
 
-/// Lines of `# `, wrapped between words.
+/// Writes comment lines beginning with `# `, wrapped between words.
 fn comment(out: &mut String, bullet: &str, text: &str) {
     let mut line = format!("# {bullet}");
     let indent = " ".repeat(bullet.len());
     let mut empty = true;
-    // Words one by one: a comment of TOML ends at the line's end, and control characters have no place in it.
+    // Each word is cleaned: a TOML comment ends with its line and must not hold control characters.
     for word in text.split_whitespace().map(clean) {
         if !empty && line.chars().count() + word.chars().count() + 1 > WIDTH {
             out.push_str(&line);
@@ -182,20 +179,20 @@ fn comment(out: &mut String, bullet: &str, text: &str) {
     out.push('\n');
 }
 
-/// A basic string.
+/// TOML string in quotes.
 fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
-/// A key: bare where it can be.
+/// TOML key, without quotes if possible.
 fn key(text: &str) -> String {
     let bare = !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'));
     if bare { text.to_owned() } else { quoted(text) }
 }
 
-/// The shortest digits that are read back as the same number.
+/// Shortest digits that are read back as the same number.
 fn float(value: f64) -> String {
-    // No −0: it prints a sign where nothing is meant by it.
+    // Adding zero turns −0 into 0: its sign has no meaning here.
     let value = value + 0.0;
     let plain = value == 0.0 || (1e-4..1e6).contains(&value.abs());
     if plain { format!("{value:?}") } else { format!("{value:e}") }

@@ -1,45 +1,47 @@
-//! Bodies, points, lines and their types.
+//! Bodies, points, lines and line types of a MoorDyn input file.
 
-use super::sections::{self, Kind, Row};
+use super::sections::{self, SectionKind, SourceRow};
 use crate::import::text::{self, SourceFile, clean};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 
-/// Gravity and density of water where the options do not say [m/s², kg/m³].
+/// Gravity [m/s²] and density of water [kg/m³] if the options do not give them.
 const DEFAULT_GRAVITY: f64 = 9.81;
 const DEFAULT_WATER: f64 = 1025.0;
 
-/// What a file describes.
-pub(super) struct Model<'a> {
-    pub(super) types: Vec<LineType<'a>>,
-    pub(super) bodies: Vec<Body<'a>>,
-    pub(super) points: Vec<Point<'a>>,
-    pub(super) lines: Vec<Line<'a>>,
+/// Content of an input file.
+pub(super) struct MoorDynModel<'a> {
+    pub(super) types: Vec<SourceLineType<'a>>,
+    pub(super) bodies: Vec<MoorDynBody<'a>>,
+    pub(super) points: Vec<MoorDynPoint<'a>>,
+    pub(super) lines: Vec<MoorDynLine<'a>>,
     /// Acceleration [m/s²], downwards.
     pub(super) gravity: f64,
     pub(super) assumed: Vec<String>,
     pub(super) lost: Vec<String>,
 }
 
-pub(super) struct LineType<'a> {
-    /// As the file has it, by which lines name it.
+/// Line type: properties of a rope.
+pub(super) struct SourceLineType<'a> {
+    /// Name exactly as in the file, by which lines refer to it.
     pub(super) word: &'a str,
-    /// As a robot file and messages have it.
+    /// Name for robot files and messages.
     pub(super) name: String,
     pub(super) mass_per_length: f64,
     pub(super) axial_stiffness: f64,
 }
 
-pub(super) struct Body<'a> {
+/// Body of an input file.
+pub(super) struct MoorDynBody<'a> {
     pub(super) id: usize,
     pub(super) is_free: bool,
     pub(super) mass: f64,
     pub(super) center_p: Vec3,
     pub(super) inertia_p: Mat3,
-    pub(super) row: Row<'a>,
+    pub(super) row: SourceRow<'a>,
 }
 
-/// What a point is fixed to.
+/// Object that a point is fixed to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Holder {
     Fixed,
@@ -48,33 +50,35 @@ pub(super) enum Holder {
     Coupled,
 }
 
-pub(super) struct Point<'a> {
+/// Point of an input file: the end of lines.
+pub(super) struct MoorDynPoint<'a> {
     pub(super) id: usize,
     pub(super) holder: Holder,
-    /// In the world, or in the frame of the body that it is fixed to [m].
+    /// Position in the world, or in the frame of the body that the point is fixed to [m].
     pub(super) position: Vec3,
     pub(super) mass: f64,
-    pub(super) row: Row<'a>,
+    pub(super) row: SourceRow<'a>,
 }
 
-pub(super) struct Line<'a> {
+/// Line of an input file.
+pub(super) struct MoorDynLine<'a> {
     pub(super) id: usize,
-    /// Its line type, as the file has it.
+    /// Name of its line type, exactly as in the file.
     pub(super) kind: &'a str,
     pub(super) unstrained_length: f64,
-    pub(super) row: Row<'a>,
+    pub(super) row: SourceRow<'a>,
 }
 
-/// What of the file a robot file does not hold, gathered so that it is said once.
+/// Data that a robot file does not hold, collected so that each kind is reported once.
 #[derive(Default)]
-struct Left {
+struct MoorDynLosses {
     bending: Vec<String>,
     damping: Vec<String>,
     volumes: Vec<String>,
     forces: Vec<String>,
 }
 
-impl<'a> Model<'a> {
+impl<'a> MoorDynModel<'a> {
     pub(super) fn read(file: &'a SourceFile) -> Result<Self> {
         let mut model = Self {
             types: Vec::new(),
@@ -85,23 +89,27 @@ impl<'a> Model<'a> {
             assumed: Vec::new(),
             lost: Vec::new(),
         };
-        let mut left = Left::default();
+        let mut losses = MoorDynLosses::default();
         let mut water = None;
         for (kind, row) in sections::rows(&file.text) {
             match kind {
-                Kind::LineTypes => {
-                    let read = model.line_type(file, &row, &mut left)?;
+                SectionKind::LineTypes => {
+                    let read = model.line_type(file, &row, &mut losses)?;
                     model.types.push(read);
                 }
-                Kind::Bodies => model.bodies.push(body(file, row, &mut left)?),
-                Kind::Points => model.points.push(point(file, row, &mut left)?),
-                Kind::Lines => model.lines.push(line(file, row)?),
-                Kind::Rods => bail!(row.error(
-                    file,
-                    "the file has rods: stiff bars have no place in a robot file; give the platform as a body"
-                )),
-                Kind::ExternalLoads => model.lost.push(format!("the external load of line {} of the file", row.line)),
-                Kind::Options => match row.words.get(1).copied() {
+                SectionKind::Bodies => model.bodies.push(body(file, row, &mut losses)?),
+                SectionKind::Points => model.points.push(point(file, row, &mut losses)?),
+                SectionKind::Lines => model.lines.push(line(file, row)?),
+                SectionKind::Rods => {
+                    bail!(row.error(
+                        file,
+                        "the file has rods, which a robot file cannot hold; describe the platform as a body"
+                    ))
+                }
+                SectionKind::ExternalLoads => {
+                    model.lost.push(format!("the external load of line {} of the file", row.line))
+                }
+                SectionKind::Options => match row.words.get(1).copied() {
                     Some("g" | "gravity") => model.gravity = row.quantity(file, 0, "g")?,
                     Some("rho" | "Rho" | "WtrDnsty" | "rhoW") => water = Some(row.quantity(file, 0, "rho")?),
                     Some("WtrDpth") if row.words[0] != "0" => {
@@ -109,16 +117,17 @@ impl<'a> Model<'a> {
                     }
                     _ => {}
                 },
-                Kind::RodTypes | Kind::Other => {}
+                SectionKind::RodTypes | SectionKind::Other => {}
             }
         }
+
         model.check_ids(file)?;
-        model.conclude(file, left, water)?;
+        model.conclude(file, losses, water)?;
         Ok(model)
     }
 
-    /// The point at an end of a line.
-    pub(super) fn point(&self, file: &SourceFile, line: &Line, end: usize) -> Result<&Point<'a>> {
+    /// Point at an end of a line.
+    pub(super) fn point(&self, file: &SourceFile, line: &MoorDynLine, end: usize) -> Result<&MoorDynPoint<'a>> {
         let word = line.row.word(file, 2 + end, "attachment")?;
         let letters: String = word.chars().take_while(char::is_ascii_alphabetic).collect();
         if matches!(letters.to_uppercase().as_str(), "R" | "ROD") {
@@ -141,7 +150,12 @@ impl<'a> Model<'a> {
             .ok_or_else(|| line.row.error(file, format!("line {} ends at point {id}, which is not defined", line.id)))
     }
 
-    fn line_type(&self, file: &SourceFile, row: &Row<'a>, left: &mut Left) -> Result<LineType<'a>> {
+    fn line_type(
+        &self,
+        file: &SourceFile,
+        row: &SourceRow<'a>,
+        losses: &mut MoorDynLosses,
+    ) -> Result<SourceLineType<'a>> {
         let word = row.word(file, 0, "TypeName")?;
         let name = clean(word);
         if self.types.iter().any(|known| known.word == word) {
@@ -155,23 +169,23 @@ impl<'a> Model<'a> {
             Ok(value) => bail!(row.error(file, format!("column 4 (EA) is {value} N, it must be positive"))),
             Err(wrong) => bail!(row.error(
                 file,
-                format!("column 4 (EA) is {wrong}; a table of tension over strain in a file of its own is not read")
+                format!("column 4 (EA) is {wrong}; a separate file with a table of tension over strain is not read")
             )),
         };
         if parts.next().is_some() {
-            left.damping.push(format!("the dynamic stiffness of `{name}`"));
+            losses.damping.push(format!("the dynamic stiffness of `{name}`"));
         }
         if row.words.get(4).is_some_and(|word| text::number(word) != Ok(0.0)) {
-            left.damping.push(format!("the damping BA/-zeta of `{name}`"));
+            losses.damping.push(format!("the damping BA/-zeta of `{name}`"));
         }
         if row.words.get(5).is_some_and(|word| text::number(word) != Ok(0.0)) {
-            left.bending.push(format!("`{name}`"));
+            losses.bending.push(format!("`{name}`"));
         }
-        Ok(LineType { word, name, mass_per_length: row.quantity(file, 2, "Mass/m")?, axial_stiffness })
+        Ok(SourceLineType { word, name, mass_per_length: row.quantity(file, 2, "Mass/m")?, axial_stiffness })
     }
 
     fn check_ids(&self, file: &SourceFile) -> Result<()> {
-        fn twice<'r, 'a: 'r>(mut rows: Vec<(usize, &'r Row<'a>)>) -> Option<(usize, &'r Row<'a>)> {
+        fn twice<'r, 'a: 'r>(mut rows: Vec<(usize, &'r SourceRow<'a>)>) -> Option<(usize, &'r SourceRow<'a>)> {
             rows.sort_by_key(|(id, row)| (*id, row.line));
             rows.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1])
         }
@@ -187,24 +201,25 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    fn conclude(&mut self, file: &SourceFile, left: Left, water: Option<f64>) -> Result<()> {
+    fn conclude(&mut self, file: &SourceFile, losses: MoorDynLosses, water: Option<f64>) -> Result<()> {
         if self.lines.is_empty() {
             bail!("{}: the file has no lines", file.path);
         }
         let water = water.unwrap_or(DEFAULT_WATER);
         if water != 0.0 {
             self.lost.push(format!(
-                "the water of {water} kg/m³ below z = 0, its buoyancy and its drag: everything is in air here"
+                "the water of {water} kg/m³ below z = 0, its buoyancy and its drag: everything is in air in the robot \
+                 file"
             ));
-            self.lost.extend(left.volumes);
+            self.lost.extend(losses.volumes);
         }
-        self.lost.extend(left.forces);
-        self.lost.extend(left.damping);
-        if !left.bending.is_empty() {
-            self.lost.push(format!("the bending stiffness EI of {}", left.bending.join(", ")));
+        self.lost.extend(losses.forces);
+        self.lost.extend(losses.damping);
+        if !losses.bending.is_empty() {
+            self.lost.push(format!("the bending stiffness EI of {}", losses.bending.join(", ")));
         }
         if self.bodies.iter().any(|body| body.row.words.get(1).is_some_and(|word| is_coupled(word))) {
-            self.assumed.push("the coupled body is free: another program moves it in the source".to_owned());
+            self.assumed.push("the coupled body is free; in the source another program moves it".to_owned());
         }
         Ok(())
     }
@@ -214,7 +229,7 @@ fn is_coupled(word: &str) -> bool {
     matches!(word.to_uppercase().as_str(), "COUPLED" | "CPLD" | "VESSEL" | "VES")
 }
 
-fn body<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Body<'a>> {
+fn body<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) -> Result<MoorDynBody<'a>> {
     let id = row.id(file, 0, "ID")?;
     let kind = row.word(file, 1, "Attachment")?.to_uppercase();
     let is_free = match kind.as_str() {
@@ -240,13 +255,13 @@ fn body<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Body<'a>
         }
     };
     if row.words.get(11).is_some_and(|word| text::number(word) != Ok(0.0)) {
-        left.volumes.push(format!("the volume of body {id}"));
+        losses.volumes.push(format!("the volume of body {id}"));
     }
     let mass = row.quantity(file, 8, "Mass")?;
-    Ok(Body { id, is_free, mass, center_p, inertia_p: Mat3::from_diagonal(&moments), row })
+    Ok(MoorDynBody { id, is_free, mass, center_p, inertia_p: Mat3::from_diagonal(&moments), row })
 }
 
-fn point<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Point<'a>> {
+fn point<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) -> Result<MoorDynPoint<'a>> {
     let id = row.id(file, 0, "ID")?;
     let kind = row.word(file, 1, "Attachment")?.to_uppercase();
     let holder = match kind.as_str() {
@@ -267,22 +282,23 @@ fn point<'a>(file: &SourceFile, row: Row<'a>, left: &mut Left) -> Result<Point<'
     let position = Vec3::new(row.number(file, 2, "X")?, row.number(file, 3, "Y")?, row.number(file, 4, "Z")?);
     let mass = row.words.get(5).map_or(Ok(0.0), |_| row.quantity(file, 5, "Mass"))?;
     if row.words.get(6).is_some_and(|word| text::number(word) != Ok(0.0)) {
-        left.volumes.push(format!("the volume of point {id}"));
+        losses.volumes.push(format!("the volume of point {id}"));
     }
-    // Twelve columns have the force on the point before the two of drag.
+    // With twelve columns, columns 8 to 10 hold the force on the point; the last two hold its drag.
     if row.words.len() >= 12 && row.words[7..10].iter().any(|word| text::number(word) != Ok(0.0)) {
-        left.forces.push(format!("the external force on point {id}"));
+        losses.forces.push(format!("the external force on point {id}"));
     }
-    Ok(Point { id, holder, position, mass, row })
+    Ok(MoorDynPoint { id, holder, position, mass, row })
 }
 
-fn line<'a>(file: &SourceFile, row: Row<'a>) -> Result<Line<'a>> {
+fn line<'a>(file: &SourceFile, row: SourceRow<'a>) -> Result<MoorDynLine<'a>> {
     let id = row.id(file, 0, "ID")?;
     let kind = row.word(file, 1, "LineType")?;
-    // Version 1 has the length in the third column and the points after the segments.
+    // Version 1 has the length in the third column, and the points after the segments: its rows fail here or at the
+    // points.
     let unstrained_length = row.number(file, 4, "UnstrLen")?;
     if unstrained_length <= 0.0 {
         bail!(row.error(file, format!("column 5 (UnstrLen) is {unstrained_length} m, it must be positive")));
     }
-    Ok(Line { id, kind, unstrained_length, row })
+    Ok(MoorDynLine { id, kind, unstrained_length, row })
 }

@@ -1,13 +1,13 @@
-//! The faces of the body between points in space.
+//! Faces of the body spanned by points in space.
 
 use super::robot::{extent, polygon};
 use funicular::math::Vec3;
 
-/// Corners of each face in their order around it: of the convex hull, or the one polygon of points in a plane. None if
-/// all points coincide.
+/// Corners of each face in their order around the face: faces of the convex hull, or one polygon if all points lie in a
+/// plane. Empty if all points coincide.
 ///
-/// Every plane through three points that leaves the others on one side holds a face: n⁴ steps, and a platform has few
-/// attachments.
+/// A plane through three points with all others on one side holds a face. The search takes n⁴ steps, and a platform has
+/// few attachments.
 pub(super) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
     let reach = extent(points);
     if reach <= 0.0 {

@@ -1,16 +1,17 @@
-//! How far the modes of each cable model are from those of the reference.
+//! Figure of the differences between the modes of each cable model and those of the reference.
 
-use super::{Figure, axis, colour, model_name, model_style, points, with};
+use super::{Figure, axis, colour, model_style, points, with};
 use funicular::compare::{Comparison, TOLERANCE};
 use serde_json::{Value, json};
 
-/// Smallest difference that is drawn [%]; smaller ones lie on the lower edge.
-const LEAST: f64 = 1e-4;
-/// Where the modes lie that a model lacks [%]: each model has a line of its own there.
+/// Smallest difference that is drawn [%]; smaller ones are drawn at this value.
+const MIN_DIFFERENCE: f64 = 1e-4;
+/// Position of modes that a model lacks [%]; each model has its own line above this value.
 const LACKING: f64 = 60.0;
+/// Ratio between the positions of two such lines.
 const LINE: f64 = 1.6;
 
-/// Differences over frequency, or nothing where the reference has no modes.
+/// Differences over frequency; `None` if the reference has no modes.
 pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
     let reference = comparison.models.iter().find(|model| model.model == comparison.reference)?;
     let modes = &reference.modes.as_ref().ok()?.modes;
@@ -24,15 +25,15 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
         let (colour, _) = model_style(result.model);
         let found: Vec<f64> = result.matches.iter().map(|of| of.reference_hz).collect();
         let differences: Vec<f64> =
-            result.matches.iter().map(|of| (100.0 * of.relative_difference.abs()).max(LEAST)).collect();
+            result.matches.iter().map(|of| (100.0 * of.relative_difference.abs()).max(MIN_DIFFERENCE)).collect();
         let group = json!({ "legendgroup": result.model.name() });
-        traces.push(with(points(model_name(result.model), &found, &differences, colour, "circle"), group.clone()));
+        traces.push(with(points(result.model.name(), &found, &differences, colour, "circle"), group.clone()));
         let has = |index: usize| result.matches.iter().any(|of| of.reference_index == index);
         let lacking: Vec<f64> =
             modes.iter().enumerate().filter(|(i, _)| !has(*i)).map(|(_, mode)| mode.frequency_hz).collect();
         highest *= LINE;
         if !lacking.is_empty() {
-            let name = format!("{}: lacking", model_name(result.model));
+            let name = format!("{}: missing", result.model.name());
             let trace = points(&name, &lacking, &vec![highest; lacking.len()], colour, "x-thin-open");
             traces.push(with(trace, with(group, json!({ "showlegend": false }))));
         }
@@ -42,7 +43,7 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
         "xaxis": axis("natural frequency [Hz]", json!({ "range": [0.0, comparison.below_hz] })),
         "yaxis": axis("difference [%]", json!({
             "type": "log",
-            "range": [LEAST.log10() - 0.15, (highest * LINE).log10()],
+            "range": [MIN_DIFFERENCE.log10() - 0.15, (highest * LINE).log10()],
             "tickvals": [1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0],
             "ticktext": ["≤ 0.0001", "0.001", "0.01", "0.1", "1", "10"],
         })),
@@ -56,9 +57,9 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
         }],
     });
     let caption = format!(
-        "Natural frequencies of each cable model against those of the {} model: relative difference over frequency. \
-         Dotted: {tolerance} %. Crosses above are modes that the model of that colour does not have.",
-        model_name(comparison.reference),
+        "Relative difference between the natural frequencies of each cable model and those of the model {}, over \
+         frequency. Dotted line: {tolerance} %. Crosses at the top: modes that the model of that colour does not have.",
+        comparison.reference.name(),
     );
     Some(Figure::new("figure-models", 420, caption, &traces, layout))
 }

@@ -1,4 +1,4 @@
-//! Figures over frequency: responses with their phase, the modes as ticks, the kinds of modes.
+//! Figures over frequency: responses with phase and modes as ticks, and the kinds of modes.
 
 use super::{Figure, axis, colour, kind_colour, line, rounded, with};
 use funicular::dynamics::Dynamics;
@@ -7,15 +7,15 @@ use funicular::modes::{Kind, Mode, Modes};
 use funicular::response::{Peak, Quantity, ResponseError, frf};
 use serde_json::{Value, json};
 
-/// Evenly spaced points of a response.
+/// Number of evenly spaced points of a response.
 const EVEN_POINTS: u32 = 1600;
-/// Distances from a natural frequency at which a response is sampled too, in half widths of its resonance.
+/// Distances from a natural frequency at which a response is also sampled, in half widths of its resonance.
 const AROUND: [f64; 5] = [0.25, 0.6, 1.2, 3.0, 8.0];
-/// Half width, relative, where a mode has next to no damping: it draws as a line, and nothing is infinite.
+/// Relative half width for a mode with almost no damping: the resonance is drawn as a line, and no value is infinite.
 const MIN_HALF_WIDTH: f64 = 2e-4;
 
-/// Frequencies that show a response up to a limit [Hz]: even ones and a cluster at each mode, without which lightly
-/// damped resonances would fall between the points.
+/// Sampled frequencies of a response up to a limit [Hz]: evenly spaced ones and a cluster at each mode. Without the
+/// clusters lightly damped resonances would fall between the points.
 pub(crate) fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
     let step = below_hz / f64::from(EVEN_POINTS);
     let mut all: Vec<f64> = (1..=EVEN_POINTS).map(|k| step * f64::from(k)).collect();
@@ -34,20 +34,20 @@ pub(crate) fn sampled(below_hz: f64, modes: &[Mode]) -> Vec<f64> {
     all
 }
 
-/// One response as it is drawn.
-pub(crate) struct Curve {
+/// Response over frequency for a figure.
+pub(crate) struct ResponseCurve {
     /// Name in the legend.
     pub(crate) name: String,
     /// Colour and dash.
     pub(crate) style: (&'static str, &'static str),
     /// Frequencies [Hz].
     pub(crate) frequencies_hz: Vec<f64>,
-    /// Response; several outputs added by magnitude have no phase and are real.
+    /// Response. A sum of the magnitudes of several outputs is real and has no phase.
     pub(crate) values: Vec<Complex>,
 }
 
-impl Curve {
-    /// The response of the sum of magnitudes of several outputs to one input; of one output the response itself.
+impl ResponseCurve {
+    /// Computes the response of one output to one input, or the sum of the magnitudes for several outputs.
     ///
     /// # Errors
     /// An undamped resonance at a sampled frequency.
@@ -76,12 +76,12 @@ impl Curve {
         self.values.iter().map(|v| v.norm()).collect()
     }
 
-    /// Phase [°] in (−180, 180], broken where it wraps so that no line crosses the figure.
+    /// Phase [°] in (−180, 180], with gaps where it wraps so that no line crosses the figure.
     fn phase(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut x, mut y) = (Vec::new(), Vec::<f64>::new());
         for (frequency, value) in self.frequencies_hz.iter().zip(&self.values) {
             let degrees = value.arg().to_degrees();
-            // An undamped response is real; the sign of its zero imaginary part means nothing.
+            // An undamped response is real; the sign of its zero imaginary part has no meaning.
             let degrees = if degrees <= -179.99 { 180.0 } else { degrees };
             if y.last().is_some_and(|last: &f64| (degrees - last).abs() > 270.0) {
                 x.push(*frequency);
@@ -94,7 +94,7 @@ impl Curve {
     }
 }
 
-/// What a response figure shows besides its curves.
+/// Marks of a response figure besides its curves.
 pub(crate) struct Marks<'a> {
     /// Natural frequencies of the first curve's model, as ticks below.
     pub(crate) modes: &'a [Mode],
@@ -102,25 +102,27 @@ pub(crate) struct Marks<'a> {
     pub(crate) peaks: &'a [Peak],
     /// Published frequencies, as dashed lines; name and values [Hz].
     pub(crate) published: Option<(&'a str, &'a [f64])>,
-    /// Whether the phase is shown.
+    /// True if the phase is shown.
     pub(crate) phase: bool,
 }
 
-/// Responses on one frequency axis, logarithmic magnitude, with phase and modes below. The first curve sets the range of
-/// the magnitude: undamped ones leave it at their resonances.
+/// Figure of responses over frequency: logarithmic magnitude, with phase and modes below. The first curve sets the
+/// range of the magnitude; undamped curves leave it at their resonances.
 pub(crate) fn figure(
     id: &'static str,
     caption: String,
     unit: &str,
     below_hz: f64,
-    curves: &[Curve],
+    curves: &[ResponseCurve],
     marks: &Marks<'_>,
 ) -> Figure {
-    // The first twentieth is left out: an accelerance falls to zero there and would press the rest together.
+    // The range ignores the first twentieth of the axis: an accelerance falls to zero there and would compress the
+    // rest.
     let shown = curves[0].frequencies_hz.iter().zip(curves[0].magnitude()).filter(|(f, _)| **f > 0.05 * below_hz);
     let levels: Vec<f64> = shown.map(|(_, m)| m.log10()).filter(|l| l.is_finite()).collect();
-    let (low, high) = (least(&levels), -least(&levels.iter().map(|l| -l).collect::<Vec<_>>()));
+    let (low, high) = (minimum(&levels), -minimum(&levels.iter().map(|l| -l).collect::<Vec<_>>()));
     let room = 0.22 * (high - low).max(0.5);
+
     let mut data = Vec::new();
     for curve in curves {
         let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.0, curve.style.1);
@@ -135,6 +137,7 @@ pub(crate) fn figure(
             ));
         }
     }
+
     data.extend(ticks(marks.modes));
     let labels: Vec<Value> = spaced(marks.peaks, 0.03 * below_hz)
         .iter()
@@ -145,6 +148,7 @@ pub(crate) fn figure(
             })
         })
         .collect();
+
     let mut shapes = Vec::new();
     if let Some((name, frequencies)) = marks.published {
         for frequency in frequencies {
@@ -153,9 +157,10 @@ pub(crate) fn figure(
                 "line": {"color": colour::GREY, "width": 1, "dash": "dash"},
             }));
         }
-        // A line that is off the figure, for the legend: shapes have none that goes with the traces.
+        // A line outside the figure for the legend, because shapes have no entry among the traces.
         data.push(with(line(name, &[f64::NAN], &[f64::NAN], colour::GREY, "dash"), json!({"line": {"width": 1}})));
     }
+
     let (magnitude, phase, strip) =
         if marks.phase { ([0.45, 1.0], [0.13, 0.4], [0.0, 0.07]) } else { ([0.16, 1.0], [0.0, 0.1], [0.0, 0.09]) };
     let mut layout = json!({
@@ -177,11 +182,11 @@ pub(crate) fn figure(
     Figure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
 }
 
-fn least(values: &[f64]) -> f64 {
+fn minimum(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The most prominent peaks that keep a distance [Hz], so that their labels do not lie on each other.
+/// Most prominent peaks with a minimum distance [Hz] between them, so that their labels do not overlap.
 fn spaced(peaks: &[Peak], distance: f64) -> Vec<Peak> {
     let mut order: Vec<&Peak> = peaks.iter().collect();
     order.sort_by(|a, b| b.prominence_db.total_cmp(&a.prominence_db));
@@ -194,10 +199,10 @@ fn spaced(peaks: &[Peak], distance: f64) -> Vec<Peak> {
     kept
 }
 
-/// The three kinds in the order in which they are drawn and listed.
+/// Kinds of modes in the order in which they are drawn and listed.
 pub(crate) const KINDS: [Kind; 3] = [Kind::Cable, Kind::Mixed, Kind::Platform];
 
-/// Modes as ticks on the strip below a response, one trace a kind.
+/// Ticks of the modes on the strip below a response, one trace per kind.
 fn ticks(modes: &[Mode]) -> Vec<Value> {
     of_kinds(modes)
         .map(|(kind, found)| {
@@ -218,7 +223,7 @@ fn of_kinds(modes: &[Mode]) -> impl Iterator<Item = (Kind, Vec<&Mode>)> {
         .filter(|(_, found)| !found.is_empty())
 }
 
-/// Every mode over its frequency: how much of its kinetic energy the platform has.
+/// Figure of the platform's share of the kinetic energy of every mode, over frequency.
 pub(crate) fn strip(modes: &Modes) -> Figure {
     let mut data = Vec::new();
     for (kind, found) in of_kinds(&modes.modes) {
@@ -249,8 +254,8 @@ pub(crate) fn strip(modes: &Modes) -> Figure {
         "figure-modes",
         300,
         format!(
-            "The natural frequencies below {} Hz. Height: the platform's share of the mode's kinetic energy; platform modes \
-             have at least 75 % there, cable modes at most 25 %.",
+            "Natural frequencies below {} Hz. Height: the platform's share of the mode's kinetic energy, which is at \
+             least 75 % for platform modes and at most 25 % for cable modes.",
             modes.below_hz
         ),
         &data,

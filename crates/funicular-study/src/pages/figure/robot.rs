@@ -1,4 +1,4 @@
-//! The robot in space: cables as they hang, to scale.
+//! Figures of the robot in space, to scale and with hanging cables.
 
 use super::{Figure, colour, plain, rounded};
 use funicular::math::Vec3;
@@ -6,14 +6,14 @@ use funicular::robot::Robot;
 use funicular::statics::{CableState, Equilibrium};
 use serde_json::{Value, json};
 
-/// Points drawn along a cable; its curve is smooth, and a straight cable needs two.
+/// Number of points drawn along a cable; its curve is smooth, and a straight cable needs only two.
 const SAMPLES: u32 = 48;
-/// Cables of one colour each; further ones begin again.
+/// Colours of the cables, repeated if there are more cables.
 const CABLE_COLOURS: [&str; 7] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
 
-/// The whole robot.
-pub(crate) fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+/// Figure of the complete robot.
+pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let mut data: Vec<Value> = equilibrium
         .cables
         .iter()
@@ -44,16 +44,16 @@ pub(crate) fn whole(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     Figure::new(
         "figure-robot",
         400,
-        "The robot at its equilibrium, all three axes to one scale. Lines are the cables as they hang, squares the anchors \
-         with the cables' names, the dark body the attachments. Drag to turn, scroll to come nearer, point at a cable for \
-         its length and tension.",
+        "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
+         cables' names; dark body: the platform, spanned by the attachments. Drag to rotate, scroll to zoom, point at \
+         a cable for its length and tension.",
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
 }
 
-/// The platform and the beginnings of its cables.
-pub(crate) fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+/// Figure of the platform and the first part of its cables.
+pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let reach = extent(&attachments).max(0.2);
     let mut points = attachments.clone();
@@ -84,22 +84,22 @@ pub(crate) fn near(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         "figure-platform",
         400,
         "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
-         first stretch of each cable.",
+         first part of each cable.",
         &data,
         json!({"scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
 }
 
-/// Width of a drawn volume over the height that fills its view: a wide view, and one a third of the page.
+/// Ratio of width to height of a view: the wide view, and the view on a third of the page.
 const WIDE: f64 = 1.85;
 const SQUARE: f64 = 1.2;
-/// Height of the drawn volume in plotly's units: it fills a view with parallel lines of sight, less the labels.
+/// Height of the drawn volume in plotly's units. It fills a view with parallel projection and leaves room for labels.
 const FILL: f64 = 1.35;
-/// Where the eye is: to the side and a little above, so that the sag shows in the vertical.
+/// Position of the eye: to the side and a little above, so that sag is visible.
 pub(super) const EYE: [f64; 3] = [0.7, -1.65, 0.5];
 
-/// Axes of one scale around points, as large as fits a view of some width over height. `floor`: down to z = 0 if the
-/// points are above it.
+/// Scene with equal scales around points, as large as fits a view with this ratio of width to height. With `floor` the
+/// scene reaches down to z = 0 if the points are above it.
 fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
     let ranges = ranges(points, floor);
     let span = ranges.map(|(low, high)| high - low);
@@ -125,14 +125,14 @@ fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
     })
 }
 
-/// From where to where each axis reaches around points.
+/// Range of each axis around points.
 pub(super) fn ranges(points: &[Vec3], floor: bool) -> [(f64, f64); 3] {
     let bounds = |k: usize| {
         let values = || points.iter().map(|p| p[k]);
         (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     };
     let mut ranges = [0, 1, 2].map(bounds);
-    // A margin, and some room where a robot is flat.
+    // A margin, and a minimum extent for flat robots.
     let size = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
     for (low, high) in &mut ranges {
         let more = 0.04 * size + (0.06 * size - 0.5 * (*high - *low)).max(0.0);
@@ -175,7 +175,7 @@ fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, sym
     })
 }
 
-/// One name for neighbours whose names would lie on each other, at the first of them.
+/// Labels in which the names of close neighbours are joined at the first of them, so that names do not overlap.
 pub(super) fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
     let same = |i: usize, j: usize| places[i] == places[j] && (points[i] - points[j]).norm() < 0.06 * reach;
     (0..points.len())
@@ -186,8 +186,8 @@ pub(super) fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: 
         .collect()
 }
 
-/// Where each point's name goes: below the point when another one is close above it, else above. Points that coincide
-/// take turns, so that their names stand side by side.
+/// Position of each point's name: below the point if another point is close above it, otherwise above. Coinciding
+/// points use different sides, so that their names do not overlap.
 pub(super) fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
     const COINCIDING: [&str; 4] = ["middle left", "middle right", "top center", "bottom center"];
     points
@@ -205,7 +205,7 @@ pub(super) fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
         .collect()
 }
 
-/// The body between the attachments and its centre of mass; `names` adds those of the attachments.
+/// Traces of the platform: body between the attachments and centre of mass; `names` adds the names of the attachments.
 fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value> {
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let com = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
@@ -230,7 +230,7 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
     data
 }
 
-/// The attachments as a body: a polygon if they lie in a plane, else their convex hull.
+/// Body spanned by the attachments: a polygon if they lie in a plane, otherwise their convex hull.
 fn body(points: &[Vec3], reach: f64) -> Value {
     let [x, y, z] = coordinates(points);
     let mut mesh = json!({
@@ -248,7 +248,7 @@ fn body(points: &[Vec3], reach: f64) -> Value {
     mesh
 }
 
-/// The order of points in a plane around their centre; none if they lie in no plane.
+/// Order of points around their centre if they lie in a plane; `None` otherwise.
 pub(super) fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
     let centre = points.iter().sum::<Vec3>() / points.len() as f64;
     let spokes: Vec<Vec3> = points.iter().map(|p| p - centre).collect();
@@ -268,7 +268,7 @@ pub(super) fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
     Some(order)
 }
 
-/// Diagonal of the box around points [m].
+/// Diagonal of the bounding box of points [m].
 pub(super) fn extent(points: &[Vec3]) -> f64 {
     let span = |k: usize| {
         let values = || points.iter().map(|p| p[k]);

@@ -1,8 +1,8 @@
-//! Mode shapes: how platform and cables move in each natural mode, for a view that the page animates.
+//! Mode shapes: motion of platform and cables in each natural mode, for an animated view.
 //!
-//! The page carries displacements at stations along the cables as whole steps of a scale, one scale a mode, after a
-//! header in JSON; both packed together. Along a cable the steps' second differences stand for them: small numbers, which
-//! pack to half the size. The script of the view (`templates/shapes.js`) is the reader of this format.
+//! The page holds a header in JSON and the displacements at stations along the cables, packed together. Displacements
+//! are integer multiples of a scale, with one scale per mode. Along a cable they are stored as second differences:
+//! small numbers, which pack to half the size. The script of the view (`templates/shapes.js`) reads this format.
 
 use super::hull::faces;
 use super::robot::{EYE, extent, joined, ranges, sides};
@@ -20,20 +20,22 @@ use funicular::statics::Equilibrium;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Largest displacement of a mode in steps of its scale: a tenth of a pixel where it moves by a hundred.
+/// Largest displacement of a mode in steps of its scale: one step is a tenth of a pixel for a motion of a hundred
+/// pixels.
 const STEPS: f64 = 1000.0;
-/// Most bytes of displacements, before packing: with them a page stays below 5 MB.
+/// Maximum size of the displacements before packing [bytes]: with it a page stays below 5 MB.
 const MAX_BYTES: usize = 1_000_000;
-/// Least intervals between stations.
+/// Minimum number of intervals between stations.
 const MIN_INTERVALS: usize = 16;
-/// Least intervals to half a wave of the taut cable: the cubics through the stations are off by 0.6 % of its height.
-const PER_HALF_WAVE: f64 = 4.5;
-/// Intervals of a cable at rest; its curve has no waves.
+/// Minimum number of intervals per half wave of the taut cable. The error of the cubics through the stations is then
+/// 0.6 % of the wave's height.
+const MIN_PER_HALF_WAVE: f64 = 4.5;
+/// Number of intervals of a cable at equilibrium; its curve has no waves.
 const AT_REST: usize = 32;
-/// Least intervals of a cable as it is drawn.
+/// Minimum number of intervals of a drawn cable.
 const MIN_DRAWN: usize = 64;
 
-/// The view of the mode shapes.
+/// View of the mode shapes.
 #[derive(Template)]
 #[template(path = "shapes.html")]
 pub(crate) struct Shapes {
@@ -42,14 +44,14 @@ pub(crate) struct Shapes {
     total: usize,
 }
 
-/// The script of the view.
+/// Script of the view.
 pub(crate) const SCRIPT: &str = include_str!("../../../templates/shapes.js");
 
 impl Shapes {
-    /// Of as many modes as a page has room for, lowest first. None if there is no mode.
+    /// Creates the view of the lowest modes, as many as the size of a page allows. `None` if there is no mode.
     ///
     /// # Errors
-    /// If the cable model has no motion along the cables.
+    /// A cable model without motion along the cables.
     pub(crate) fn new(
         robot: &Robot,
         equilibrium: &Equilibrium,
@@ -59,6 +61,7 @@ impl Shapes {
         let slowest = slowest_string_hz(robot, equilibrium);
         let mut stations = Levels { robot, equilibrium, dynamics, by_intervals: BTreeMap::new() };
         let (mut modes, mut steps, mut finest) = (Vec::new(), Vec::new(), MIN_INTERVALS);
+
         for mode in &found.modes {
             let intervals = intervals(mode.frequency_hz / slowest);
             let room = MAX_BYTES / 2 - steps.len();
@@ -75,6 +78,7 @@ impl Shapes {
             modes.push(described(mode, intervals, scale));
             finest = finest.max(intervals);
         }
+
         if modes.is_empty() {
             return Ok(None);
         }
@@ -90,7 +94,7 @@ impl Shapes {
     }
 }
 
-/// Of numbers that follow two zeros; at most four times as large as they are.
+/// Second differences of numbers that are preceded by two zeros; at most four times as large as the numbers.
 fn second_differences(values: impl Iterator<Item = i16>) -> impl Iterator<Item = i16> {
     values.scan((0, 0), |(last, before), value| {
         let difference = value - 2 * *last + *before;
@@ -99,7 +103,8 @@ fn second_differences(values: impl Iterator<Item = i16>) -> impl Iterator<Item =
     })
 }
 
-/// Length of the header (four bytes, least first), header, steps (two bytes, least first).
+/// Bytes of the packed data: length of the header (four bytes, little-endian), header, steps (two bytes each,
+/// little-endian).
 fn with_header(header: &Value, steps: &[i16]) -> Vec<u8> {
     let header = header.to_string();
     let mut bytes = (header.len() as u32).to_le_bytes().to_vec();
@@ -108,12 +113,12 @@ fn with_header(header: &Value, steps: &[i16]) -> Vec<u8> {
     bytes
 }
 
-/// Intervals for this many half waves: 16, 24, 32, 48, 64, ..., so that modes share their stations.
+/// Number of intervals for this many half waves: 16, 24, 32, 48, 64, …, so that modes share their stations.
 fn intervals(half_waves: f64) -> usize {
-    // Beyond this no page has room.
-    let asked = if half_waves.is_finite() { (PER_HALF_WAVE * half_waves).min(1e6) } else { 0.0 };
+    // More intervals would exceed the size of a page.
+    let needed = if half_waves.is_finite() { (MIN_PER_HALF_WAVE * half_waves).min(1e6) } else { 0.0 };
     let mut count = MIN_INTERVALS;
-    while (count as f64) < asked {
+    while (count as f64) < needed {
         count = if count.is_power_of_two() { count / 2 * 3 } else { count / 3 * 4 };
     }
     count
@@ -145,19 +150,19 @@ impl Levels<'_> {
         Ok(&self.by_intervals[&intervals])
     }
 
-    /// Displacements (e, n, b) of a mode [m], by cable and station.
+    /// Displacements (e, n, b) of a mode [m] per cable and station.
     fn moved(&mut self, mode: &Mode, intervals: usize) -> Result<Vec<Vec<[f64; 3]>>, CableMotionError> {
         let dynamics = self.dynamics;
         Ok(self.at(intervals)?.iter().map(|cable| cable.in_mode(dynamics, mode)).collect())
     }
 
-    /// Axes (e, n, b) of each cable's displacements.
+    /// Axes (e, n, b) of the displacements of each cable.
     fn axes(&mut self, intervals: usize) -> Result<Vec<[Vec3; 3]>, CableMotionError> {
         Ok(self.at(intervals)?.iter().map(|cable| [cable.axes.e, cable.axes.n, cable.axes.b]).collect())
     }
 }
 
-/// What the view says of a mode.
+/// Data of a mode for the view.
 fn described(mode: &Mode, intervals: usize, scale: f64) -> Value {
     json!({
         "hz": fixed(mode.frequency_hz, 4),
@@ -173,12 +178,12 @@ fn described(mode: &Mode, intervals: usize, scale: f64) -> Value {
     })
 }
 
-/// To a hundredth of a per cent, finer than any colour.
+/// Energy fractions rounded to a hundredth of a per cent, finer than any colour.
 fn shares(fractions: &[f64]) -> Vec<f64> {
     fractions.iter().map(|share| (1e4 * share).round() / 1e4).collect()
 }
 
-/// What is at rest: cables, anchors, platform, axes; and into how many intervals cables are drawn.
+/// Equilibrium for the view: cables, anchors, platform and axes, and the number of intervals of a drawn cable.
 fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
     let part = |k: usize| k as f64 / AT_REST as f64;
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
@@ -227,7 +232,7 @@ mod tests {
     use super::{intervals, second_differences};
 
     #[test]
-    fn stations_are_enough_for_the_waves_and_not_many_more() {
+    fn there_are_enough_stations_for_the_waves_and_not_many_more() {
         for none in [0.0, 3.5, f64::NAN, f64::INFINITY] {
             assert_eq!(intervals(none), 16);
         }
@@ -241,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_of_sums_give_the_numbers_again() {
+    fn double_summation_restores_the_numbers() {
         let values = [1000, -1000, 1000, 0, 3, -999];
         let (mut slope, mut value) = (0, 0);
         let again = second_differences(values.into_iter()).map(|difference| {

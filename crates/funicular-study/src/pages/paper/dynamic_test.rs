@@ -1,11 +1,12 @@
-//! The paper's Fig. 7 and Table III: its dynamic test, with parameters that were identified, not published.
+//! Fig. 7 and Table III of the paper: its dynamic test, with parameters that were identified here because they were not
+//! published.
 
-use super::matching::{Agreement, WIDEST};
+use super::matching::{Agreement, MAX_DIFFERENCE};
 use super::pose::lengths;
 use super::published::{DYNAMIC, EXPERIMENT, SPRING, STATIC_SAG};
-use crate::pages::figure::response::{Curve, Marks, figure, sampled};
-use crate::pages::figure::{Figure, model_name, model_style};
-use crate::pages::table::{Table, fixed, listed};
+use crate::pages::figure::response::{Marks, ResponseCurve, figure, sampled};
+use crate::pages::figure::{Figure, model_style};
+use crate::pages::table::{PageTable, fixed, listed};
 use anyhow::Context as _;
 use funicular::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
@@ -17,7 +18,7 @@ use funicular::statics::{self, StaticModel};
 
 /// Upper limit of the paper's lists [Hz].
 const BELOW_HZ: f64 = 10.0;
-/// Prominence from which on a peak counts [dB]; chosen with the lists at hand.
+/// Minimum prominence of a peak [dB]; chosen with knowledge of the published lists.
 const PROMINENCE_DB: f64 = 0.5;
 
 /// Parameters of the dynamic test, found by search.
@@ -66,7 +67,7 @@ const IDENTIFIED: [Identified; 3] = [
     },
 ];
 
-/// Everything that one set of parameters gives.
+/// Results of one set of parameters.
 pub(crate) struct Outcome {
     set: &'static Identified,
     peaks: Vec<Peak>,
@@ -74,13 +75,13 @@ pub(crate) struct Outcome {
     static_sag: Modes,
     spring: Modes,
     sags: Vec<f64>,
-    curves: Vec<Curve>,
+    curves: Vec<ResponseCurve>,
 }
 
-/// All sets, computed.
+/// Computes the results of all sets.
 ///
 /// # Errors
-/// If a set has no equilibrium or no response.
+/// A set without equilibrium or without response.
 pub(crate) fn outcomes(robots: [&Robot; 2]) -> anyhow::Result<Vec<Outcome>> {
     IDENTIFIED
         .iter()
@@ -97,19 +98,25 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
         cable.material.damping = Damping::Ratio(set.damping_ratio);
     }
     let rest = statics::forward(&robot, &lengths(&robot), StaticModel::Catenary, None)?;
-    // Force and sensor at cable 3's attachment; the paper says neither.
+    // Force and sensor are placed at the attachment of cable 3; the paper gives neither.
     let point_p = robot.cables[2].attachment_p;
     let along = |direction_w: Vec3| response::along(&direction_w, &point_p, &rest.pose);
     let input = along(Vec3::z());
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
-    let with = |cable_model| -> anyhow::Result<(Modes, Curve)> {
+    let with = |cable_model| -> anyhow::Result<(Modes, ResponseCurve)> {
         let linearisation =
             Linearisation { cable_model, assembly: Assembly::WithoutGeometricStiffness, in_plane_only: true };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, BELOW_HZ)?;
         let found = modes::below(&dynamics, BELOW_HZ);
         let at = (&dynamics, sampled(BELOW_HZ, &found.modes));
-        let curve =
-            Curve::of(model_name(cable_model), model_style(cable_model), at, &input, &outputs, Quantity::Acceleration)?;
+        let curve = ResponseCurve::of(
+            cable_model.name(),
+            model_style(cable_model),
+            at,
+            &input,
+            &outputs,
+            Quantity::Acceleration,
+        )?;
         Ok((found, curve))
     };
     let (natural, dynamic) = with(CableModel::ShallowDynamic)?;
@@ -129,12 +136,13 @@ impl Outcome {
         self.peaks.iter().map(|p| p.frequency_hz).collect()
     }
 
-    /// Fig. 7 with this set.
+    /// Figure 7 of the paper with this set.
     pub(crate) fn figure(&self) -> Figure {
         let caption = format!(
-            "Fig. 7 with parameter set {} (identified by us, not published): |x| + |y| + |z| of the acceleration at cable 3's \
-             attachment per vertical force there. Ticks: all natural frequencies of the closed form; numbers: its peaks of at \
-             least {PROMINENCE_DB} dB [Hz]; dashed grey: the paper's peaks with dynamic stiffness.",
+            "Fig. 7 with parameter set {} (identified by us, not published): |x| + |y| + |z| of the acceleration at \
+             the attachment of cable 3 per vertical force there. Ticks: all natural frequencies with the cable model \
+             shallow-dynamic; numbers: peaks of its response with at least {PROMINENCE_DB} dB [Hz]; dashed grey: the \
+             paper's peaks with dynamic stiffness.",
             self.set.name
         );
         let marks = Marks {
@@ -147,24 +155,26 @@ impl Outcome {
     }
 }
 
-/// What the sag says of the closed form's range, over the sets with 4 mm cables.
+/// Sentence on the sag of the sets with 4 mm cables, compared with the limit of the model shallow-dynamic.
 pub(crate) fn sag_text(outcomes: &[Outcome]) -> String {
     let small = || outcomes.iter().filter(|o| o.set.cables == 0).flat_map(|o| o.sags.iter().copied());
-    let (least, most) = (small().fold(f64::INFINITY, f64::min), small().fold(0.0, f64::max));
-    let range = if most <= SHALLOW_SAG_LIMIT {
-        "within the closed form's range of 1/20"
+    let (minimum, maximum) = (small().fold(f64::INFINITY, f64::min), small().fold(0.0, f64::max));
+    let range = if maximum <= SHALLOW_SAG_LIMIT {
+        "within the limit 1/20 of the model shallow-dynamic"
     } else {
-        "partly beyond the closed form's range of 1/20: there its lists are what the formula gives, not what a real cable does"
+        "partly beyond the limit 1/20 of the model shallow-dynamic: there its lists follow from the formula, but not \
+         from a real cable"
     };
-    format!("With these 4 mm sets d/l is {} to {}, {range}.", fixed(least, 3), fixed(most, 3))
+    format!("With these 4 mm sets d/l is {} to {}, {range}.", fixed(minimum, 3), fixed(maximum, 3))
 }
 
-/// The parameters.
-pub(crate) fn parameters(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::new(
+/// Table of the identified parameters.
+pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
+    let mut table = PageTable::new(
         "table-identified",
-        "Parameters of the dynamic test, identified by us and not published. Inertia: principal moments about the centre of \
-         mass along the platform axes; centre of mass from the platform origin; sag over chord at the equilibrium they give.",
+        "Parameters of the dynamic test, identified by us and not published. Inertia: principal moments about the \
+         centre of mass along the platform axes; centre of mass relative to the platform origin; sag divided by chord \
+         at the resulting equilibrium.",
         &[
             "<set",
             "<cables",
@@ -172,14 +182,14 @@ pub(crate) fn parameters(outcomes: &[Outcome]) -> Table {
             "centre of mass x, y, z|m",
             "inertia xx, yy, zz|kg m²",
             "ξ",
-            "sag d/l|least to largest",
+            "sag d/l|min to max",
             "cables beyond 1/20",
-            "<<why",
+            "<<origin",
         ],
     );
     for outcome in outcomes {
         let set = outcome.set;
-        let (least, most) = outcome.sags.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
+        let (minimum, maximum) = outcome.sags.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
         table.row(vec![
             set.name.to_owned(),
             ["4 mm", "8 mm"][set.cables].to_owned(),
@@ -187,7 +197,7 @@ pub(crate) fn parameters(outcomes: &[Outcome]) -> Table {
             listed(&set.center_of_mass, 3),
             listed(&set.inertia, 3),
             fixed(set.damping_ratio, 3),
-            format!("{} to {}", fixed(least, 3), fixed(most, 3)),
+            format!("{} to {}", fixed(minimum, 3), fixed(maximum, 3)),
             outcome.sags.iter().filter(|s| **s > SHALLOW_SAG_LIMIT).count().to_string(),
             set.note.to_owned(),
         ]);
@@ -195,8 +205,8 @@ pub(crate) fn parameters(outcomes: &[Outcome]) -> Table {
     table
 }
 
-/// Table III: each published list above ours.
-pub(crate) fn lists(outcomes: &[Outcome]) -> Vec<Table> {
+/// Table III of the paper: each published list above the computed ones.
+pub(crate) fn lists(outcomes: &[Outcome]) -> Vec<PageTable> {
     let peaks = |o: &Outcome| o.peak_frequencies();
     let sag = |o: &Outcome| frequencies(&o.static_sag);
     let spring = |o: &Outcome| frequencies(&o.spring);
@@ -206,23 +216,23 @@ pub(crate) fn lists(outcomes: &[Outcome]) -> Vec<Table> {
     vec![
         list(
             "table-dynamic",
-            "peaks with dynamic stiffness. Ours: peaks of the response with the closed form",
+            "peaks with dynamic stiffness. Computed: peaks of the response with the model shallow-dynamic",
             &DYNAMIC,
             &peaks,
         ),
         list(
             "table-experiment",
-            "peaks of the experiment, ± 0.1 Hz. Ours: peaks of the response with the closed form",
+            "peaks of the experiment, ± 0.1 Hz. Computed: peaks of the response with the model shallow-dynamic",
             &EXPERIMENT,
             &peaks,
         ),
         list(
             "table-shallow-static",
-            "quasi-static sagging model. Ours: natural frequencies with shallow-static",
+            "quasi-static sagging model. Computed: natural frequencies with the model shallow-static",
             &STATIC_SAG,
             &sag,
         ),
-        list("table-spring", "spring model. Ours: natural frequencies with springs", &SPRING, &spring),
+        list("table-spring", "spring model. Computed: natural frequencies with the model spring", &SPRING, &spring),
     ]
 }
 
@@ -232,16 +242,16 @@ fn side_by_side(
     published: &[f64],
     outcomes: &[Outcome],
     ours: &dyn Fn(&Outcome) -> Vec<f64>,
-) -> Table {
+) -> PageTable {
     let mut columns = vec!["<set".to_owned()];
     columns.extend(published.iter().map(|f| format!("{f:.1}|Hz")));
     columns.extend(["missing", "extra", "<<extra frequencies|Hz", "rms|Hz", "largest|Hz"].map(str::to_owned));
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     let caption = format!(
-        "Table III, {what}; below {BELOW_HZ} Hz. Head: the published list. Pairs are in order and closer than {WIDEST} Hz; rms \
-         and largest difference are those of the pairs.",
+        "Table III, {what}; below {BELOW_HZ} Hz. Header: the published list. Frequencies are paired in order if they \
+         are closer than {MAX_DIFFERENCE} Hz; rms and largest difference are those of the pairs.",
     );
-    let mut table = Table::new(id, caption, &columns);
+    let mut table = PageTable::new(id, caption, &columns);
     for outcome in outcomes {
         let agreement = Agreement::of(published, &ours(outcome));
         let mut cells = vec![outcome.set.name.to_owned()];
@@ -258,13 +268,13 @@ fn side_by_side(
     table
 }
 
-/// All natural frequencies against the peaks.
-pub(crate) fn counts(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::new(
+/// Table of all natural frequencies compared with the peaks.
+pub(crate) fn counts(outcomes: &[Outcome]) -> PageTable {
+    let mut table = PageTable::new(
         "table-counts",
         format!(
-            "All natural frequencies below {BELOW_HZ} Hz with the closed form, in plane, by the Wittrick–Williams count, and the \
-             peaks of the response: two different lists."
+            "All natural frequencies below {BELOW_HZ} Hz with the model shallow-dynamic (in plane, counted by \
+             Wittrick–Williams), and the number of peaks of the response: two different lists."
         ),
         &["<set", "natural frequencies", "count", "peaks", "<<all natural frequencies|Hz"],
     );
@@ -286,7 +296,7 @@ mod tests {
     use super::*;
     use crate::pages::paper::robots;
 
-    /// From an independent implementation of the same formulas, to the two decimals printed there.
+    /// Compares with an independent implementation of the same formulas, to the two decimals printed there.
     #[test]
     fn set_a_gives_the_lists_it_was_identified_with() {
         let [small, large] = robots().unwrap();

@@ -1,26 +1,26 @@
-//! Two lists of frequencies, paired.
+//! Pairing of two lists of frequencies.
 
-/// Widest difference of a pair [Hz].
-pub(crate) const WIDEST: f64 = 0.5;
+/// Maximum difference within a pair [Hz].
+pub(crate) const MAX_DIFFERENCE: f64 = 0.5;
 
-/// How two ascending lists agree.
+/// Agreement of two ascending lists of frequencies.
 pub(crate) struct Agreement {
-    /// For each published frequency ours, if one is near enough.
+    /// Each published frequency with the computed one, if there is one near enough.
     pub(crate) pairs: Vec<(f64, Option<f64>)>,
-    /// Ours that pair with none.
+    /// Computed frequencies without a pair.
     pub(crate) extra: Vec<f64>,
 }
 
 impl Agreement {
-    /// Pairs in order so that the sum of differences is least, each unpaired frequency counting half [`WIDEST`]: a pair is
-    /// made exactly if it is closer than that.
+    /// Pairs two lists in order with the minimum sum of differences, where an unpaired frequency costs half
+    /// [`MAX_DIFFERENCE`]. Frequencies are therefore paired only if they are closer than [`MAX_DIFFERENCE`].
     pub(crate) fn of(published: &[f64], ours: &[f64]) -> Self {
         let (m, n) = (published.len(), ours.len());
-        // cost[i][j]: the best for the first i and j.
+        // cost[i][j]: minimum cost of the first i published and the first j computed frequencies.
         let mut cost = vec![vec![0.0; n + 1]; m + 1];
         for i in 0..=m {
             for j in 0..=n {
-                let alone = 0.5 * WIDEST;
+                let alone = 0.5 * MAX_DIFFERENCE;
                 cost[i][j] = match (i, j) {
                     (0, _) => alone * j as f64,
                     (_, 0) => alone * i as f64,
@@ -30,6 +30,8 @@ impl Agreement {
                 };
             }
         }
+
+        // Walk back along the pairing with the minimum cost.
         let (mut pairs, mut extra) = (Vec::new(), Vec::new());
         let (mut i, mut j) = (m, n);
         while i > 0 || j > 0 {
@@ -37,7 +39,7 @@ impl Agreement {
             if paired.is_some_and(|c| c <= cost[i][j]) {
                 pairs.push((published[i - 1], Some(ours[j - 1])));
                 (i, j) = (i - 1, j - 1);
-            } else if i > 0 && cost[i - 1][j] + 0.5 * WIDEST <= cost[i][j] {
+            } else if i > 0 && cost[i - 1][j] + 0.5 * MAX_DIFFERENCE <= cost[i][j] {
                 pairs.push((published[i - 1], None));
                 i -= 1;
             } else {
@@ -71,7 +73,7 @@ impl Agreement {
 
     /// Largest difference of a pair [Hz].
     pub(crate) fn largest(&self) -> f64 {
-        self.differences().fold(0.0, |most, d| d.abs().max(most))
+        self.differences().fold(0.0, |largest, d| d.abs().max(largest))
     }
 }
 
@@ -80,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn near_ones_pair_in_order_and_the_rest_is_named() {
+    fn near_frequencies_pair_in_order_and_the_rest_is_listed() {
         let agreement = Agreement::of(&[1.0, 2.0, 5.0], &[1.1, 1.3, 2.1, 9.0]);
         assert_eq!(agreement.pairs, [(1.0, Some(1.1)), (2.0, Some(2.1)), (5.0, None)]);
         assert_eq!(agreement.extra, [1.3, 9.0]);

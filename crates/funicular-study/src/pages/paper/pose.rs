@@ -1,22 +1,22 @@
-//! The paper's Tables I and II and Fig. 6: geometry, ideal poses, and how far simpler static models are off.
+//! Tables I and II and Fig. 6 of the paper: geometry, ideal poses, and errors of simpler static models.
 
 use super::published::{IDEAL_POSITION, MOORPY};
 use crate::pages::figure::{Figure, axis, colour, line, points, with};
-use crate::pages::table::{Table, fixed};
+use crate::pages::table::{PageTable, fixed};
 use funicular::pose_error::{PoseErrorPoint, Threshold, threshold};
 use funicular::robot::{Robot, State};
 use serde_json::{Value, json};
 
-/// Lightest and heaviest load of the paper [kg].
+/// Minimum and maximum platform mass of the paper [kg].
 const MASS_RANGE: (f64, f64) = (10.55, 86.35);
-/// Points of a curve.
+/// Number of points of a curve.
 const POINTS: u32 = 60;
 /// Tolerances of the thresholds [m].
 const TOLERANCES: [f64; 4] = [0.001, 0.002, 0.005, 0.01];
-/// Names of the cable sets, as in every table.
+/// Names of the cable sets in all tables.
 const SET_NAMES: [&str; 2] = ["4 mm", "8 mm"];
 
-/// One cable set over the range of masses.
+/// Pose errors of one cable set over the range of masses.
 pub(crate) struct Sweep {
     robot: Robot,
     lengths: Vec<f64>,
@@ -24,7 +24,7 @@ pub(crate) struct Sweep {
 }
 
 impl Sweep {
-    /// Of a robot whose file gives lengths.
+    /// Computes the pose errors of a robot whose file gives lengths.
     pub(crate) fn of(robot: &Robot) -> Self {
         let lengths = lengths(robot);
         let step = (MASS_RANGE.1 - MASS_RANGE.0) / f64::from(POINTS - 1);
@@ -34,7 +34,7 @@ impl Sweep {
     }
 }
 
-/// Unstrained lengths that the file gives [m]; none if it gives a pose.
+/// Unstrained lengths in the file [m]; empty if it gives a pose.
 pub(crate) fn lengths(robot: &Robot) -> Vec<f64> {
     match &robot.state {
         State::Lengths(lengths) => lengths.clone(),
@@ -42,9 +42,9 @@ pub(crate) fn lengths(robot: &Robot) -> Vec<f64> {
     }
 }
 
-/// Tables I and II, with the ideal pose as a check of the closure.
-pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> Table {
-    let mut table = Table::new(
+/// Tables I and II of the paper: geometry and cable lengths.
+pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> PageTable {
+    let mut table = PageTable::new(
         "table-geometry",
         "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained lengths of \
          both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 kg/m (8 mm).",
@@ -60,19 +60,20 @@ pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> Table {
     table
 }
 
-/// The ideal pose of both sets, against an independent closure.
-pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> Table {
-    let mut table = Table::new(
+/// Table of the ideal poses of both sets, compared with an independent solution.
+pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
+    let mut table = PageTable::new(
         "table-ideal",
-        "Ideal pose (rigid straight cables): ours, and from closing the six lengths |B − (p + R A)| = L0 independently. Six \
-         lengths determine six coordinates, so this checks the solution, not the data.",
-        &["<cable set", "<", "x|m", "y|m", "z|m", "largest error of closure|m"],
+        "Ideal pose (inextensible straight cables): computed here, and from an independent solution of the six length \
+         equations |B − (p + R A)| = L0. Six lengths determine six coordinates, so this checks the solution, not the \
+         data.",
+        &["<cable set", "<", "x|m", "y|m", "z|m", "largest error of a length|m"],
     );
     for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(IDEAL_POSITION) {
         if let Ok(ideal) = &sweep.points[0].ideal {
             let p = ideal.pose.position_w;
             let closure = ideal.cables.iter().zip(&sweep.lengths).map(|(c, l)| (c.chord() - l).abs());
-            let mut cells = vec![name.to_owned(), "ours".to_owned()];
+            let mut cells = vec![name.to_owned(), "computed".to_owned()];
             cells.extend([p.x, p.y, p.z].map(|v| fixed(v, 4)));
             cells.push(format!("{:.0e}", closure.fold(0.0, f64::max)).replace('-', "−"));
             table.marked_row("rule", cells);
@@ -85,7 +86,7 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> Table {
     table
 }
 
-/// Fig. 6: distance of the platform from its ideal position. First cable set 0, then 1.
+/// Fig. 6: distance of the platform from its ideal position, for cable set 0 (4 mm) or 1 (8 mm).
 pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
@@ -111,7 +112,7 @@ pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     Figure::new(id, 380, caption, &data, layout)
 }
 
-/// Distances that MoorPy's equilibria have from the ideal position [mm].
+/// Distances of MoorPy's equilibria from the ideal position [mm].
 fn independent(sweep: &Sweep, set: usize) -> Value {
     let ideal = sweep.points[0].ideal.as_ref().map(|e| e.pose.position_w).unwrap_or_default();
     let (mut x, mut y) = (Vec::new(), Vec::new());
@@ -122,7 +123,7 @@ fn independent(sweep: &Sweep, set: usize) -> Value {
     points("MoorPy, catenary", &x, &y, colour::BLACK, "circle-open")
 }
 
-/// Fig. 6 by axis.
+/// Fig. 6 per axis: components of the displacement from the ideal position.
 pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
@@ -141,7 +142,7 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     }
     let id = ["figure-axes-4mm", "figure-axes-8mm"][set];
     let caption = format!(
-        "The same by axis, {} cables: displacement from the ideal position in world axes; solid: catenary, dotted: spring.",
+        "Displacement from the ideal position per world axis, {} cables; solid: catenary, dotted: spring.",
         SET_NAMES[set]
     );
     let layout = json!({
@@ -151,11 +152,12 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
     Figure::new(id, 380, caption, &data, layout)
 }
 
-/// From which mass on the spring model is within a tolerance of the catenary.
-pub(crate) fn thresholds(sweeps: &[Sweep; 2]) -> Table {
-    let mut table = Table::new(
+/// Table of the masses above which the spring model is within a tolerance of the catenary.
+pub(crate) fn thresholds(sweeps: &[Sweep; 2]) -> PageTable {
+    let mut table = PageTable::new(
         "table-thresholds",
-        "Platform mass from which on, up to 86.35 kg, the spring model's position stays within a tolerance of the catenary's.",
+        "Minimum platform mass from which the spring model's position stays within a tolerance of the catenary's, up \
+         to 86.35 kg.",
         &["tolerance|mm", "4 mm cables|kg", "8 mm cables|kg"],
     );
     for tolerance in TOLERANCES {
@@ -170,12 +172,12 @@ pub(crate) fn thresholds(sweeps: &[Sweep; 2]) -> Table {
     table
 }
 
-/// Our equilibria against MoorPy's.
-pub(crate) fn against_moorpy(sweeps: &[Sweep; 2]) -> Table {
-    let mut table = Table::new(
+/// Table of equilibria compared with MoorPy's.
+pub(crate) fn against_moorpy(sweeps: &[Sweep; 2]) -> PageTable {
+    let mut table = PageTable::new(
         "table-moorpy",
-        "Equilibrium with catenaries: ours against MoorPy 1.3.0 (printed there to 0.01 mm).",
-        &["<cable set", "mass|kg", "x, ours|m", "y|m", "z|m", "x, MoorPy|m", "y|m", "z|m", "distance|mm"],
+        "Equilibrium with catenaries: computed here and by MoorPy 1.3.0 (printed there to 0.01 mm).",
+        &["<cable set", "mass|kg", "x, computed|m", "y|m", "z|m", "x, MoorPy|m", "y|m", "z|m", "distance|mm"],
     );
     for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(&MOORPY) {
         for theirs in theirs {

@@ -1,6 +1,6 @@
-//! Numbers of others that the page is compared with, each with its source.
+//! Published numbers and results of other programs for comparison, each with its source.
 
-/// Table III of the paper: resonances found in the experiment [Hz], ± 0.1 Hz.
+/// Table III of the paper: resonances of the experiment [Hz], ± 0.1 Hz.
 pub(crate) const EXPERIMENT: [f64; 12] = [1.2, 1.5, 1.8, 2.0, 2.5, 4.0, 4.7, 5.6, 6.3, 7.7, 8.6, 9.5];
 /// Table III: peaks of the response with dynamic stiffness [Hz].
 pub(crate) const DYNAMIC: [f64; 10] = [1.1, 1.4, 1.8, 2.0, 4.3, 4.6, 5.4, 6.3, 7.8, 9.4];
@@ -12,34 +12,34 @@ pub(crate) const SPRING: [f64; 4] = [2.8, 5.6, 8.2, 9.5];
 /// λ² and ε that the paper prints for the cable of its Fig. 2.
 pub(crate) const FIG2_PRINTED: (f64, f64) = (7.57, 0.048);
 
-/// Positions of the ideal pose [m] from solving |B − (p + R A)| = L0 with a general root finder on the numbers of Tables I
-/// and II: 4 mm, 8 mm.
+/// Positions of the ideal pose [m] from |B − (p + R A)| = L0, solved by a general root finder with the numbers of
+/// Tables I and II: 4 mm, 8 mm.
 pub(crate) const IDEAL_POSITION: [[f64; 3]; 2] = [[0.0089, 0.0098, 0.4521], [3.0047, -0.0048, 0.5049]];
 
-/// An equilibrium of an independent program.
-pub(crate) struct Independent {
+/// Equilibrium computed by MoorPy.
+pub(crate) struct MoorPyEquilibrium {
     /// Platform mass [kg].
     pub(crate) mass: f64,
     /// Position [m].
     pub(crate) position: [f64; 3],
 }
 
-/// Equilibria from MoorPy 1.3.0 (no water, sea bed 100 m below, EA = E π d²/4, w = m g with g = 9.81, point-mass body with
-/// its centre of mass at the platform origin, tolerance 1e-7); printed there to 1e-5 m. 4 mm set, 8 mm set.
-pub(crate) const MOORPY: [[Independent; 2]; 2] = [
+/// Equilibria from MoorPy 1.3.0 (no water, sea bed 100 m below, EA = E π d²/4, w = m g with g = 9.81, point-mass body
+/// with its centre of mass at the platform origin, tolerance 1e-7); printed there to 1e-5 m. 4 mm set, 8 mm set.
+pub(crate) const MOORPY: [[MoorPyEquilibrium; 2]; 2] = [
     [
-        Independent { mass: 10.55, position: [0.0203, 0.01023, 0.45548] },
-        Independent { mass: 86.35, position: [0.01643, 0.00999, 0.43526] },
+        MoorPyEquilibrium { mass: 10.55, position: [0.0203, 0.01023, 0.45548] },
+        MoorPyEquilibrium { mass: 86.35, position: [0.01643, 0.00999, 0.43526] },
     ],
     [
-        Independent { mass: 10.55, position: [2.92521, -0.00008, 0.56726] },
-        Independent { mass: 86.35, position: [3.00329, -0.00341, 0.50409] },
+        MoorPyEquilibrium { mass: 10.55, position: [2.92521, -0.00008, 0.56726] },
+        MoorPyEquilibrium { mass: 86.35, position: [3.00329, -0.00341, 0.50409] },
     ],
 ];
 
 /// K11 of the cable of Fig. 2, without damping: frequency [Hz], upper end, lower end [N/m].
 ///
-/// Lumped-mass finite elements of the exact catenary: MoorPy 1.3.0 line matrices, 200 and 400 segments, Richardson
+/// Lumped-mass finite elements of the catenary: MoorPy 1.3.0 line matrices, 200 and 400 segments, Richardson
 /// extrapolated. E = 20 GPa, A = 1.2566e-5 m², chord 6.848 m, tension 77.6 N parallel to the chord, 36°, 0.067 kg/m,
 /// g = 9.81 m/s²; the other end held; x horizontal in the cable's plane.
 pub(crate) const FINITE_ELEMENTS: [[f64; 3]; 18] = [

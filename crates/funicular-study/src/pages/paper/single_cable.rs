@@ -1,8 +1,8 @@
-//! The paper's Fig. 2: the stiffness of one cable over frequency.
+//! Fig. 2 of the paper: stiffness of one cable over frequency.
 
 use super::published::{FIG2_PRINTED, FINITE_ELEMENTS};
 use crate::pages::figure::{Figure, axis, colour, line, points, with};
-use crate::pages::table::{Table, fixed};
+use crate::pages::table::{PageTable, fixed};
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::Vec3;
@@ -18,43 +18,43 @@ const DAMPING: f64 = 0.003;
 const GRAVITY: f64 = 9.81;
 /// Mass per length of the paper's Table II [kg/m].
 const MASS_TABLE_II: f64 = 0.067;
-/// Mass per length with which λ² and ε come out as the paper prints them [kg/m].
+/// Mass per length that reproduces the printed λ² and ε [kg/m].
 const MASS_PRINTED: f64 = 0.069;
-/// Points of a curve.
+/// Number of points of a curve.
 const POINTS: u32 = 2000;
-/// Upper limit [Hz].
+/// Upper limit of the frequencies [Hz].
 const BELOW_HZ: f64 = 10.0;
 
-/// Which end of the cable moves.
+/// End of the cable that moves.
 #[derive(Clone, Copy, PartialEq)]
-enum End {
+enum MovedEnd {
     Lower,
     Upper,
 }
 
-fn cable(mass_per_length: f64, end: End) -> ShallowDynamic {
+fn cable(mass_per_length: f64, end: MovedEnd) -> ShallowDynamic {
     let (sin, cos) = INCLINATION_DEG.to_radians().sin_cos();
     let sag = Sag::new(CHORD, cos, TENSION, AXIAL_STIFFNESS, mass_per_length, mass_per_length * GRAVITY);
-    let towards_other = Vec3::new(cos, 0.0, sin) * if end == End::Lower { 1.0 } else { -1.0 };
+    let towards_other = Vec3::new(cos, 0.0, sin) * if end == MovedEnd::Lower { 1.0 } else { -1.0 };
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &towards_other, &Vec3::z());
     ShallowDynamic::new(sag, axes, Damping::Ratio(DAMPING), false)
 }
 
-/// |K11|: force along the horizontal for a motion along it [N/m].
+/// Magnitude |K11|: horizontal force per horizontal motion [N/m].
 fn horizontal(cable: &ShallowDynamic, frequency_hz: f64) -> f64 {
     let k = cable.damped(frequency_hz * TAU);
     let (e, n) = (cable.axes.e.x, cable.axes.n.x);
     (k.axial * (e * e) + k.coupling * (2.0 * e * n) + k.normal * (n * n)).norm()
 }
 
-/// The same without damping, with its sign.
+/// Stiffness K11 without damping, with its sign [N/m].
 fn horizontal_undamped(cable: &ShallowDynamic, frequency_hz: f64) -> f64 {
     let k = cable.undamped(frequency_hz * TAU);
     let (e, n) = (cable.axes.e.x, cable.axes.n.x);
     k.axial * (e * e) + k.coupling * (2.0 * e * n) + k.normal * (n * n)
 }
 
-/// |K11| over frequency, with independent finite elements.
+/// Figure of |K11| over frequency, with independent finite elements.
 pub(crate) fn figure() -> Figure {
     let frequencies: Vec<f64> = (0..=POINTS).map(|k| BELOW_HZ * f64::from(k) / f64::from(POINTS)).collect();
     let curve = |name: &str, mass, end, colour, dash| {
@@ -68,19 +68,20 @@ pub(crate) fn figure() -> Figure {
         points(name, &x, &y, colour, symbol)
     };
     let data = [
-        curve("closed form, lower end, 0.067 kg/m", MASS_TABLE_II, End::Lower, colour::BLUE, "solid"),
-        curve("closed form, upper end, 0.067 kg/m", MASS_TABLE_II, End::Upper, colour::VERMILION, "solid"),
-        curve("closed form, lower end, 0.069 kg/m", MASS_PRINTED, End::Lower, colour::GREY, "dash"),
+        curve("shallow-dynamic, lower end, 0.067 kg/m", MASS_TABLE_II, MovedEnd::Lower, colour::BLUE, "solid"),
+        curve("shallow-dynamic, upper end, 0.067 kg/m", MASS_TABLE_II, MovedEnd::Upper, colour::VERMILION, "solid"),
+        curve("shallow-dynamic, lower end, 0.069 kg/m", MASS_PRINTED, MovedEnd::Lower, colour::GREY, "dash"),
         elements("finite elements, lower end", 2, colour::BLUE, "circle-open"),
         elements("finite elements, upper end", 1, colour::VERMILION, "diamond-open"),
     ];
     Figure::new(
         "figure-cable-stiffness",
         470,
-        "The paper's Fig. 2: magnitude of the horizontal end stiffness K11 of one cable (E = 20 GPa, A = 1.2566·10⁻⁵ m², \
-         chord 6.848 m, τ = 77.6 N, 36°, ξ = 0.003). Lines: closed form at either end; the dashed one has the mass per length \
-         that gives the printed λ². Symbols: lumped-mass finite elements of the exact catenary, 0.067 kg/m, undamped (MoorPy \
-         1.3.0 line matrices, 200 and 400 segments, Richardson extrapolated).",
+        "The paper's Fig. 2: magnitude of the horizontal end stiffness K11 of one cable (E = 20 GPa, A = 1.2566·10⁻⁵ \
+         m², chord 6.848 m, τ = 77.6 N, 36°, ξ = 0.003). Lines: cable model shallow-dynamic (closed form for small \
+         sag) at either end; the dashed line has the mass per length that gives the printed λ². Symbols: lumped-mass \
+         finite elements of the catenary, 0.067 kg/m, undamped (MoorPy 1.3.0 line matrices, 200 and 400 segments, \
+         Richardson extrapolated).",
         &data,
         json!({
             "xaxis": axis("frequency [Hz]", json!({"range": [0, BELOW_HZ]})),
@@ -90,12 +91,12 @@ pub(crate) fn figure() -> Figure {
     )
 }
 
-/// The cable's numbers: printed, and with either mass per length.
-pub(crate) fn numbers() -> Table {
-    let mut table = Table::new(
+/// Table of the cable's parameters: printed, and computed with either mass per length.
+pub(crate) fn numbers() -> PageTable {
+    let mut table = PageTable::new(
         "table-cable-numbers",
-        "The cable of Fig. 2: what the paper prints, and what follows from its data with the mass per length of its Table II \
-         and with the one that reproduces the printed λ² and ε.",
+        "The cable of Fig. 2: values printed in the paper, and values computed from its data with the mass per length \
+         of its Table II and with the mass per length that reproduces the printed λ² and ε.",
         &["<", "mass per length|kg/m", "λ²", "ε", "Le/l", "held cable, in plane: first resonance|Hz", "second|Hz"],
     );
     let (lambda2, epsilon) = FIG2_PRINTED;
@@ -109,8 +110,8 @@ pub(crate) fn numbers() -> Table {
         blank(),
         blank(),
     ]);
-    for (name, mass) in [("from Table II", MASS_TABLE_II), ("to match the print", MASS_PRINTED)] {
-        let mut cable = cable(mass, End::Lower);
+    for (name, mass) in [("from Table II", MASS_TABLE_II), ("to match the printed values", MASS_PRINTED)] {
+        let mut cable = cable(mass, MovedEnd::Lower);
         cable.in_plane_only = true;
         let held = cable.clamped_frequencies_below(BELOW_HZ * TAU);
         table.row(vec![
@@ -126,24 +127,25 @@ pub(crate) fn numbers() -> Table {
     table
 }
 
-/// Closed form against finite elements, point by point.
-pub(crate) fn against_elements() -> Table {
-    let mut table = Table::new(
+/// Table of the model shallow-dynamic compared with finite elements.
+pub(crate) fn against_elements() -> PageTable {
+    let mut table = PageTable::new(
         "table-elements",
-        "K11 without damping, 0.067 kg/m: closed form against finite elements of the exact catenary. Relative differences \
-         mean little where K11 passes through zero (near 2.45 Hz) and beside its pole (3.12 Hz). Towards 10 Hz the closed form \
-         is too stiff by the axial inertia that it leaves out, about (ω l √(m/EA))²/3: 1.5 % at 9.5 Hz.",
+        "K11 without damping, 0.067 kg/m: model shallow-dynamic compared with finite elements of the catenary. \
+         Relative differences mean little where K11 passes through zero (near 2.45 Hz) and beside its pole (3.12 Hz). \
+         Towards 10 Hz the model is too stiff, because it leaves out the axial inertia: by about (ω l √(m/EA))²/3, 1.5 \
+         % at 9.5 Hz.",
         &[
             "frequency|Hz",
             "lower end, elements|N/m",
-            "closed form|N/m",
+            "shallow-dynamic|N/m",
             "difference|%",
             "upper end, elements|N/m",
-            "closed form|N/m",
+            "shallow-dynamic|N/m",
             "difference|%",
         ],
     );
-    let (lower, upper) = (cable(MASS_TABLE_II, End::Lower), cable(MASS_TABLE_II, End::Upper));
+    let (lower, upper) = (cable(MASS_TABLE_II, MovedEnd::Lower), cable(MASS_TABLE_II, MovedEnd::Upper));
     for [frequency, theirs_upper, theirs_lower] in FINITE_ELEMENTS {
         let mut cells = vec![fixed(frequency, 1)];
         for (theirs, cable) in [(theirs_lower, &lower), (theirs_upper, &upper)] {
@@ -160,15 +162,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_print_needs_another_mass_per_length_than_table_ii() {
-        assert!((cable(MASS_TABLE_II, End::Lower).sag.lambda2 - 7.13).abs() < 0.01);
-        assert!((cable(MASS_PRINTED, End::Lower).sag.lambda2 - 7.57).abs() < 0.02);
+    fn the_printed_values_need_another_mass_per_length_than_table_ii() {
+        assert!((cable(MASS_TABLE_II, MovedEnd::Lower).sag.lambda2 - 7.13).abs() < 0.01);
+        assert!((cable(MASS_PRINTED, MovedEnd::Lower).sag.lambda2 - 7.57).abs() < 0.02);
     }
 
     #[test]
-    fn the_closed_form_follows_the_finite_elements_at_both_ends() {
+    fn shallow_dynamic_follows_the_finite_elements_at_both_ends() {
         for [frequency, upper, lower] in FINITE_ELEMENTS {
-            for (theirs, end) in [(upper, End::Upper), (lower, End::Lower)] {
+            for (theirs, end) in [(upper, MovedEnd::Upper), (lower, MovedEnd::Lower)] {
                 let ours = horizontal_undamped(&cable(MASS_TABLE_II, end), frequency);
                 // 2.8 and 3.0 Hz lie on the flank of the pole at 3.12 Hz, 2.4 Hz beside a zero.
                 assert!((ours - theirs).abs() < 400.0 + 0.02 * theirs.abs(), "{frequency} Hz: {ours} {theirs}");

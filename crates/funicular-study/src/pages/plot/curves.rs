@@ -1,4 +1,4 @@
-//! Rows along one value, or one after the other: curves, and natural frequencies by their modes.
+//! Curves of rows along one value or along a list, and natural frequencies joined by their modes.
 
 use super::rows::{Rows, Series, label, with_unit};
 use super::{Tracking, axis_title};
@@ -6,11 +6,11 @@ use crate::pages::figure::{Figure, axis, colour, line, plain, rounded, with};
 use crate::sweep::CODES;
 use serde_json::{Value, json};
 
-/// What the figures are drawn over.
+/// Horizontal axis of the figures.
 struct Along {
     title: String,
     x: Vec<f64>,
-    /// In front of the value where the pointer is.
+    /// Short name in front of the value in tooltips.
     short: String,
 }
 
@@ -18,24 +18,24 @@ const COLOURS: [&str; 7] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
 const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
 
-/// Most figures of a page; a quantity beyond them is in the table.
+/// Maximum number of figures on a page; further quantities are only in the table.
 const MAX_FIGURES: usize = 16;
 
-/// Relative difference of frequencies that are the same.
-const SAME: f64 = 1e-9;
+/// Maximum relative difference of frequencies that count as equal.
+const EQUAL: f64 = 1e-9;
 
-/// Modes computed again, if they are those of the file.
+/// Checks that the modes computed again are those of the file.
 ///
 /// # Errors
-/// Where they are not.
+/// The first frequency that differs.
 pub(super) fn checked<'a>(tracking: &'a Tracking, rows: &Rows) -> Result<&'a Tracking, String> {
     let ours = |place: usize, k: usize| tracking.modes.get(place)?.get(k).map(|mode| mode.frequency_hz);
     for (k, series) in frequencies(rows).into_iter().enumerate() {
         for (at, value) in rows.places.iter().zip(&series.values).filter(|(_, value)| value.is_finite()) {
             let found = ours(at - rows.places[0], k);
-            if found.is_none_or(|found| (found - value).abs() > SAME * value.abs()) {
+            if found.is_none_or(|found| (found - value).abs() > EQUAL * value.abs()) {
                 return Err(format!(
-                    "computed again, {} of row {} is {}, the file has {value} Hz: another version wrote it",
+                    "computed again, {} of row {} is {}, but the file has {value} Hz: another version wrote it",
                     series.name,
                     at + 1,
                     found.map_or_else(|| "missing".to_owned(), |found| format!("{found} Hz"))
@@ -46,7 +46,7 @@ pub(super) fn checked<'a>(tracking: &'a Tracking, rows: &Rows) -> Result<&'a Tra
     Ok(tracking)
 }
 
-/// The columns of `frequencies:N`, in order.
+/// Columns of `frequencies:N`, in order.
 fn frequencies(rows: &Rows) -> Vec<&Series> {
     rows.series.iter().filter(|series| is_frequency(series)).collect()
 }
@@ -56,7 +56,7 @@ fn is_frequency(series: &Series) -> bool {
     middle.is_some_and(|middle| middle.parse::<usize>().is_ok())
 }
 
-/// One figure for each kind of quantity, the natural frequencies first.
+/// Figures of all quantities, one per kind, the natural frequencies first.
 pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
     let along = along(rows);
     let mut figures = Vec::new();
@@ -79,7 +79,8 @@ pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
     figures
 }
 
-/// Quantities that share a figure: of one unit, and the same thing of several cables, modes, coordinates or models.
+/// Key of the quantities that share a figure: one unit, and one kind of value of several cables, modes, coordinates or
+/// models.
 fn family(series: &Series) -> String {
     let name = &series.name;
     let stem = ["tension_platform", "unstrained_length", "frequency", "stiffness", "pose", "tension"];
@@ -90,13 +91,13 @@ fn family(series: &Series) -> String {
         },
         |stem| (*stem).to_owned(),
     );
-    // The least eigenvalue is none of the coordinates.
+    // The minimum eigenvalue is not one of the coordinates.
     let stem = if name.starts_with("stiffness_min") { "stiffness_min".to_owned() } else { stem };
     format!("{stem} {}", series.unit)
 }
 
-/// What the rows are drawn over: the value that varies; of a list of poses the length of the path, or the number of the
-/// row if the positions do not differ.
+/// Horizontal axis of the rows: the value that varies. For a list of poses it is the length of the path, or the number
+/// of the row if all positions are equal.
 fn along(rows: &Rows) -> Along {
     if let [axis] = &rows.axes[..] {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
@@ -124,7 +125,7 @@ fn along(rows: &Rows) -> Along {
     }
 }
 
-/// Where rows are infeasible: bands from half way before to half way behind.
+/// Grey bands at infeasible rows, from half way to the row before to half way to the row after.
 fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
     let infeasible =
         |i: usize| CODES.get(usize::from(rows.status[i])).is_some_and(|code| code.1.starts_with("infeasible"));
@@ -160,7 +161,7 @@ fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
     let room = if ends[1] > ends[0] { 0.015 * (ends[1] - ends[0]) } else { 0.5 };
     let base = json!({
         "xaxis": axis(&plain(&along.title), json!({"range": [ends[0] - room, ends[1] + room]})),
-        // Thousands as numbers: a letter behind a number is no unit of a paper.
+        // Thousands are written as numbers, not with a letter such as k.
         "yaxis": axis(&plain(y), json!({"exponentformat": "power", "minexponent": 6})),
         "shapes": bands(rows, along),
     });
@@ -171,7 +172,7 @@ fn shading(rows: &Rows, along: &Along) -> &'static str {
     if bands(rows, along).is_empty() { "" } else { " Grey: infeasible." }
 }
 
-/// Points of numbers between two that are missing: a line has no length there.
+/// Markers for single values between two missing ones, where a line has no length.
 fn alone(along: &Along, series: &Series, colour: &str) -> Value {
     let there = |i: Option<usize>| i.and_then(|i| series.values.get(i)).is_some_and(|value| value.is_finite());
     let alone = (0..series.values.len()).filter(|&i| there(Some(i)) && !there(i.checked_sub(1)) && !there(Some(i + 1)));
@@ -182,7 +183,7 @@ fn alone(along: &Along, series: &Series, colour: &str) -> Value {
     })
 }
 
-/// Lines through the numbers; broken where there is none.
+/// Lines through the values, with gaps where values are missing.
 fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure {
     let few = along.x.len() <= 60;
     let data: Vec<Value> = members
@@ -214,31 +215,31 @@ fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure
             let word = first.split(' ').next().unwrap_or_default().to_owned();
             let word = if word == "unstrained" { "unstrained length".to_owned() } else { word };
             let word = if several[0].name.ends_with("distance_m") { "distance".to_owned() } else { word };
-            let mut said: Vec<String> = Vec::new();
+            let mut parts: Vec<String> = Vec::new();
             for series in several {
                 let same = several.iter().all(|other| other.about == series.about);
                 let name = if same { word.clone() } else { label(&series.name) };
                 let one = format!("{name}: {}", series.about);
-                if !said.contains(&one) {
-                    said.push(one);
+                if !parts.contains(&one) {
+                    parts.push(one);
                 }
             }
-            (with_unit(&word, unit), format!("{}.", said.join("; ")))
+            (with_unit(&word, unit), format!("{}.", parts.join("; ")))
         }
     };
     let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
-    // Above the legend there is room for the buttons of a figure.
+    // The margin leaves room for the buttons above the legend.
     let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
     Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
 }
 
-/// A caption begins with a capital.
+/// Text with a capital first letter.
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Natural frequencies, every branch of modes a line, coloured by the platform's share of the energy.
+/// Figure of the natural frequencies: one line per branch of modes, coloured by the platform's share of the energy.
 fn campbell(rows: &Rows, along: &Along, tracking: &Tracking) -> Figure {
     let count = frequencies(rows).len();
     let branches = tracking.branches.iter().flatten().max().map_or(0, |last| last + 1);
@@ -278,10 +279,10 @@ fn campbell(rows: &Rows, along: &Along, tracking: &Tracking) -> Figure {
         },
     }));
     let caption = format!(
-        "The lowest {count} natural frequencies. A line joins the modes whose motions are most alike from one value to the next \
-         (modal assurance criterion over the whole robot, weighted by mass, at least one half). Where two lines cross, each \
-         keeps its motion; where they bend away from each other, steps are fine enough to show how they exchange it: \
-         the colours, the platform's share of the kinetic energy, change along them.{}",
+        "The lowest {count} natural frequencies. A line joins modes with the most similar motion from one value to the \
+         next (MAC of the complete robot, weighted by mass, at least 0.5). Colour: the platform's share of the kinetic \
+         energy. Where two lines cross, each mode keeps its motion. Where two lines bend away from each other, the \
+         modes exchange their motions, and the colours change along the lines.{}",
         shading(rows, along)
     );
     Figure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))

@@ -1,37 +1,38 @@
-//! Rows of a sweep on their way into pictures: counted and binned all of them, kept as many as a page carries.
+//! Rows of a sweep for the figures of a page: all rows are counted and binned, and as many are kept as the page may
+//! hold.
 
 use crate::sweep::{CODES, Chunk, Column, Kind, MAX_POINTS, Steps, SweepRows, Values, axes_of};
 use anyhow::{Context as _, Result, bail};
 use serde_json::Value;
 
-/// Numbers that a page carries of a grid, packed: some two megabytes.
+/// Maximum number of packed values of a grid on a page: about two megabytes.
 const MAX_NUMBERS: usize = 450_000;
-/// The same of curves, which are text.
+/// Maximum number of values of curves on a page, where values are text.
 const MAX_NUMBERS_OF_CURVES: usize = 80_000;
-/// Bars of a histogram.
+/// Number of bars of a histogram.
 pub(super) const BINS: usize = 40;
-/// In place of a status where a row is not there yet.
+/// Code of a row that is missing in the file.
 pub(super) const NOT_COMPUTED: u8 = u8::MAX;
 
-/// An axis of a grid.
-pub(super) struct Axis {
+/// Axis of a grid with the values that are shown.
+pub(super) struct PlotAxis {
     pub(super) name: String,
     pub(super) unit: String,
-    /// All its values, as the file has them.
+    /// All values in the order of the file.
     pub(super) steps: Steps,
-    /// Their places in ascending order; none where they ascend.
+    /// Positions of the values in ascending order; empty if the values ascend.
     rank: Vec<usize>,
-    /// Every which of these is kept.
+    /// Step between kept values: 2 keeps every second one.
     pub(super) every: usize,
 }
 
-impl Axis {
-    /// Number of values kept.
+impl PlotAxis {
+    /// Number of kept values.
     pub(super) fn kept(&self) -> usize {
         self.steps.count().div_ceil(self.every)
     }
 
-    /// The values kept, ascending.
+    /// Kept values, ascending.
     pub(super) fn values(&self) -> Vec<f64> {
         let mut all: Vec<f64> = (0..self.steps.count()).map(|i| self.steps.at(i)).collect();
         all.sort_by(f64::total_cmp);
@@ -52,62 +53,62 @@ impl Axis {
     }
 }
 
-/// A column of numbers behind the coordinates.
+/// Column of numbers after the coordinates.
 pub(super) struct Series {
     pub(super) name: String,
     pub(super) unit: String,
     pub(super) about: String,
-    /// How many rows have a number, of all.
+    /// Number of rows with a value.
     pub(super) count: usize,
-    /// Least and greatest, with their rows.
+    /// Minimum and maximum, with their rows.
     pub(super) min: (f64, usize),
     pub(super) max: (f64, usize),
-    /// Of all rows, in equal steps between least and greatest.
+    /// Histogram of all rows, in equal steps from minimum to maximum.
     pub(super) bins: [usize; BINS],
-    /// Kept ones; NaN where there is none.
+    /// Kept values; NaN for a missing value.
     pub(super) values: Vec<f64>,
 }
 
-/// What a code of the status says, and how many rows have it.
+/// Number of rows with a status.
 pub(super) struct StatusCount {
-    /// Place in [`CODES`].
+    /// Position in [`CODES`].
     pub(super) code: u8,
     pub(super) rows: usize,
     pub(super) first_reason: String,
 }
 
-/// The rows of a file.
+/// Rows of a file, reduced to the data of a page.
 pub(super) struct Rows {
-    /// The axes of a grid that vary, the fastest first; none for a list.
-    pub(super) axes: Vec<Axis>,
-    /// Name, unit and value of those that do not.
+    /// Axes of a grid that vary, the fastest first; empty for a list.
+    pub(super) axes: Vec<PlotAxis>,
+    /// Name, unit and value of the axes that do not vary.
     pub(super) fixed: Vec<Fixed>,
     pub(super) is_list: bool,
     /// Coordinates of kept rows of a list: name, unit, values.
     pub(super) coordinates: Vec<(String, String, Vec<f64>)>,
-    /// Row of each kept one, of a list or of one axis.
+    /// Index of each kept row, for a list or for one axis.
     pub(super) places: Vec<usize>,
-    /// Every which row of a list is kept.
+    /// Step between kept rows of a list.
     pub(super) every: usize,
     pub(super) feasible: usize,
     pub(super) counts: Vec<StatusCount>,
-    /// Place in [`CODES`] of kept rows, or [`NOT_COMPUTED`].
+    /// Position in [`CODES`] for each kept row, or [`NOT_COMPUTED`].
     pub(super) status: Vec<u8>,
     pub(super) series: Vec<Series>,
-    /// Columns of words, which have no picture.
+    /// Columns of words, which have no figure.
     pub(super) words: Vec<String>,
-    /// Rows of the whole plan, and those that are there.
+    /// Number of rows of the complete plan, and of the rows in the file.
     pub(super) planned: usize,
-    #[expect(clippy::struct_field_names, reason = "the number of rows that are there")]
+    #[expect(clippy::struct_field_names, reason = "the number of rows in the file")]
     pub(super) rows: usize,
     first_row: usize,
 }
 
 impl Rows {
-    /// Reads a file, twice: the range of numbers has to be known before they are binned.
+    /// Reads a file twice, because the range of the values has to be known before they are binned.
     ///
     /// # Errors
-    /// A damaged file, or one without a number to show.
+    /// A damaged file, or a file without numbers.
     pub(super) fn read(file: &dyn SweepRows) -> Result<Self> {
         let mut rows = Self::empty(file)?;
         let of_series = series_columns(&file.record().columns);
@@ -118,7 +119,7 @@ impl Rows {
         })?;
         let texts = rows.words.join(", ");
         if rows.series.is_empty() {
-            bail!("the file has no numbers to plot, only {texts}: ask for a quantity that is one, as first-frequency");
+            bail!("the file has no numbers to plot, only {texts}: request a numeric quantity such as first-frequency");
         }
         let mut at = file.first_row();
         file.each(&mut |chunk| {
@@ -132,7 +133,7 @@ impl Rows {
     fn empty(file: &dyn SweepRows) -> Result<Self> {
         let record = file.record();
         let columns = &record.columns;
-        let damaged = "the file's plan does not fit its rows: it is damaged, or of another program";
+        let damaged = "the file's plan does not fit its rows: the file is damaged, or another program wrote it";
         let coordinates = columns.iter().take_while(|column| column.kind == Kind::Real).count();
         let head = columns.get(coordinates..coordinates + 3);
         if head.is_none_or(|head| head.iter().map(|c| c.kind).ne([Kind::Flag, Kind::Text, Kind::Text]))
@@ -142,23 +143,26 @@ impl Rows {
         }
         let numbers = columns.iter().skip(coordinates + 3);
         let (numbers, words): (Vec<&Column>, Vec<&Column>) = numbers.partition(|column| column.kind == Kind::Real);
+
         let is_list = record.plan.contains_key("poses");
         let grid = if is_list { None } else { Some(grid_of(&record.plan).with_context(|| damaged)?) };
         if grid.as_ref().is_some_and(|grid| points_of(grid) != record.rows) {
             bail!(damaged);
         }
         let (mut axes, fixed) = grid.map_or_else(Default::default, |grid| split(grid, &columns[..coordinates]));
+
         let mut every = 1;
         if axes.len() < 2 {
             let rows = file.rows().max(1);
             every = (rows * (numbers.len() + 1)).div_ceil(MAX_NUMBERS_OF_CURVES).max(1);
         } else {
-            while axes.iter().map(Axis::kept).product::<usize>() * (numbers.len() + 1) > MAX_NUMBERS {
+            while axes.iter().map(PlotAxis::kept).product::<usize>() * (numbers.len() + 1) > MAX_NUMBERS {
                 let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.kept()) else { break };
                 longest.every += 1;
             }
         }
-        let kept = if axes.len() < 2 { 0 } else { axes.iter().map(Axis::kept).product() };
+        let kept = if axes.len() < 2 { 0 } else { axes.iter().map(PlotAxis::kept).product() };
+
         let series = numbers.into_iter().map(|column| Series {
             name: column.name.clone(),
             unit: column.unit.to_string(),
@@ -188,7 +192,7 @@ impl Rows {
         })
     }
 
-    /// Counts the rows of a chunk in, the first of which has a place.
+    /// Counts the rows of a chunk whose first row has the index `first`.
     fn count(&mut self, chunk: &Chunk, first: usize, of_series: &[usize], columns: &[Column]) {
         let head = self.coordinates.len();
         if let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3] {
@@ -219,7 +223,7 @@ impl Rows {
         }
     }
 
-    /// Bins the rows of a chunk, and keeps those that are to be kept.
+    /// Bins the rows of a chunk and keeps the selected ones.
     fn keep(&mut self, chunk: &Chunk, first: usize, of_series: &[usize]) {
         let head = self.coordinates.len();
         let real = |column: usize, row: usize| match &chunk.columns[column] {
@@ -256,10 +260,10 @@ impl Rows {
         }
     }
 
-    /// Where a row goes, if it is kept.
+    /// Slot of a row if it is kept.
     fn slot(&self, place: usize) -> Option<Slot> {
         if self.axes.len() < 2 {
-            // The first and the last are always there.
+            // The first and the last row are always kept.
             let at = place - self.first_row;
             return (at.is_multiple_of(self.every) || at + 1 == self.rows).then_some(Slot::Next);
         }
@@ -277,7 +281,7 @@ impl Rows {
         Some(Slot::Cell(cell))
     }
 
-    /// Values along the axes that vary, of a row of a grid.
+    /// Values of the varying axes for a row of a grid.
     pub(super) fn at(&self, place: usize) -> Vec<f64> {
         let mut rest = place;
         self.axes
@@ -290,7 +294,7 @@ impl Rows {
             .collect()
     }
 
-    /// Rows or cells that the pictures show.
+    /// Number of rows or cells shown in figures.
     pub(super) fn shown(&self) -> usize {
         self.status.len()
     }
@@ -299,7 +303,7 @@ impl Rows {
 /// Names and values of the axes of a grid.
 type Grid = Vec<(String, Steps)>;
 
-/// The grid of a plan; none if the plan has no axes, or one without values.
+/// Grid of a plan; `None` if the plan has no axes, or an axis without values.
 fn grid_of(plan: &serde_json::Map<String, Value>) -> Option<Grid> {
     axes_of(plan)?.iter().map(|axis| Some((axis.name().to_owned(), axis.steps().ok()?))).collect()
 }
@@ -312,18 +316,18 @@ fn points_of(grid: &Grid) -> usize {
 /// Name, unit and value of an axis that does not vary.
 type Fixed = (String, String, f64);
 
-/// The axes of a grid that vary, and those that do not.
-fn split(grid: Grid, coordinates: &[Column]) -> (Vec<Axis>, Vec<Fixed>) {
+/// Splits the axes of a grid into those that vary and those that do not.
+fn split(grid: Grid, coordinates: &[Column]) -> (Vec<PlotAxis>, Vec<Fixed>) {
     let (mut axes, mut fixed) = (Vec::new(), Vec::new());
     for (name, steps) in grid {
         let column = coordinates.iter().find(|column| column.name == name || short_name(column) == name);
         let unit = column.map_or_else(String::new, |column| column.unit.to_string());
         match steps.count() {
             1 => fixed.push((name, unit, steps.at(0))),
-            _ => axes.push(Axis::new(name, unit, steps)),
+            _ => axes.push(PlotAxis::new(name, unit, steps)),
         }
     }
-    // A point mass has axes of its grid that are no columns.
+    // The grid of a point mass may have axes that are not columns.
     fixed.retain(|(_, unit, _)| !unit.is_empty());
     (axes, fixed)
 }
@@ -333,37 +337,37 @@ enum Slot {
     Next,
 }
 
-/// Places of the columns of numbers behind the coordinates.
+/// Positions of the columns of numbers after the coordinates.
 fn series_columns(columns: &[Column]) -> Vec<usize> {
     let begin = columns.iter().position(|column| column.kind != Kind::Real).unwrap_or(columns.len());
     (begin..columns.len()).filter(|&i| columns[i].kind == Kind::Real).collect()
 }
 
-/// The name of a coordinate without its unit, as a grid has it.
+/// Name of a coordinate without its unit, as in a grid.
 fn short_name(column: &Column) -> &str {
     column.name.strip_suffix(&format!("_{}", column.unit)).unwrap_or(&column.name)
 }
 
-/// Place of a status among the codes; that of an unknown one, from another version, is the last.
+/// Position of a status among the codes; an unknown status, from another version, comes after the last one.
 fn code_of(status: Option<&str>) -> u8 {
     let place = CODES.iter().position(|known| Some(known.0) == status);
     u8::try_from(place.unwrap_or(CODES.len())).unwrap_or(NOT_COMPUTED)
 }
 
-/// The bar of a value.
+/// Index of the histogram bar of a value.
 fn bin(value: f64, min: f64, max: f64) -> usize {
     let part = (value - min) / (max - min);
     if part.is_finite() { ((part * BINS as f64) as usize).min(BINS - 1) } else { 0 }
 }
 
-/// What is the name of a quantity in a figure: `tension_max_n` is tension max.
+/// Name of a quantity in a figure: `tension_max_n` becomes "tension max".
 pub(super) fn label(name: &str) -> String {
     const SUFFIXES: [&str; 9] = ["_n_m_per_rad", "_n_per_m", "_n_per_rad", "_m", "_n", "_hz", "_deg", "_j", "_rad"];
     let stem = SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix)).unwrap_or(name);
     stem.replace('_', " ")
 }
 
-/// A unit in brackets behind a name; nothing for a pure number.
+/// Name with its unit in brackets; without brackets for a pure number.
 pub(super) fn with_unit(name: &str, unit: &str) -> String {
     match unit {
         "" | "1" => name.to_owned(),
@@ -372,7 +376,7 @@ pub(super) fn with_unit(name: &str, unit: &str) -> String {
     }
 }
 
-/// The name of the robot that a plan is about.
+/// Name of the robot of a plan.
 pub(super) fn robot_name(plan: &serde_json::Map<String, Value>) -> String {
     plan.get("robot").and_then(Value::as_str).unwrap_or("a robot").to_owned()
 }

@@ -1,4 +1,4 @@
-//! Grids of two axes and more: what the page's own script draws slices, sets and points from.
+//! Data of grids with two or more axes, from which the page's script draws slices, statuses and points.
 
 use super::rows::{NOT_COMPUTED, Rows, label, with_unit};
 use super::{axis_title, status};
@@ -8,27 +8,27 @@ use crate::sweep::CODES;
 use askama::Template;
 use serde_json::json;
 
-/// The part of the page with a choice of quantity and slice.
+/// Part of the page with a choice of quantity and slice.
 #[derive(Template)]
 #[template(path = "slices.html")]
 pub(super) struct Slices {
     packed: String,
     /// Names of the quantities.
     quantities: Vec<String>,
-    /// Pairs of axes that a slice can have, by number.
+    /// Pairs of axes that a slice can have, with their numbers.
     planes: Vec<(String, usize)>,
-    /// Names of the axes; the script hides the two of the slice.
+    /// Titles of the axes; the script hides the two axes of the slice.
     axes: Vec<String>,
     in_space: bool,
     points: usize,
 }
 
 impl Slices {
-    /// Of rows on a grid.
+    /// Packs the data of rows on a grid.
     pub(super) fn new(rows: &Rows, is_sweep: bool) -> Self {
         let axes = &rows.axes;
         let title = |i: usize| axis_title(&axes[i].name, &axes[i].unit);
-        // The two longest axes first, each pair in the order of the file.
+        // Pairs of axes, the pair with most cells first; within a pair in the order of the file.
         let mut pairs: Vec<(usize, usize)> =
             (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j))).collect();
         pairs.sort_by_key(|(i, j)| std::cmp::Reverse(axes[*i].kept() * axes[*j].kept()));
@@ -52,12 +52,13 @@ impl Slices {
             })).collect::<Vec<_>>(),
             "feasible": CODES.iter().filter(|code| !code.1.starts_with("infeasible")).map(|code| code.0).collect::<Vec<_>>(),
         });
-        // Length of the header, the header, the status of every cell, and the quantities, one after the other.
+        // Format: length of the header, the header, the status of every cell, then all values of one quantity after
+        // another.
         let header = header.to_string();
         let mut bytes = u32::try_from(header.len()).unwrap_or(u32::MAX).to_le_bytes().to_vec();
         bytes.extend(header.as_bytes());
         bytes.extend(&rows.status);
-        // Seven digits are more than a picture shows.
+        // Seven digits (single precision) are more than a figure shows.
         bytes.extend(
             rows.series.iter().flat_map(|series| &series.values).flat_map(|value| (*value as f32).to_le_bytes()),
         );
@@ -76,7 +77,7 @@ impl Slices {
     }
 }
 
-/// Light for what is feasible, strong colours for what is not; the same for a status on every page.
+/// Colour of a status, equal on every page: light for feasible, strong for infeasible.
 fn colour_of(code: u8) -> &'static str {
     match super::status(code).0 {
         "ok" => "#cfe8f7",
@@ -97,7 +98,7 @@ fn colour_of(code: u8) -> &'static str {
     }
 }
 
-/// What draws them.
+/// Script that draws the slices.
 pub(super) const SCRIPT: &str = include_str!("../../../templates/plot.js");
 
 #[cfg(test)]
@@ -105,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_status_has_a_colour_of_its_own() {
+    fn every_status_has_its_own_colour() {
         let colours: Vec<&str> = (0..CODES.len()).map(|code| colour_of(u8::try_from(code).unwrap())).collect();
         for (i, colour) in colours.iter().enumerate() {
             assert!(!colours[..i].contains(colour), "{}: {colour}", CODES[i].0);

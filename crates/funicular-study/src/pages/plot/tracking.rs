@@ -1,4 +1,4 @@
-//! The modes of a sweep of one value, followed from row to row.
+//! Tracking of the modes of a sweep of one value from row to row.
 
 use super::Tracking;
 use crate::Watch;
@@ -7,10 +7,11 @@ use crate::text::counted;
 use funicular::modes::Mode;
 use funicular::modes::tracking::{Tracked, track};
 
-/// Maximum number of rows whose modes are computed again to be followed: a minute of work.
+/// Maximum number of rows whose modes are computed again for tracking: about a minute of work.
 const MAX_TRACKED: usize = 2000;
 
-/// The modes of a sweep of one value, followed from row to row, or why they are not; `None` where there are none to follow.
+/// Follows the modes of a sweep of one value from row to row, or gives the reason why not; `None` if the rows have no
+/// modes to follow.
 pub(super) fn tracking(file: &dyn SweepRows, watch: &mut dyn Watch) -> Option<Result<Tracking, String>> {
     let record = file.record();
     let varied = record.plan.get("vary")?.as_array()?.iter().filter(|axis| {
@@ -28,14 +29,14 @@ pub(super) fn tracking(file: &dyn SweepRows, watch: &mut dyn Watch) -> Option<Re
 fn follow(file: &dyn SweepRows, record: &Record, count: usize, watch: &mut dyn Watch) -> Result<Tracking, String> {
     if file.rows() > MAX_TRACKED {
         return Err(format!(
-            "{} are more than the {MAX_TRACKED} whose modes are followed: sweep in larger steps",
+            "{} are too many to follow their modes (at most {MAX_TRACKED}): sweep in larger steps",
             counted(file.rows(), "value")
         ));
     }
     let again = PreparedSweep::of_record(record).map_err(|error| format!("{error:#}"))?;
     let mut steps: Vec<Vec<(Mode, Tracked)>> = Vec::with_capacity(file.rows());
     for i in file.first_row()..file.first_row() + file.rows() {
-        // A row without modes says why in the file.
+        // A row without modes has its reason in the file.
         let found = lowest_modes(&again.points().point(i), count, again.options());
         steps.push(found.map_or_else(|_| Vec::new(), |found| found.modes.into_iter().zip(found.tracked).collect()));
         watch.progress(steps.len(), file.rows(), "values with their modes");

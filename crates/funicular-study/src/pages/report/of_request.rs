@@ -1,4 +1,4 @@
-//! The report of a request: the robot at its state, and a response where none is requested.
+//! Report of a request: the robot at its state, with a default response if none is requested.
 
 use super::{Report, ReportInput, report};
 use crate::analyses::frf;
@@ -12,24 +12,25 @@ use funicular::math::Vec3;
 use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 
-/// The page of a request, whose robot was read; `command_line` writes it again.
+/// Writes the page of a request for a robot file; `command_line` is the command that writes it again.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, a robot without that equilibrium, or no finite response there.
+/// A request that contradicts itself or the robot, a robot without this equilibrium, or no finite response there.
 pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_line: String) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     let RobotFile { robot, name, text } = file;
-    // Signals that mean nothing are refused before the work.
+    // Invalid signals are refused before the computation.
     let (from, to) = response(request, &robot)?;
     at_rest::signals(&robot, &from, &to, &request.points)?;
     let at_rest = at_rest::equilibrium(robot, &request.state, &Tensions::default())?;
     about(&at_rest, request, &name, &text, command_line)
 }
 
-/// The page of a robot that is at rest already, whatever the state of the request; `name` and `text` are those of its file.
+/// Writes the page of a robot at a known equilibrium; the state in the request is ignored. `name` and `text` are those
+/// of the robot file.
 ///
 /// # Errors
-/// As of [`of_request`].
+/// The errors of [`of_request`].
 pub fn about(
     at_rest: &AtRest,
     request: &request::ReportRequest,
@@ -42,7 +43,7 @@ pub fn about(
     let [input, output] = at_rest::signals(&at_rest.robot, &from, &to, &request.points)?;
     let vector = |signal: Signal, name: &str| {
         signal.platform_vector(&at_rest.equilibrium.pose).ok_or_else(|| {
-            anyhow!("{name} is on a cable, and the report's response is the platform's: use `funicular frf` for it")
+            anyhow!("{name} is on a cable, but the report shows a response of the platform: use `funicular frf` for it")
         })
     };
     report(&ReportInput {
@@ -58,7 +59,7 @@ pub fn about(
     })
 }
 
-/// Input and output of the response: those of the request, else along z, or along x where a guide holds z.
+/// Input and output of the response: those of the request; by default along z, or along x if a guide holds z.
 fn response(request: &request::ReportRequest, robot: &Robot) -> Result<(Input, Output)> {
     const Z: usize = 2;
     let (force, acceleration) =

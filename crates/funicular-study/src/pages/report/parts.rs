@@ -1,9 +1,9 @@
-//! The report's tables and bars.
+//! Tables and bar charts of a report.
 
 use super::prose;
 use crate::analyses::modes;
-use crate::pages::figure::{self, Figure, axis, colour, model_name, plain, rounded};
-use crate::pages::table::{Table, fixed, listed, significant};
+use crate::pages::figure::{self, Figure, axis, colour, plain, rounded};
+use crate::pages::table::{PageTable, fixed, listed, significant};
 use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison};
@@ -13,20 +13,20 @@ use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, StaticModel, drag_stiffness, tangent_with_drag};
 use serde_json::{Value, json};
 
-/// Frequencies that a row of the table of models lists at most.
-const LISTED: usize = 16;
+/// Maximum number of frequencies listed in a row of the table of models.
+const MAX_LISTED: usize = 16;
 
 fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
     equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect()
 }
 
-/// Lengths, tensions and sag of every cable.
-pub(crate) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> Table {
-    let mut table = Table::new(
+/// Table of lengths, tensions and sag of every cable.
+pub(crate) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> PageTable {
+    let mut table = PageTable::new(
         "table-tensions",
-        "Cables at equilibrium. d/l: sag over chord, shallow up to 0.05 (tinted rows are beyond); λ²: Irvine's parameter, \
-         which compares the stiffness of the sag with that of the rope; string frequency: √(τ/m)/(2l), the first of the \
-         taut cable by itself.",
+        "Cables at equilibrium. d/l: sag divided by chord; the shallow models hold up to 0.05, tinted rows are beyond. \
+         λ²: Irvine's parameter, which compares the stiffness of the sag with that of the rope. String frequency: \
+         √(τ/m)/(2l), the first natural frequency of the taut cable alone.",
         &[
             "<cable",
             "<rope",
@@ -60,7 +60,7 @@ pub(crate) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> Table {
     table
 }
 
-/// Names of the cables as categories: without this plotly takes "1" for a number.
+/// Names of the cables, escaped for plotly.
 fn names(robot: &Robot) -> Vec<String> {
     robot.cables.iter().map(|c| plain(&c.name)).collect()
 }
@@ -72,7 +72,7 @@ fn bars(name: &str, names: &[String], values: &[f64], colour: &str, unit: &str) 
     })
 }
 
-/// Tensions as bars.
+/// Bar chart of the tensions.
 pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let of = |end: fn(&funicular::statics::CableState) -> f64| equilibrium.cables.iter().map(end).collect::<Vec<_>>();
     let data = [
@@ -85,12 +85,12 @@ pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure
     Figure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
 }
 
-/// Sag as bars, against the limit of the shallow models.
+/// Bar chart of the sag, with the limit of the shallow models.
 pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let ratios: Vec<f64> = sags(robot, equilibrium).iter().map(Sag::ratio).collect();
-    let most = ratios.iter().copied().filter(|r| r.is_finite()).fold(0.0, f64::max);
-    // The limit is drawn where it does not press the bars to the floor.
-    let near = most > 0.2 * SHALLOW_SAG_LIMIT;
+    let maximum = ratios.iter().copied().filter(|r| r.is_finite()).fold(0.0, f64::max);
+    // The limit is drawn only if the bars stay visible beside it.
+    let near = maximum > 0.2 * SHALLOW_SAG_LIMIT;
     let shapes = if near {
         json!([{
             "type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": SHALLOW_SAG_LIMIT, "y1": SHALLOW_SAG_LIMIT,
@@ -99,21 +99,21 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     } else {
         json!([])
     };
-    let top = 1.12 * if near { most.max(SHALLOW_SAG_LIMIT) } else { most.max(f64::MIN_POSITIVE) };
+    let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(f64::MIN_POSITIVE) };
     let layout = json!({
         "bargap": 0.45, "showlegend": false, "shapes": shapes, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
-        "yaxis": axis("sag over chord d/l", json!({"range": [0, top], "exponentformat": "power"})),
+        "yaxis": axis("sag ratio d/l", json!({"range": [0, top], "exponentformat": "power"})),
     });
     let caption = if near {
-        "Sag over chord; dashed: 1/20, up to which the shallow-sag models hold."
+        "Sag divided by chord; dashed: 1/20, the limit of the models shallow-static and shallow-dynamic."
     } else {
-        "Sag over chord, all far below the 1/20 up to which the shallow-sag models hold."
+        "Sag divided by chord, far below 1/20, the limit of the models shallow-static and shallow-dynamic."
     };
     Figure::new("figure-sag", 300, caption, &[bars("d/l", &names(robot), &ratios, colour::BLUE, "")], layout)
 }
 
-/// The static stiffness of catenaries, consistently assembled.
-pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Table> {
+/// Table of the static stiffness with catenaries, consistently assembled.
+pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<PageTable> {
     let stiffness = tangent_with_drag(robot, equilibrium)?;
     let possible = robot.platform.motion.components();
     let motions = ["δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"];
@@ -125,15 +125,15 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
         ""
     };
     let drag = if drag_stiffness(robot, equilibrium).is_some() {
-        " The drag of the wind turns with the cables, so that it is not symmetric."
+        " The drag of the wind rotates with the cables, so the matrix is not symmetric."
     } else {
         ""
     };
-    let mut table = Table::new(
+    let mut table = PageTable::new(
         "table-stiffness",
         format!(
-            "Static stiffness: the wrench that holds a small motion, about the platform origin, world axes.{units} Exact \
-             tangent of the cables, with the turning of static forces on their lever arms.{drag}"
+            "Static stiffness: wrench needed to hold a small motion, about the platform origin, world axes.{units} \
+             Tangent stiffness of the elastic catenaries, with geometric stiffness.{drag}"
         ),
         &columns,
     );
@@ -144,22 +144,22 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
     Some(table)
 }
 
-/// Every mode.
-pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> Table {
+/// Table of all modes.
+pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
     let (turns, possible) = (robot.platform.motion.can_turn(), robot.platform.motion.components());
     let mut columns =
         vec!["no.", "frequency|Hz", "damping|%", "<kind", "platform energy|%", "<strongest cables|share of the energy"];
     columns.extend(possible.iter().map(|&i| ["δx|m", "δy|m", "δz|m", "θx|rad", "θy|rad", "θz|rad"][i]));
-    let mut table = Table::new(
+    let mut table = PageTable::new(
         "table-modes",
         format!(
-            "All natural frequencies below {} Hz, undamped, with multiplicity; damping ratio to first order; motion of the \
-             platform origin, world axes{}. A dash: the platform rests.",
+            "All natural frequencies below {} Hz (undamped, multiple ones repeated), damping ratios to first order, \
+             and motion of the platform origin in world axes{}. A dash means that the platform does not move.",
             found.below_hz,
             if turns {
-                ", scaled so that the largest of translation and ℓ · rotation is 1"
+                ", scaled so that the largest component of translation and ℓ · rotation is 1"
             } else {
-                ", largest part 1"
+                ", scaled so that the largest component is 1"
             }
         ),
         &columns,
@@ -189,7 +189,7 @@ fn class_of(kind: Kind) -> &'static str {
     }
 }
 
-/// Names of the cables with most of a mode's energy.
+/// Names of the cables with the largest shares of a mode's energy.
 fn strongest(robot: &Robot, mode: &Mode) -> String {
     let names = robot.cables.iter().map(|cable| cable.name.as_str());
     let named: Vec<String> = modes::strongest(names, &mode.cable_energy_fractions)
@@ -199,19 +199,19 @@ fn strongest(robot: &Robot, mode: &Mode) -> String {
     if named.is_empty() { NONE.to_owned() } else { named.join(", ") }
 }
 
-/// The comparison of the cable models.
+/// Comparison of the cable models in a report.
 pub(crate) struct ComparisonPart {
-    /// Advice of the core.
+    /// Advice on the choice of a model, from the core.
     pub(crate) advice: String,
-    /// How far the models are from the reference, where that has modes.
+    /// Figure of the differences from the reference model; `None` if the reference has no modes.
     pub(crate) figure: Option<Figure>,
-    /// One row a model.
-    pub(crate) models: Table,
-    /// One row a mode.
-    pub(crate) modes: Table,
+    /// Table with one row per model.
+    pub(crate) models: PageTable,
+    /// Table with one row per mode.
+    pub(crate) modes: PageTable,
 }
 
-/// All cable models side by side, or why they cannot be.
+/// Compares all cable models, or gives the reason why they cannot be compared.
 pub(crate) fn comparison(
     robot: &Robot,
     equilibrium: &Equilibrium,
@@ -225,14 +225,14 @@ pub(crate) fn comparison(
     Ok(ComparisonPart { advice: prose(&comparison.advice.text), figure, models, modes })
 }
 
-fn models_table(comparison: &Comparison) -> Table {
-    let mut table = Table::new(
+fn models_table(comparison: &Comparison) -> PageTable {
+    let mut table = PageTable::new(
         "table-models",
         format!(
-            "What each model finds below {} Hz. Missed: modes of the {} model that it has no counterpart of. First wrong: the \
-             lowest natural frequency that it lacks or has wrong by more than {} %.",
+            "Natural frequencies of each cable model below {} Hz. Missed: modes of the model {} without a counterpart. \
+             First wrong: the lowest natural frequency that is missing or wrong by more than {} %.",
             comparison.below_hz,
-            model_name(comparison.reference),
+            comparison.reference.name(),
             100.0 * compare::TOLERANCE
         ),
         &["<model", "modes", "missed", "first wrong|Hz", "<<natural frequencies|Hz"],
@@ -241,7 +241,7 @@ fn models_table(comparison: &Comparison) -> Table {
         let is_reference = result.model == comparison.reference;
         let modes = result.modes.as_ref().ok();
         let list = match &result.modes {
-            Ok(found) if found.modes.len() > LISTED => format!(
+            Ok(found) if found.modes.len() > MAX_LISTED => format!(
                 "{} from {} to {}",
                 found.modes.len(),
                 fixed(found.modes[0].frequency_hz, 3),
@@ -256,7 +256,7 @@ fn models_table(comparison: &Comparison) -> Table {
                 };
                 format!("{}{free}", listed(&all, 3))
             }
-            // A cell is plain text; the core quotes what one types in backticks.
+            // A cell is plain text, so the backticks around code in messages are removed.
             Err(reason) => reason.to_string().replace('`', ""),
         };
         let count = modes.map_or_else(|| "–".to_owned(), |m| m.modes.len().to_string());
@@ -265,26 +265,27 @@ fn models_table(comparison: &Comparison) -> Table {
         } else {
             (result.missed.to_string(), result.first_wrong_hz.map_or_else(|| "none".to_owned(), |f| fixed(f, 3)))
         };
-        table.row(vec![model_name(result.model).to_owned(), count, missed, first, list]);
+        table.row(vec![result.model.name().to_owned(), count, missed, first, list]);
     }
     table
 }
 
-/// The reference's modes that move the platform, with each model's counterpart.
-fn side_by_side(comparison: &Comparison) -> Table {
+/// Table of the reference's modes that move the platform, with each model's counterpart.
+fn side_by_side(comparison: &Comparison) -> PageTable {
     let others: Vec<_> =
         comparison.models.iter().filter(|m| m.model != comparison.reference && m.modes.is_ok()).collect();
     let mut columns =
-        vec![format!("{}|Hz", model_name(comparison.reference)), "<kind".to_owned(), "platform energy|%".to_owned()];
+        vec![format!("{}|Hz", comparison.reference.name()), "<kind".to_owned(), "platform energy|%".to_owned()];
     for other in &others {
-        columns.push(format!("{}|Hz", model_name(other.model)));
+        columns.push(format!("{}|Hz", other.model.name()));
         columns.push("difference|%".to_owned());
     }
-    let mut table = Table::new(
+    let mut table = PageTable::new(
         "table-side-by-side",
-        "Modes that move the platform, the models side by side; the counterpart in a model of \
-         constant stiffness is the mode whose platform motion correlates with at least 0.5, in one of vibrating cables \
-         the nearest in frequency. Vibrations of cables alone, which constant stiffnesses do not have, are left out.",
+        "Modes that move the platform, compared between the models. In a model of constant stiffness (spring, \
+         shallow-static, catenary-static) the counterpart is the mode whose platform motion correlates with at least \
+         0.5, in the other models the nearest in frequency. Vibrations of cables alone, which models of constant \
+         stiffness do not have, are left out.",
         &columns.iter().map(String::as_str).collect::<Vec<_>>(),
     );
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
@@ -310,7 +311,7 @@ fn side_by_side(comparison: &Comparison) -> Table {
     table
 }
 
-/// With two decimals and its sign, plus included.
+/// Number with two decimals and its sign, also for positive numbers.
 fn signed(value: f64) -> String {
     let text = fixed(value, 2);
     if value > 0.0 && text != "0.00" { format!("+{text}") } else { text }

@@ -1,44 +1,46 @@
-//! How the points along a cable move with its ends and its clamped modes.
+//! Motion of the points along a cable, from the motion of its ends and the amplitudes of its clamped modes.
 
 use super::{CatenaryDynamic, PoleResidue};
 use crate::math::{Complex, DMat};
 
-/// Displacement of stations along a catenary-dynamic cable, D components a point, by motions of the ends, N = 2D components.
+/// Displacement of stations along a catenary-dynamic cable (D components per point) by motions of its ends (N = 2D
+/// components).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Displacements<const D: usize, const N: usize> {
-    /// Ψ: of each station, components by end components, in slow motion [-].
+    /// Ψ per station: its components in slow motion per component of the ends [-].
     pub still: Vec<[[f64; N]; D]>,
-    /// φ_k at each station for each pole, normalised to φᵀMφ = 1 [1/√kg].
+    /// φ_k at each station, per pole, normalised to φᵀMφ = 1 [1/√kg].
     pub modes: Vec<Vec<[f64; D]>>,
 }
 
-/// Stations along a catenary-dynamic cable, from its start, and how they move.
+/// Stations along a catenary-dynamic cable, measured from its start, with their displacements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stations {
-    /// Unstrained arc length of each [m].
+    /// Unstrained arc length of each station [m].
     pub arc_lengths: Vec<f64>,
-    /// Components (horizontal, up).
+    /// Displacements in plane: components (horizontal, up).
     pub in_plane: Displacements<2, 4>,
-    /// Component across.
+    /// Displacements out of plane: one component.
     pub out_of_plane: Displacements<1, 2>,
 }
 
 impl<const D: usize, const N: usize> Displacements<D, N> {
-    /// The first `count` clamped modes and those that stand for all the others; see [`PoleResidue::compressed`].
-    pub(crate) fn compress(&mut self, count: usize, parts: &DMat) {
+    /// Keeps the first `count` clamped modes and replaces all others by a few combinations with the given weights; see
+    /// [`PoleResidue::compressed`].
+    pub(crate) fn compress(&mut self, count: usize, weights: &DMat) {
         let beyond = self.modes.split_off(count);
-        for column in parts.column_iter() {
+        for column in weights.column_iter() {
             let mut mode = vec![[0.0; D]; self.still.len()];
-            for (part, of) in column.iter().zip(&beyond) {
-                for (sum, value) in mode.iter_mut().zip(of) {
-                    (0..D).for_each(|d| sum[d] += part * value[d]);
+            for (weight, values) in column.iter().zip(&beyond) {
+                for (sum, value) in mode.iter_mut().zip(values) {
+                    (0..D).for_each(|d| sum[d] += weight * value[d]);
                 }
             }
             self.modes.push(mode);
         }
     }
 
-    /// Without inner functions: the hats at the two ends.
+    /// Displacements by the hat functions of the two ends alone, without clamped modes.
     pub(super) fn of_ends(values_at_ends: &[[f64; 2]]) -> Self {
         let hats = |values: &[f64; 2]| {
             std::array::from_fn(|d| std::array::from_fn(|n| if n % D == d { values[n / D] } else { 0.0 }))
@@ -59,7 +61,7 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
         self.modes.push(values.chunks_exact(D).map(|value| std::array::from_fn(|d| value[d] / root)).collect());
     }
 
-    /// Displacement of station `at`, for motions `ends` of the ends and amplitudes of the clamped modes.
+    /// Displacement of station `at` for motions `ends` of the ends and amplitudes of the clamped modes.
     fn at(&self, at: usize, ends: &[Complex; N], amplitudes: &[Complex]) -> [Complex; D] {
         let mut sum = self.still[at].map(|row| ends.iter().zip(row).map(|(u, psi)| u * psi).sum());
         for (mode, amplitude) in self.modes.iter().zip(amplitudes) {
@@ -72,7 +74,7 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
 }
 
 impl<const N: usize, const E: usize> PoleResidue<N, E> {
-    /// Amplitudes of the clamped modes, normalised to unit modal mass, for motions of the ends at the square ω_c² [m √kg]:
+    /// Amplitudes of the clamped modes (unit modal mass) for motions of the ends at the square ω_c² [m √kg]:
     /// `q_k = ω_c² g_kᵀ u/(ω_k² − ω_c²)`.
     fn amplitudes(&self, ends: &[Complex; N], square: Complex) -> Vec<Complex> {
         let amplitude = |(pole, g): (&f64, &[f64; N])| {
@@ -85,47 +87,53 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 
 /// Motion of a cable whose start moves and whose end is held.
 pub(crate) struct InternalMotion {
-    plane: [Complex; 4],
-    across: [Complex; 2],
+    /// Motions of both ends in plane (horizontal, up) and out of plane.
+    ends_in_plane: [Complex; 4],
+    ends_out_of_plane: [Complex; 2],
+    /// Amplitudes of the clamped modes [m √kg].
     pub(crate) in_plane: Vec<Complex>,
     pub(crate) out_of_plane: Vec<Complex>,
 }
 
 impl InternalMotion {
-    /// By the start's motion (horizontal towards the end, up, across) at the complex square ω_c² [rad²/s²].
-    pub(crate) fn new(exact: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> Self {
+    /// Motion that follows from the start's (horizontal towards the end, up, out of plane) at the complex square ω_c²
+    /// [rad²/s²].
+    pub(crate) fn new(cable: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> Self {
         let held = Complex::new(0.0, 0.0);
-        let (plane, across) = ([start[0], start[1], held, held], [start[2], held]);
-        let in_plane = exact.in_plane.amplitudes(&plane, square);
-        let out_of_plane = exact.out_of_plane.amplitudes(&across, square);
-        Self { plane, across, in_plane, out_of_plane }
+        let (ends_in_plane, ends_out_of_plane) = ([start[0], start[1], held, held], [start[2], held]);
+        let in_plane = cable.in_plane.amplitudes(&ends_in_plane, square);
+        let out_of_plane = cable.out_of_plane.amplitudes(&ends_out_of_plane, square);
+        Self { ends_in_plane, ends_out_of_plane, in_plane, out_of_plane }
     }
 }
 
 impl Stations {
-    /// Displacement (horizontal, up, across) of station `at`.
-    pub(crate) fn displacement(&self, at: usize, swing: &InternalMotion) -> [Complex; 3] {
-        let [horizontal, up] = self.in_plane.at(at, &swing.plane, &swing.in_plane);
-        let [across] = self.out_of_plane.at(at, &swing.across, &swing.out_of_plane);
-        [horizontal, up, across]
+    /// Displacement (horizontal, up, out of plane) of station `at`.
+    pub(crate) fn displacement(&self, at: usize, motion: &InternalMotion) -> [Complex; 3] {
+        let [horizontal, up] = self.in_plane.at(at, &motion.ends_in_plane, &motion.in_plane);
+        let [out_of_plane] = self.out_of_plane.at(at, &motion.ends_out_of_plane, &motion.out_of_plane);
+        [horizontal, up, out_of_plane]
     }
 
-    /// Displacement of station `at` along `out` per force along `force` at station `loaded`, both (horizontal, up,
-    /// across), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
+    /// Displacement of station `at` along `out` per force along `force` at station `loaded`, both (horizontal, up, out
+    /// of plane), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
     pub(crate) fn receptance(
         &self,
-        exact: &CatenaryDynamic,
+        cable: &CatenaryDynamic,
         (at, out): (usize, [f64; 3]),
         (loaded, force): (usize, [f64; 3]),
         square: Complex,
     ) -> Complex {
-        let plane = |mode: &[[f64; 2]], k: usize, u: [f64; 3]| mode[k][0] * u[0] + mode[k][1] * u[1];
-        let in_plane = exact.in_plane.poles.iter().zip(&self.in_plane.modes);
-        let across = exact.out_of_plane.poles.iter().zip(&self.out_of_plane.modes);
-        let first: Complex =
-            in_plane.map(|(pole, mode)| plane(mode, at, out) * plane(mode, loaded, force) / (*pole - square)).sum();
-        let second: Complex =
-            across.map(|(pole, mode)| mode[at][0] * out[2] * mode[loaded][0] * force[2] / (*pole - square)).sum();
-        first + second
+        let along = |mode: &[[f64; 2]], k: usize, u: [f64; 3]| mode[k][0] * u[0] + mode[k][1] * u[1];
+
+        let in_plane = cable.in_plane.poles.iter().zip(&self.in_plane.modes);
+        let by_in_plane: Complex =
+            in_plane.map(|(pole, mode)| along(mode, at, out) * along(mode, loaded, force) / (*pole - square)).sum();
+
+        let out_of_plane = cable.out_of_plane.poles.iter().zip(&self.out_of_plane.modes);
+        let by_out_of_plane: Complex =
+            out_of_plane.map(|(pole, mode)| mode[at][0] * out[2] * mode[loaded][0] * force[2] / (*pole - square)).sum();
+
+        by_in_plane + by_out_of_plane
     }
 }

@@ -1,16 +1,16 @@
-//! A cable as a few elements of high polynomial degree, condensed onto its ends.
+//! Cable as a few elements of high polynomial degree, condensed onto its ends.
 
-use super::ExactError;
+use super::CatenaryDynamicError;
 use super::partition::{Condensed, Functions, Partition};
 use crate::catenary::Catenary;
 use crate::math::{Complex, DMat, legendre};
 
-/// A cable cut into elements, each with its polynomial degree.
+/// Cable divided into elements, each with its polynomial degree.
 pub(super) struct Mesh<'a> {
     catenary: &'a Catenary,
     mass_per_length: f64,
     elements: Vec<Element>,
-    /// How often it was refined.
+    /// Number of refinements so far.
     pub(super) refined: usize,
 }
 
@@ -21,7 +21,7 @@ struct Element {
     degree: usize,
 }
 
-/// A Gauss rule (ξ, weight), and the slopes d/dξ of hats and bubbles (rows) at its points (columns).
+/// Gauss rule (ξ, weight), and the slopes d/dξ of hats and bubbles (rows) at its points (columns).
 pub(super) struct Table {
     rule: Vec<(f64, f64)>,
     slopes: DMat,
@@ -29,7 +29,7 @@ pub(super) struct Table {
 
 impl Table {
     fn new(degree: usize) -> Self {
-        // Two slopes have degree 2p − 2; C takes its own share of the rule.
+        // A product of two slopes has degree 2p − 2; the additional points are for C.
         let rule = legendre::gauss(degree + 8);
         let mut slopes = DMat::zeros(degree + 1, rule.len());
         for (mut column, (xi, _)) in slopes.column_iter_mut().zip(&rule) {
@@ -43,21 +43,22 @@ impl Table {
     }
 }
 
-/// Degrees that matrices of an element have beyond its own: what the discretisation leaves out shows in what those
-/// functions would answer.
+/// Number of degrees that the matrices of an element have beyond its own. The response of these additional functions
+/// estimates the error of the discretisation.
 const BEYOND: usize = 2;
 
 impl<'a> Mesh<'a> {
-    /// Good up to ω = `limit`; cut at the arc lengths `cuts`, where the motion has a kink under a force.
+    /// Mesh for frequencies up to ω = `limit`, with nodes at the arc lengths `cuts`, where the motion has a kink under
+    /// a force.
     pub(super) fn new(
         catenary: &'a Catenary,
         mass_per_length: f64,
         limit: f64,
         cuts: &[f64],
-    ) -> Result<Self, ExactError> {
+    ) -> Result<Self, CatenaryDynamicError> {
         let rope = catenary.rope();
         if !has_tension(catenary) {
-            return Err(ExactError::NoTension);
+            return Err(CatenaryDynamicError::NoTension);
         }
 
         // Nodes where forces act.
@@ -66,7 +67,7 @@ impl<'a> Mesh<'a> {
         nodes.sort_by(|a, b| b.total_cmp(a));
         nodes.dedup();
 
-        // The last one is worked on first: elements are in ascending order.
+        // The last interval is taken first, so that the elements are in ascending order.
         let mut cuts: Vec<(f64, f64)> = nodes.windows(2).map(|pair| (pair[1], pair[0])).collect();
         let mut elements = Vec::new();
         while let Some((from, to)) = cuts.pop() {
@@ -77,7 +78,7 @@ impl<'a> Mesh<'a> {
                 continue;
             }
 
-            // Phase of the transverse wave, the slower one, over the element (Simpson).
+            // Phase of the transverse wave, the slower of the two waves, over the element (Simpson's rule).
             let slowness = |s: f64| {
                 let t = catenary.tension_at(s);
                 (mass_per_length * (rope.axial_stiffness + t) / (rope.axial_stiffness * t)).sqrt()
@@ -85,7 +86,8 @@ impl<'a> Mesh<'a> {
             let mean = (slowness(from) + 4.0 * slowness(center) + slowness(to)) / 6.0;
             let phase = limit * mean * (to - from);
 
-            // 0.5 resolves a wave; the cube root is the width of the transition to exponential convergence.
+            // A degree of 0.5 per radian resolves a wave; the cube root is the width of the transition to exponential
+            // convergence.
             let waves = 0.53 * phase + 2.2 * (0.5 * phase).cbrt();
             let degree = (waves + 4.0 + 13.0 / size.ln()).ceil().min(1e6) as usize;
             elements.push(Element { from, to, degree });
@@ -100,7 +102,7 @@ impl<'a> Mesh<'a> {
         }
     }
 
-    /// Quadrature and slopes of each element, which all components share.
+    /// Quadrature and slopes of each element; all components share them.
     pub(super) fn tables(&self) -> Vec<Table> {
         self.elements.iter().map(|element| Table::new(element.degree + BEYOND)).collect()
     }
@@ -110,37 +112,37 @@ impl<'a> Mesh<'a> {
         self.elements.iter().map(|e| e.degree).collect()
     }
 
-    /// Inner unknowns in plane.
+    /// Number of inner unknowns in plane.
     pub(super) fn unknowns(&self) -> usize {
         2 * self.inner_functions()
     }
 
-    /// C at arc length s [N]: in plane (hh, hv, vv), out of plane the first only.
+    /// C at arc length s [N]: its entries in plane (hh, hv, vv) and the one out of plane.
     fn tangent_at(&self, s: f64) -> ([f64; 3], f64) {
         let rope = self.catenary.rope();
         let h = self.catenary.horizontal_force();
         let v = self.catenary.vertical_force_at_start() + rope.weight_per_length * s;
         let tension = h.hypot(v);
         let ea = rope.axial_stiffness;
-        let across = ea * tension / (ea + tension);
+        let transverse = ea * tension / (ea + tension);
         let (c, s) = (h / tension, v / tension);
-        let extra = ea - across;
-        ([across + extra * c * c, extra * c * s, across + extra * s * s], across)
+        let extra = ea - transverse;
+        ([transverse + extra * c * c, extra * c * s, transverse + extra * s * s], transverse)
     }
 
-    /// Condenses D components per point onto the two ends (N = 2D), which have the static stiffness `still`, and finds how
-    /// the points at the arc lengths `stations` move.
+    /// Condenses D components per point onto the two ends (N = 2D), whose static stiffness is `still`, and finds the
+    /// displacements of the points at the arc lengths `stations`.
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[Table],
         still: [[f64; N]; N],
         limit: f64,
         stations: &[f64],
-    ) -> Result<Condensed<D, N, E>, ExactError> {
+    ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
         self.assemble::<D, N>(tables, stations).reduce(still, limit)
     }
 
-    /// Stiffness and mass of all functions, element by element, in the blocks of a [`Partition`].
+    /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`].
     fn assemble<const D: usize, const N: usize>(&self, tables: &[Table], stations: &[f64]) -> Partition<D, N> {
         let mut partition = Partition::new(self.inner_functions(), BEYOND * self.elements.len(), stations.len());
 
@@ -161,18 +163,18 @@ impl<'a> Mesh<'a> {
         partition
     }
 
-    /// Number of inner functions: nodes between elements, then bubbles.
+    /// Number of inner functions; their order is nodes between elements, then bubbles.
     fn inner_functions(&self) -> usize {
         self.elements.iter().map(|e| e.degree).sum::<usize>() - 1
     }
 
-    /// Places of the functions of element `e` in the [`Partition`].
+    /// Indices of the functions of element `e` in the [`Partition`].
     fn functions_of(&self, e: usize) -> Functions {
         let last = self.elements.len() - 1;
         let degree = self.elements[e].degree;
         let first_bubble = last + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
 
-        // The hats: nodes between elements are inner functions, the others belong to the ends of the cable.
+        // Hats: those of nodes between elements are inner functions, the others belong to the ends of the cable.
         let (mut inner, mut ends) = (Vec::with_capacity(degree + 1), Vec::new());
         match e {
             0 => ends.push((0, 0)),
@@ -183,36 +185,37 @@ impl<'a> Mesh<'a> {
             _ => inner.push((1, e)),
         }
 
-        // The bubbles up to the degree, and those beyond it.
+        // Bubbles up to the degree, and those beyond it.
         inner.extend((0..degree - 1).map(|k| (2 + k, first_bubble + k)));
         let beyond = (0..BEYOND).map(|k| (degree + 1 + k, BEYOND * e + k)).collect();
 
         Functions { inner, ends, beyond }
     }
 
-    /// Whether a station lies on element `e`; one between two elements lies on the first.
+    /// True if a station lies on element `e`; a station between two elements lies on the first of them.
     fn holds(&self, e: usize, s: f64) -> bool {
         let Element { from, to, .. } = self.elements[e];
         (s > from || e == 0) && (s <= to || e + 1 == self.elements.len())
     }
 
-    /// K of each component (hh, hv, vv, or one) and M of an element over its hats and bubbles, [`BEYOND`] included.
+    /// Stiffness per entry of C (hh, hv, vv, or one out of plane) and mass of an element over its hats and bubbles,
+    /// [`BEYOND`] included.
     fn element_matrices<const D: usize>(&self, element: &Element, table: &Table) -> (Vec<DMat>, DMat) {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);
         let Table { rule, slopes } = table;
 
         // C at the points of the rule.
-        let parts = 2 * D - 1;
-        let mut weights = vec![vec![0.0; rule.len()]; parts];
+        let entries = 2 * D - 1;
+        let mut weights = vec![vec![0.0; rule.len()]; entries];
         for (q, (xi, weight)) in rule.iter().enumerate() {
-            let (in_plane, across) = self.tangent_at(middle + half * xi);
-            for (part, weights) in weights.iter_mut().enumerate() {
-                weights[q] = weight / half * if D == 1 { across } else { in_plane[part] };
+            let (in_plane, out_of_plane) = self.tangent_at(middle + half * xi);
+            for (entry, weights) in weights.iter_mut().enumerate() {
+                weights[q] = weight / half * if D == 1 { out_of_plane } else { in_plane[entry] };
             }
         }
 
-        // Products of slopes, weighted.
+        // Weighted products of slopes.
         let stiffness = weights
             .iter()
             .map(|weights| {
@@ -233,43 +236,45 @@ impl Element {
     fn values_at(&self, s: f64) -> Vec<f64> {
         let xi = (2.0 * s - self.from - self.to) / (self.to - self.from);
         let p = legendre::orthonormal(xi, self.degree);
-        // P_k from the orthonormal ones.
+        // Legendre's P_k from the orthonormal polynomials.
         let p = |k: usize| p[k] / (k as f64 + 0.5).sqrt();
         let bubble = |j: usize| (p(j) - p(j - 2)) / (2.0 * (2.0 * j as f64 - 1.0)).sqrt();
         [0.5 * (1.0 - xi), 0.5 * (1.0 + xi)].into_iter().chain((2..=self.degree).map(bubble)).collect()
     }
 }
 
-/// Smallest Bernstein ellipse of an element, by the sum of its semi-axes: coefficients of C fall by at least this factor
-/// a degree. Nearer to 1 the degree grows without bound, further away cables of little slack would be cut.
+/// Minimum size of the Bernstein ellipse of an element, the sum of its semi-axes: the coefficients of C fall by at
+/// least this factor per degree. Nearer to 1 the degree grows without bound; with a larger value cables with little sag
+/// would be divided.
 const SMOOTH_ENOUGH: f64 = 1.5;
 
-/// No point of the cable is without tension.
+/// True if every point of the cable has tension.
 pub(crate) fn has_tension(catenary: &Catenary) -> bool {
     let (h, va) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
     let (start, end) = (catenary.tension_at_start(), catenary.tension_at_end());
     let w = catenary.rope().weight_per_length;
-    // Where the cable is lowest.
+    // The minimum is at the lowest point if the cable has one, otherwise at an end.
     let inside = w != 0.0 && (0.0..=catenary.rope().unstrained_length).contains(&(-va / w));
-    let least = if inside { h } else { start.min(end) };
-    least > 1e-9 * end.max(start)
+    let minimum = if inside { h } else { start.min(end) };
+    minimum > 1e-9 * end.max(start)
 }
 
-/// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C, as the sum of its
-/// semi-axes over half: the coefficients of C fall like its powers.
+/// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C: the sum of its
+/// semi-axes over half. The coefficients of C fall like the powers of this size.
 pub(crate) fn ellipse(catenary: &Catenary, center: f64, half: f64) -> f64 {
     let w = catenary.rope().weight_per_length;
     if w == 0.0 {
         return f64::INFINITY;
     }
-    // T is analytic but at V = ±iH, that is at s = lowest ± i H/w.
+    // T is analytic except at V = ±iH, that is at s = lowest ± i H/w.
     let (lowest, depth) = (-catenary.vertical_force_at_start() / w, catenary.horizontal_force() / w);
     let z = Complex::new((lowest - center) / half, depth / half);
     let root = (z * z - 1.0).sqrt();
     (z + root).norm().max((z - root).norm())
 }
 
-/// ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
+/// Mass integrals ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles
+/// `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
 fn bubble_mass(degree: usize) -> DMat {
     let mut m = DMat::zeros(degree + 1, degree + 1);
     let mut set = |a: usize, b: usize, value: f64| {
@@ -277,11 +282,11 @@ fn bubble_mass(degree: usize) -> DMat {
         m[(b, a)] = value;
     };
 
-    // The hats, and the first two bubbles, which meet them.
+    // The hats, and the first two bubbles, the only ones whose product with a hat has an integral.
     set(0, 0, 2.0 / 3.0);
     set(1, 1, 2.0 / 3.0);
     set(0, 1, 1.0 / 3.0);
-    // Index j of N_j is its place, since the hats take 0 and 1.
+    // The index j of N_j is also its row, because the hats take rows 0 and 1.
     if degree >= 2 {
         let value = -1.0 / 6f64.sqrt();
         set(0, 2, value);
@@ -293,7 +298,7 @@ fn bubble_mass(degree: usize) -> DMat {
         set(1, 3, -value);
     }
 
-    // The bubbles among each other.
+    // Products of two bubbles.
     for j in 2..=degree {
         let n = j as f64;
         set(j, j, 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)));

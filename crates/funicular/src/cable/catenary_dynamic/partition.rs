@@ -1,15 +1,15 @@
-//! Stiffness and mass of a cable in the blocks that its condensation takes, and the condensation.
+//! Stiffness and mass of a cable in the blocks that its condensation needs, and the condensation.
 //!
-//! The functions of a mesh are of three kinds: inner ones i (nodes between elements, bubbles), the two ends b, and those
-//! beyond the degree, which serve the error estimate. The clamped modes solve `M_ii φ = μ K_ii φ`; of each the ends need
-//! only its products with the columns K_ib and M_ib, so that no eigenvector is formed
-//! ([`projected`](crate::math::projected)).
+//! The functions of a mesh are of three kinds: inner functions i (nodes between elements, bubbles), the two ends b, and
+//! the functions beyond the degree, which serve the error estimate. The clamped modes solve `M_ii φ = μ K_ii φ`. The
+//! ends need only the products of a mode with the columns K_ib and M_ib, so that no eigenvector is formed
+//! ([`generalized_eigen`]).
 
 use super::internal_motion::Displacements;
-use super::{ExactError, PoleResidue};
+use super::{CatenaryDynamicError, PoleResidue};
 use crate::math::{DMat, generalized_eigen};
 
-/// Functions of one element by kind: place in the matrices of the element, and number among those of the kind.
+/// Functions of one element by kind: index in the matrices of the element, and number among the functions of its kind.
 pub(super) struct Functions {
     pub(super) inner: Vec<(usize, usize)>,
     pub(super) ends: Vec<(usize, usize)>,
@@ -17,41 +17,42 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Functions that are not inner ones, the two ends before all others.
+    /// Functions that are not inner functions: the two ends, then those beyond the degree.
     fn outer(&self) -> impl Iterator<Item = (usize, usize)> {
         let beyond = self.beyond.iter().map(|(place, number)| (*place, 2 + number));
         self.ends.iter().copied().chain(beyond)
     }
 }
 
-/// Stiffness and mass of a cable by kinds of functions, D components per function; its ends have N = 2D components.
+/// Stiffness and mass of a cable by kinds of functions, with D components per function and N = 2D components of its
+/// ends.
 pub(super) struct Partition<const D: usize, const N: usize> {
-    /// Inner unknowns.
+    /// Number of inner unknowns.
     unknowns: usize,
-    /// Outer unknowns: ends, and functions beyond the degree.
+    /// Number of outer unknowns: ends, and functions beyond the degree.
     outer: usize,
     /// K_ii and M_ii, by columns.
     stiffness: Vec<f64>,
     mass: Vec<f64>,
-    /// One row per inner unknown: K_io of the outer unknowns, M_io of them, the function's values at the stations.
+    /// One row per inner unknown: K_io and M_io of the outer unknowns, then the function's values at the stations.
     rows: Vec<f64>,
     /// Length of a row.
     row_length: usize,
     /// M_bb of the ends.
     end_mass: [[f64; N]; N],
-    /// Diagonal of stiffness and mass of each unknown beyond the degree.
+    /// Diagonal entries of stiffness and mass of each unknown beyond the degree.
     beyond: Vec<(f64, f64)>,
     /// Values of the two end functions at each station.
     values_at_ends: Vec<[f64; 2]>,
 }
 
-/// All pairs of components, of a row and of a column.
+/// All pairs of components (row, column).
 fn components<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..D).flat_map(|column| (0..D).map(move |row| (row, column)))
 }
 
 impl<const D: usize, const N: usize> Partition<D, N> {
-    /// Zero, for so many inner functions, functions beyond the degree, and stations.
+    /// Partition of zeros for the given numbers of inner functions, functions beyond the degree and stations.
     pub(super) fn new(inner: usize, beyond: usize, stations: usize) -> Self {
         let (unknowns, outer) = (D * inner, D * (2 + beyond));
         let row_length = 2 * outer + D * stations;
@@ -68,8 +69,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Adds an element's share of K_ii and M_ii. `stiffness` has one matrix for each sum of two components' numbers
-    /// (hh, hv, vv in plane, one out of plane); mass is the same for each component.
+    /// Adds an element's contribution to K_ii and M_ii. `stiffness` has one matrix for each sum of two components'
+    /// numbers (hh, hv, vv in plane, one out of plane); all components have the same mass.
     pub(super) fn add_inner(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for &(b, column) in &functions.inner {
             for &(a, row) in &functions.inner {
@@ -83,7 +84,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Adds an element's share of K_io and M_io.
+    /// Adds an element's contribution to K_io and M_io.
     pub(super) fn add_columns(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for (b, column) in functions.outer() {
             for &(a, row) in &functions.inner {
@@ -97,7 +98,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Adds an element's share of M_bb.
+    /// Adds an element's contribution to M_bb.
     pub(super) fn add_end_mass(&mut self, functions: &Functions, mass: &DMat) {
         for &(b, column) in &functions.ends {
             for &(a, row) in &functions.ends {
@@ -108,7 +109,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Sets the diagonals of an element's functions beyond the degree.
+    /// Sets the diagonal entries of an element's functions beyond the degree.
     pub(super) fn set_beyond(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for &(a, number) in &functions.beyond {
             for d in 0..D {
@@ -117,7 +118,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Sets the values that the functions of the element under a station have there.
+    /// Sets the values at a station of the functions of the element on which it lies.
     pub(super) fn set_station(&mut self, functions: &Functions, station: usize, values: &[f64]) {
         for &(a, row) in &functions.inner {
             for d in 0..D {
@@ -129,25 +130,27 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Poles and residues of the ends, whose static stiffness is `still`, up to ω = `limit` and beyond.
+    /// Poles and residues of the ends, whose static stiffness is `still`. All poles are found; the error is estimated
+    /// for those below ω = `limit`.
     pub(super) fn reduce<const E: usize>(
         self,
         still: [[f64; N]; N],
         limit: f64,
-    ) -> Result<Condensed<D, N, E>, ExactError> {
+    ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
         let Self { stiffness, mass, rows, row_length, outer, end_mass, beyond, values_at_ends, .. } = self;
         let (values, products) =
-            generalized_eigen::pencil(stiffness, mass, rows, row_length).ok_or(ExactError::NoTension)?;
+            generalized_eigen::pencil(stiffness, mass, rows, row_length).ok_or(CatenaryDynamicError::NoTension)?;
 
-        // Low frequencies first. A value that is not positive is one that rounding made of an infinite frequency.
+        // Low frequencies first. Values that are not positive are infinite frequencies with rounding errors.
         let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
         order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
 
+        // Poles, participations and displacements, mode by mode; each mode takes its contribution out of the end mass.
         let (mut mass, mut error) = (end_mass, 0.0_f64);
         let (mut poles, mut participation) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
         let mut stations = Displacements::of_ends(&values_at_ends);
         for k in order {
-            let mode = ClampedMode::new(values[k], &products[k * row_length..(k + 1) * row_length], outer);
+            let mode = ModeProducts::new(values[k], &products[k * row_length..(k + 1) * row_length], outer);
             mode.take_from(&mut mass);
             poles.push(1.0 / mode.mu);
             participation.push(mode.participation());
@@ -161,27 +164,27 @@ impl<const D: usize, const N: usize> Partition<D, N> {
     }
 }
 
-/// A clamped mode φ by its products, `φᵀKφ = 1`.
-struct ClampedMode<'a> {
-    /// μ = 1/ω².
+/// Products of a clamped mode φ, normalised to `φᵀKφ = 1`, with the outer unknowns and the stations.
+struct ModeProducts<'a> {
+    /// Eigenvalue μ = 1/ω².
     mu: f64,
-    /// a = K_oi φ.
+    /// Stiffness products a = K_oi φ.
     stiff: &'a [f64],
-    /// b = M_oi φ.
+    /// Mass products b = M_oi φ.
     heavy: &'a [f64],
     /// Displacements of the stations.
     at_stations: &'a [f64],
 }
 
-impl<'a> ClampedMode<'a> {
-    /// From the products of φ with the rows of a [`Partition`].
+impl<'a> ModeProducts<'a> {
+    /// Products of φ with the rows of a [`Partition`], divided into their kinds.
     fn new(mu: f64, products: &'a [f64], outer: usize) -> Self {
         let (by_outer, at_stations) = products.split_at(2 * outer);
         let (stiff, heavy) = by_outer.split_at(outer);
         Self { mu, stiff, heavy, at_stations }
     }
 
-    /// Takes its share out of the mass of the ends: `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`.
+    /// Subtracts the mode's contribution from the mass of the ends: `M_s = M_bb − Σ (b aᵀ + a bᵀ − μ a aᵀ)`.
     fn take_from<const N: usize>(&self, mass: &mut [[f64; N]; N]) {
         let Self { mu, stiff, heavy, .. } = self;
         for i in 0..N {
@@ -191,13 +194,13 @@ impl<'a> ClampedMode<'a> {
         }
     }
 
-    /// `g = (b − μ a)/√μ` of the ends.
+    /// Participation of the ends, `g = (b − μ a)/√μ`.
     fn participation<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|i| (self.heavy[i] - self.mu * self.stiff[i]) / self.mu.sqrt())
     }
 
-    /// Estimated relative error of the clamped frequency: half of what the functions beyond the degree, numbered from
-    /// `first` among the outer ones, would take off ω², to first order in each, over ω².
+    /// Estimated relative error of the clamped frequency: half the relative decrease of ω² that the functions beyond
+    /// the degree would cause, to first order in each. They are numbered from `first` among the outer functions.
     fn error(&self, beyond: &[(f64, f64)], first: usize) -> f64 {
         let lost = |(e, (stiffness, mass)): (usize, &(f64, f64))| {
             let answer = self.stiff[first + e] - self.heavy[first + e] / self.mu;
@@ -207,7 +210,7 @@ impl<'a> ClampedMode<'a> {
     }
 }
 
-/// A cable condensed onto its ends.
+/// Cable condensed onto its ends.
 pub(super) struct Condensed<const D: usize, const N: usize, const E: usize> {
     pub(super) ends: PoleResidue<N, E>,
     /// Estimated relative error of the clamped frequencies below the limit.

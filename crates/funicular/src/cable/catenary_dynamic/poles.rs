@@ -5,26 +5,26 @@ use crate::math::{Complex, DMat};
 use std::array::from_fn;
 use std::ops::Range;
 
-/// A symmetric end stiffness by poles and residues: N components of both ends, those of the start before those of the end,
-/// and E entries of the start's own symmetric part, which is all that a cable held at its end shows.
+/// Symmetric end stiffness by poles and residues. It has N components of both ends, those of the start before those of
+/// the end. The stiffness of the start with the end held has E independent entries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoleResidue<const N: usize, const E: usize> {
-    /// K_s, symmetric [N/m].
+    /// Static stiffness K_s, symmetric [N/m].
     pub stiffness: [[f64; N]; N],
-    /// M_s, symmetric [kg].
+    /// Mass M_s, symmetric [kg].
     pub mass: [[f64; N]; N],
-    /// ω_k² of the clamped modes, ascending [rad²/s²].
+    /// Poles ω_k² of the clamped modes, ascending [rad²/s²].
     pub poles: Vec<f64>,
-    /// g_k [√kg].
+    /// Participations g_k of the ends in the clamped modes [√kg].
     pub participation: Vec<[f64; N]>,
-    /// Entries of `g_k g_kᵀ` at the start, each in a row, for sums in vector registers [kg].
+    /// Entries of `g_k g_kᵀ` at the start, one row per entry, for sums in vector registers [kg].
     residues: [Vec<f64>; E],
 }
 
-/// Entries of the start's part of a symmetric matrix, of which a family of modes has the first one or all three.
+/// Entries of the start's block of a symmetric matrix: out of plane only the first exists, in plane all three.
 const ENTRIES: [(usize, usize); 3] = [(0, 0), (0, 1), (1, 1)];
 
-/// Entries of the start of a symmetric matrix over both ends.
+/// Entries of the start's block of a symmetric matrix over both ends.
 #[inline(always)]
 fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] {
     from_fn(|e| {
@@ -34,7 +34,7 @@ fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] 
 }
 
 impl<const N: usize, const E: usize> PoleResidue<N, E> {
-    /// From K_s, M_s, ω_k² ascending, and g_k.
+    /// Stiffness from K_s, M_s, the ascending ω_k², and g_k.
     pub(super) fn new(
         stiffness: [[f64; N]; N],
         mass: [[f64; N]; N],
@@ -73,7 +73,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
             let poles = &self.poles[range.clone()];
             let residues: [&[f64]; E] = from_fn(|e| &self.residues[e][range.clone()]);
 
-            // Whole lanes of poles, side by side.
+            // Full lanes of poles, side by side.
             let whole = poles.len() / LANES * LANES;
             let mut lanes = [[0.0; LANES]; E];
             for (k, block) in poles.chunks_exact(LANES).enumerate() {
@@ -86,7 +86,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
                 }
             }
 
-            // Their sum, and the rest one by one.
+            // Sum of the lanes, and the remaining poles one by one.
             for ((sum, lanes), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
                 *sum += lanes.iter().sum::<f64>();
                 for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
@@ -118,8 +118,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         self.stiffness[i][j] - x * (self.mass[i][j] + x * sum)
     }
 
-    /// Entries of minus the derivative of the undamped stiffness by ω² [kg]:
-    /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω², without the poles `left_out`.
+    /// Entries of minus the derivative of the undamped stiffness by ω² [kg], without the poles `left_out`:
+    /// `M_s + Σ g gᵀ (2 x ω_k² − x²)/(ω_k² − x)²` at x = ω².
     pub fn effective_mass(&self, x: f64, left_out: Range<usize>) -> [f64; E] {
         let mut sums = self.start_mass();
         for k in (0..self.poles.len()).filter(|k| !left_out.contains(k)) {
@@ -150,16 +150,17 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         (self.total(x, sums), masses)
     }
 
-    /// `K_s − x (M_s + x Σ)` for the sums over the poles.
+    /// Entries `K_s − x (M_s + x Σ)` of the stiffness, from the sums Σ over the poles.
     fn total(&self, x: Complex, sums: [Complex; E]) -> [Complex; E] {
         let (stiffness, mass): ([f64; E], [f64; E]) = (self.start_stiffness(), self.start_mass());
         from_fn(|e| stiffness[e] - x * (mass[e] + x * sums[e]))
     }
 
-    /// The first `count` poles, and a few in place of all the others: what these answer to slow motion of the first
-    /// `moving` end components. With those modes' own shapes W = P⁻¹ G as the only motion left to them (Rayleigh and Ritz),
-    /// `Gᵀ (P − x)⁻¹ G` keeps its value and its slope at x = 0. The second result is the part of each mode beyond `count`
-    /// in each of the new ones, by columns of unit modal mass.
+    /// Keeps the first `count` poles and replaces all others by a few.
+    ///
+    /// The modes beyond `count` may move only in the shapes W = P⁻¹ G of their response to slow motion of the first
+    /// `moving` end components (Rayleigh and Ritz). So `Gᵀ (P − x)⁻¹ G` keeps its value and its slope at x = 0. The
+    /// second result has the weights of the modes beyond `count` in each new mode, by columns of unit modal mass.
     pub(crate) fn compressed(&self, count: usize, moving: usize) -> (Self, DMat) {
         let beyond = self.poles.len() - count;
         let g = DMat::from_fn(beyond, N, |k, i| self.participation[count + k][i]);
@@ -167,7 +168,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         let mut poles = self.poles[..count].to_vec();
         let mut kept = self.participation[..count].to_vec();
 
-        // W, each mode's own answer to slow motion.
+        // W: response of each mode to slow motion, normalised by columns.
         let mut columns = DMat::from_fn(beyond, moving, |k, i| g[(k, i)] / pole(k));
         for mut column in columns.column_iter_mut() {
             let size = column.norm();
@@ -176,9 +177,9 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
             }
         }
 
-        // Motions that hardly differ from the others are none of their own.
+        // Leave out motions that hardly differ from the others.
         let gram = (columns.transpose() * &columns).symmetric_eigen();
-        let free: Vec<usize> = (0..moving).filter(|&i| gram.eigenvalues[i] > MIN_OWN).collect();
+        let free: Vec<usize> = (0..moving).filter(|&i| gram.eigenvalues[i] > MIN_INDEPENDENT).collect();
         if free.is_empty() {
             return (Self::new(self.stiffness, self.mass, poles, kept), DMat::zeros(beyond, 0));
         }
@@ -189,19 +190,19 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
                 .collect::<Vec<_>>(),
         );
 
-        // Rayleigh and Ritz in what is left.
+        // Rayleigh and Ritz in the space of the remaining motions.
         let stiffness = basis.transpose() * DMat::from_fn(beyond, free.len(), |k, i| pole(k) * basis[(k, i)]);
         let ritz = stiffness.symmetric_eigen();
         let mut order: Vec<usize> = (0..free.len()).collect();
         order.sort_by(|&i, &j| ritz.eigenvalues[i].total_cmp(&ritz.eigenvalues[j]));
         let turn = DMat::from_columns(&order.iter().map(|&i| ritz.eigenvectors.column(i)).collect::<Vec<_>>());
-        let parts = basis * turn;
-        let participation = parts.transpose() * g;
+        let weights = basis * turn;
+        let participation = weights.transpose() * g;
         for (k, &i) in order.iter().enumerate() {
             poles.push(ritz.eigenvalues[i]);
             kept.push(from_fn(|n| participation[(k, n)]));
         }
-        (Self::new(self.stiffness, self.mass, poles, kept), parts)
+        (Self::new(self.stiffness, self.mass, poles, kept), weights)
     }
 
     /// Number of poles below ω² = x.
@@ -209,7 +210,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         self.poles.partition_point(|pole| *pole < x)
     }
 
-    /// Places of the poles nearer to x than the fraction `width` of it.
+    /// Indices of the poles in the relative distance `width` of x.
     pub(super) fn near(&self, x: f64, width: f64) -> Range<usize> {
         let from = self.poles.partition_point(|pole| *pole < x * (1.0 - width));
         let count = self.poles[from..].iter().take_while(|pole| **pole < x * (1.0 + width)).count();
@@ -217,7 +218,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     }
 }
 
-/// Eigenvalue of the Gram matrix of unit motions up to which a motion is none of its own: the square of its angle to the
-/// others. Rounding of the motions leaves 1e-16 of noise, whose poles would be anywhere; at more than 1e-6 a cable that
-/// hangs nearly straight would lose one of its two slow motions.
-const MIN_OWN: f64 = 1e-9;
+/// Eigenvalue of the Gram matrix of unit motions above which a motion is independent: the square of its angle to the
+/// others. Rounding of the motions leaves noise of 1e-16, whose poles would be arbitrary. Above 1e-6 a cable that hangs
+/// nearly straight would lose one of its two slow motions.
+const MIN_INDEPENDENT: f64 = 1e-9;

@@ -1,12 +1,15 @@
-//! Several catenary-dynamic cables side by side at one frequency, each condensed onto its platform end and one more function.
+//! Catenary-dynamic cables side by side at one frequency, each condensed onto its platform end and one more function.
 //!
-//! The first natural frequency of a robot is not above the first clamped one of any of its cables, so that a mesh of
-//! modest degree resolves every cable, and one factorisation a frequency costs less than the clamped modes. The unknowns
-//! are those of `mesh`: one element, or, where a cable hangs nearly without tension, several that grow with the distance
-//! from its lowest point. Elements are worked on side by side, whole cables in one group, the elements of all others in
-//! another. Unknowns are eliminated from the highest bubble down. Kept beside the platform end are, in plane and out of
-//! plane, the lowest bubble, or the node at the lowest point: they carry the first clamped modes, so that what has been
-//! eliminated has its poles far above.
+//! The first natural frequency of a robot is not above the first clamped frequency of any of its cables. So a mesh of
+//! modest degree resolves every cable, and one factorisation per frequency costs less than the clamped modes.
+//!
+//! The unknowns are those of `mesh`: one element, or, if a cable hangs nearly without tension, several elements that
+//! grow with the distance from its lowest point. Elements are computed side by side: cables of one element in one
+//! group, the elements of all other cables in another.
+//!
+//! Unknowns are eliminated from the highest bubble down. Besides the platform end one function is kept in plane and one
+//! out of plane: the lowest bubble, or the node at the lowest point. These functions carry the first clamped modes, so
+//! that the eliminated unknowns have their poles far above.
 
 mod element;
 mod element_integrals;
@@ -17,76 +20,77 @@ pub(super) use element::place;
 
 use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes};
-use element::{Element, Shapes};
-use mesh::Mesh;
+use element::{ElementBatch, ForceShapes};
+use mesh::GradedMesh;
 use node_elimination::Chain;
 use pulp::Simd;
 use std::array::from_fn;
 
-/// Most degrees of an element. Robots take up to 20.
+/// Maximum degree of an element. Robots take up to 20.
 pub(super) const MAX_DEGREES: usize = 32;
 
-/// Most Legendre terms of C, those of the smallest ellipse.
+/// Maximum number of Legendre terms of C, needed for the smallest Bernstein ellipse.
 const MAX_TERMS: usize = 45;
 
-/// Coefficients of C below this part are left out.
+/// Relative size below which coefficients of C are left out.
 const TRUNCATION: f64 = 1e-13;
 
-/// Up to [`LANES`] cables, either all of one element or all of several.
+/// Group of up to [`LANES`] cables, either all of one element or all of several.
 #[derive(Debug)]
 pub(super) struct Abreast {
-    /// Which of the cables that were asked for.
+    /// Indices of the group's cables in the list given to [`groups`](Self::groups).
     members: Vec<usize>,
-    /// Elements side by side; the last lanes repeat the last element.
-    packs: Vec<Element>,
-    /// Of each cable, if it has several elements.
+    /// Elements side by side; unused lanes repeat the last element.
+    packs: Vec<ElementBatch>,
+    /// Elimination of the nodes of each cable; empty for cables of one element.
     chains: Vec<Chain>,
-    /// Legendre terms of C.
+    /// Number of Legendre terms of C.
     terms: usize,
-    /// Components of e along the horizontal and up, of each cable: the chord's, or upright where the cable is slack.
+    /// Components of e along the horizontal and up, per cable: along the chord, or vertical if the cable is slack.
     axes: Vec<[f64; 2]>,
 }
 
-/// Unknowns kept in plane: n and e of the end, n of the bubble or node.
+/// Number of unknowns kept in plane: n and e of the end, n of the bubble or node.
 pub(super) const IN_PLANE: usize = 3;
-/// Unknowns kept out of plane: the end, the bubble or node.
-pub(super) const ACROSS: usize = 2;
+/// Number of unknowns kept out of plane: the end, the bubble or node.
+pub(super) const OUT_OF_PLANE: usize = 2;
 
-/// The dynamic stiffness of the kept unknowns [N/m], lower triangles by rows.
+/// Dynamic stiffness of the kept unknowns [N/m], lower triangles by rows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Kept {
-    pub(super) plane: [Lane; 6],
-    pub(super) across: [Lane; 3],
-    /// Least pivot of what was eliminated: positive if nothing of it has a natural frequency below.
+    pub(super) in_plane: [Lane; 6],
+    pub(super) out_of_plane: [Lane; 3],
+    /// Minimum pivot of the elimination: positive if the eliminated unknowns have no natural frequency below.
     pub(super) min_pivot: Lane,
 }
 
 impl Default for Kept {
-    /// Zero, of nothing eliminated.
+    /// Zero stiffness without an elimination.
     fn default() -> Self {
-        Self { plane: Default::default(), across: Default::default(), min_pivot: [f64::INFINITY; LANES] }
+        Self { in_plane: Default::default(), out_of_plane: Default::default(), min_pivot: [f64::INFINITY; LANES] }
     }
 }
 
-/// Amplitudes of all functions of elements side by side: of each pack, in plane and out of plane.
+/// Amplitudes of all functions of elements side by side, in plane and out of plane for each pack.
 #[derive(Debug)]
-pub(super) struct Motion(Vec<[Lanes; 2]>);
+pub(super) struct FunctionMotion(Vec<[Lanes; 2]>);
 
 impl Abreast {
-    /// All cables, of mass m per unstrained length [kg/m] each, in groups. None if one has no tension somewhere.
+    /// Groups of all cables, each given with its mass m per unstrained length [kg/m]. `None` if a point of a cable has
+    /// no tension.
     pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
-        let meshes = cables.iter().map(|(catenary, _)| Mesh::of(catenary)).collect::<Option<Vec<_>>>()?;
-        let (whole, cut): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
-        let groups = whole.chunks(LANES).chain(cut.chunks(LANES));
+        let meshes = cables.iter().map(|(catenary, _)| GradedMesh::of(catenary)).collect::<Option<Vec<_>>>()?;
+        let (single, divided): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
+        let groups = single.chunks(LANES).chain(divided.chunks(LANES));
         Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
     }
 
-    fn of(cables: &[(&Catenary, f64)], meshes: &[Mesh], members: &[usize]) -> Self {
+    fn of(cables: &[(&Catenary, f64)], meshes: &[GradedMesh], members: &[usize]) -> Self {
         let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
         let terms = terms.min(MAX_TERMS);
 
-        // Elements of all cables in one list.
+        // List of the elements of all cables.
         let mut elements = Vec::with_capacity(2 * LANES);
         let mut chains = Vec::new();
         for i in members {
@@ -97,16 +101,16 @@ impl Abreast {
             elements.extend(mesh.nodes.windows(2).map(|ends| (*i, ends[0], ends[1])));
         }
 
-        // Eight at a time side by side.
+        // Packs of elements side by side.
         let shapes = elements.chunks(LANES).map(|pack| {
-            let mut shapes = Shapes::default();
+            let mut shapes = ForceShapes::default();
             for lane in 0..LANES {
                 let (i, from, to) = pack[lane.min(pack.len() - 1)];
                 shapes.set(lane, cables[i], meshes[i].axis, from, to);
             }
             shapes
         });
-        let shapes: Vec<Shapes> = shapes.collect();
+        let shapes: Vec<ForceShapes> = shapes.collect();
         Self {
             members: members.to_vec(),
             packs: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
@@ -116,17 +120,17 @@ impl Abreast {
         }
     }
 
-    /// Which cables these are, by their lanes.
+    /// Index of the cable in each lane.
     pub(super) fn members(&self) -> &[usize] {
         &self.members
     }
 
-    /// In several elements.
-    pub(super) fn is_cut(&self) -> bool {
+    /// True if the cables have several elements.
+    pub(super) fn is_divided(&self) -> bool {
         !self.chains.is_empty()
     }
 
-    /// Number of Legendre terms that C takes.
+    /// Number of Legendre terms of C.
     pub(super) fn terms(&self) -> usize {
         self.terms
     }
@@ -136,64 +140,70 @@ impl Abreast {
         self.axes[lane]
     }
 
-    /// K − xM of the kept unknowns at x = ω² [rad²/s²], from functions up to `degree`, which is at least 2.
+    /// Matrix K − xM of the kept unknowns at x = ω² [rad²/s²], from functions up to `degree`, which is at least 2.
     pub(super) fn kept(&mut self, x: f64, degree: usize) -> Kept {
-        pulp::Arch::new().dispatch(Factorise { cables: self, x, degree })
+        pulp::Arch::new().dispatch(FactoriseCables { cables: self, x, degree })
     }
 
-    /// Motion of all functions for motions of the kept unknowns, at the frequency and the degree of the last
+    /// Amplitudes of all functions for motions of the kept unknowns, at the frequency and the degree of the last
     /// [`kept`](Self::kept).
-    pub(super) fn moved(&self, plane: [Lane; IN_PLANE], across: [Lane; ACROSS]) -> Motion {
-        pulp::Arch::new().dispatch(Substitute { cables: self, plane, across })
+    pub(super) fn moved(&self, in_plane: [Lane; IN_PLANE], out_of_plane: [Lane; OUT_OF_PLANE]) -> FunctionMotion {
+        pulp::Arch::new().dispatch(Substitute { cables: self, in_plane, out_of_plane })
     }
 
-    /// `aᵀ M b` in plane and out of plane [kg × motion²].
-    pub(super) fn mass(&self, a: &Motion, b: &Motion) -> [Lane; 2] {
+    /// Products `aᵀ M b` in plane and out of plane [kg × motion²].
+    pub(super) fn mass(&self, a: &FunctionMotion, b: &FunctionMotion) -> [Lane; 2] {
         pulp::Arch::new().dispatch(Mass { cables: self, a, b })
     }
 }
 
+/// Job for vector registers: makes packs of elements.
 struct Expand<'a> {
-    shapes: &'a [Shapes],
+    shapes: &'a [ForceShapes],
     terms: usize,
 }
 
 impl pulp::WithSimd for Expand<'_> {
-    type Output = Vec<Element>;
+    type Output = Vec<ElementBatch>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<Element> {
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<ElementBatch> {
         let Self { shapes, terms } = self;
         let mut elements = Vec::with_capacity(shapes.len());
         for shapes in shapes {
-            elements.push(Element::new(simd, shapes, terms));
+            elements.push(ElementBatch::new(simd, shapes, terms));
         }
         elements
     }
 }
 
-struct Factorise<'a> {
+/// Job for vector registers: eliminates all unknowns of a group but the kept ones.
+struct FactoriseCables<'a> {
     cables: &'a mut Abreast,
     x: f64,
     degree: usize,
 }
 
-impl pulp::WithSimd for Factorise<'_> {
+impl pulp::WithSimd for FactoriseCables<'_> {
     type Output = Kept;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Kept {
         let Self { cables: Abreast { packs, chains, .. }, x, degree } = self;
+
+        // Cables of one element.
         if chains.is_empty() {
             let mut min_pivot = [f64::INFINITY; LANES];
             let element = &mut packs[0];
-            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, ACROSS), &mut min_pivot);
+            element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, OUT_OF_PLANE), &mut min_pivot);
             return Kept {
-                plane: from_fn(|k| element.plane_factor[k].0),
-                across: from_fn(|k| element.across_factor[k].0),
+                in_plane: from_fn(|k| element.in_plane_factor[k].0),
+                out_of_plane: from_fn(|k| element.out_of_plane_factor[k].0),
                 min_pivot,
             };
         }
+
+        // Cables of several elements: the elements, then the nodes between them.
         let mut min_pivots = Vec::with_capacity(packs.len());
         for element in packs.iter_mut() {
             let mut min_pivot = [f64::INFINITY; LANES];
@@ -204,33 +214,35 @@ impl pulp::WithSimd for Factorise<'_> {
     }
 }
 
+/// Job for vector registers: motion of all functions from that of the kept unknowns.
 struct Substitute<'a> {
     cables: &'a Abreast,
-    plane: [Lane; IN_PLANE],
-    across: [Lane; ACROSS],
+    in_plane: [Lane; IN_PLANE],
+    out_of_plane: [Lane; OUT_OF_PLANE],
 }
 
 impl pulp::WithSimd for Substitute<'_> {
-    type Output = Motion;
+    type Output = FunctionMotion;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Motion {
-        let Self { cables: Abreast { packs, chains, .. }, plane, across } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> FunctionMotion {
+        let Self { cables: Abreast { packs, chains, .. }, in_plane, out_of_plane } = self;
         if chains.is_empty() {
-            return Motion(vec![packs[0].moved(simd, &plane, &across)]);
+            return FunctionMotion(vec![packs[0].moved(simd, &in_plane, &out_of_plane)]);
         }
         let mut all = Vec::with_capacity(packs.len());
-        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &plane, &across)) {
-            all.push(element.moved(simd, &ends.plane, &ends.across));
+        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &in_plane, &out_of_plane)) {
+            all.push(element.moved(simd, &ends.in_plane, &ends.out_of_plane));
         }
-        Motion(all)
+        FunctionMotion(all)
     }
 }
 
+/// Job for vector registers: products with the mass.
 struct Mass<'a> {
     cables: &'a Abreast,
-    a: &'a Motion,
-    b: &'a Motion,
+    a: &'a FunctionMotion,
+    b: &'a FunctionMotion,
 }
 
 impl pulp::WithSimd for Mass<'_> {
@@ -257,12 +269,12 @@ mod tests {
     use crate::catenary::Rope;
     use proptest::prelude::*;
 
-    /// The entries of one cable, in plane and out of plane.
+    /// Entries of one cable, in plane and out of plane.
     fn of(kept: &Kept, lane: usize) -> ([f64; 6], [f64; 3]) {
-        (from_fn(|entry| kept.plane[entry][lane]), from_fn(|entry| kept.across[entry][lane]))
+        (from_fn(|entry| kept.in_plane[entry][lane]), from_fn(|entry| kept.out_of_plane[entry][lane]))
     }
 
-    /// Slope, length over chord, elasticity.
+    /// Cable from the sine of its slope, the ratio of length to chord, and the decimal logarithm of EA.
     fn cable((slope, slack, stiffness): (f64, f64, f64)) -> Catenary {
         let (span, rise) = (6.0 * (1.0 - slope * slope).sqrt(), 6.0 * slope);
         let rope = Rope {
@@ -276,7 +288,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..Default::default() })]
 
-        /// Up to the first clamped frequency, from taut cables to such as hang in a loop; at a degree that resolves all.
+        /// Frequencies up to the first clamped one, cables from taut to hanging in a loop, a degree that resolves all.
         #[test]
         fn cables_side_by_side_have_the_stiffness_of_each_by_its_poles(
             shapes in prop::collection::vec((-0.9f64..0.9, 0.99f64..1.3, 4.5f64..6.0), 1..=LANES), part in 0.0f64..0.98,
@@ -295,11 +307,11 @@ mod tests {
             let places: Vec<_> = groups.iter().enumerate().flat_map(lanes).collect();
             prop_assert_eq!(places.len(), cables.len());
             for (k, lane, i) in places {
-                let (abreast, kept, exact) = (&groups[k], &kept[k], &oracles[i]);
+                let (abreast, kept, oracle) = (&groups[k], &kept[k], &oracles[i]);
                 let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
                 prop_assert!(kept.min_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
                 let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
-                let k = exact.undamped(x.sqrt());
+                let k = oracle.undamped(x.sqrt());
                 let [c, s] = abreast.axis(lane);
                 let theirs = [
                     k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
@@ -308,7 +320,8 @@ mod tests {
                     k.out_of_plane,
                 ];
                 let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
-                // Where the cable hangs in a loop, what is left is a millionth of the elastic stiffness, whose rounding stays.
+                // The stiffness of a cable that hangs in a loop is a millionth of the elastic stiffness, whose rounding
+                // errors remain.
                 let rope = cables[i].rope();
                 let elastic = rope.axial_stiffness / rope.unstrained_length;
                 for (ours, theirs) in ours.into_iter().zip(theirs) {
@@ -318,15 +331,15 @@ mod tests {
             }
         }
 
-        /// Unit motions of the end, bubbles following.
+        /// Motions of the end that the bubbles follow.
         #[test]
         fn the_mass_of_a_motion_is_minus_the_change_of_stiffness(
             shape in (-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), part in 0.1f64..0.5, n in -1.0f64..1.0, e in -1.0f64..1.0,
         ) {
             const MASS: f64 = 0.067;
             let catenary = cable(shape);
-            let exact = CatenaryDynamic::new(&catenary, MASS, 20.0).unwrap();
-            let x = part * exact.in_plane.poles[0].min(exact.out_of_plane.poles[0]);
+            let oracle = CatenaryDynamic::new(&catenary, MASS, 20.0).unwrap();
+            let x = part * oracle.in_plane.poles[0].min(oracle.out_of_plane.poles[0]);
             let abreast = &mut Abreast::groups(&[(&catenary, MASS)]).unwrap()[0];
             let mut work = |x: f64| {
                 let ([nn, en, ee, ..], [oo, ..]) = of(&abreast.kept(x, 24), 0);

@@ -1,37 +1,40 @@
-//! The pencil at a shift, factored: bubbles first, then the platform.
+//! Factorisation of the pencil at a shift: bubbles first, then the platform.
 
 use super::batched_cable::Kept;
-use super::lever_axes::Motion;
-use super::pencil::Pencil;
+use super::lever_axes::RobotMotion;
+use super::pencil::RobotPencil;
 use crate::math::Mat6;
 use crate::math::simd::{LANES, Lane, Part, sum};
 use pulp::Simd;
 
+/// Factored pencil at a shift.
 pub(super) struct Factor {
     /// L below the diagonal, inverse pivots on it.
     platform: Mat6,
     bubbles: Vec<Bubbles>,
-    /// Pivots that are not positive; as many eigenvalues lie below the shift, if those of what has been eliminated do not.
+    /// Number of pivots that are not positive. It is the number of eigenvalues below the shift, provided that no
+    /// eigenvalue of the eliminated unknowns lies below.
     pub(super) negative: usize,
 }
 
-/// Of a group's cables: stiffness of the bubbles against the end, and the inverses of their pivots.
+/// Stiffness of the bubbles of a group's cables against the platform ends, and the inverse pivots of the bubbles.
 #[derive(Default)]
 struct Bubbles {
     normal: Lane,
     along: Lane,
     out: Lane,
     inverse: Lane,
-    inverse_across: Lane,
+    inverse_out_of_plane: Lane,
 }
 
-struct Factorise<'a> {
-    pencil: &'a Pencil,
+/// Job for vector registers: factors the pencil.
+struct FactorisePencil<'a> {
+    pencil: &'a RobotPencil,
     kept: &'a [Kept],
     x: f64,
 }
 
-impl pulp::WithSimd for Factorise<'_> {
+impl pulp::WithSimd for FactorisePencil<'_> {
     type Output = Factor;
 
     #[inline(always)]
@@ -42,25 +45,25 @@ impl pulp::WithSimd for Factorise<'_> {
         let mut negative = 0;
         let mut all = Vec::with_capacity(kept.len());
         for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
-            // Signs of the pivots of what each cable has eliminated.
+            // Signs of the pivots of each cable.
             for lane in 0..cables.len() {
-                let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.plane[5][lane], k.across[2][lane]];
+                let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.in_plane[5][lane], k.out_of_plane[2][lane]];
                 negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
             }
 
-            // Its bubbles go out, and what is left stands over the platform's coordinates.
+            // Eliminate the bubbles and transform the rest to the platform's coordinates.
             let mut bubbles = Bubbles::default();
-            let [nn, en, ee, qn, qe, qq] = &k.plane;
-            let [oo, bo, bb] = &k.across;
+            let [nn, en, ee, qn, qe, qq] = &k.in_plane;
+            let [oo, bo, bb] = &k.out_of_plane;
             let mut entries = [[0.0; LANES]; 21];
             for part in Part::all(simd) {
                 let (qn, qe, bo) = (part.of(qn), part.of(qe), part.of(bo));
-                let (inverse, inverse_across) = (part.inverse(part.of(qq)), part.inverse(part.of(bb)));
+                let (inverse, inverse_out_of_plane) = (part.inverse(part.of(qq)), part.inverse(part.of(bb)));
                 let (by_qn, by_qe) = (part.neg(part.mul(qn, inverse)), part.neg(part.mul(qe, inverse)));
                 let nn = part.mul_add(qn, by_qn, part.of(nn));
                 let en = part.mul_add(qn, by_qe, part.of(en));
                 let ee = part.mul_add(qe, by_qe, part.of(ee));
-                let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_across)), part.of(oo));
+                let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_out_of_plane)), part.of(oo));
 
                 let mut entry = entries.iter_mut();
                 for j in 0..6 {
@@ -77,7 +80,7 @@ impl pulp::WithSimd for Factorise<'_> {
                 part.set(&mut bubbles.along, qe);
                 part.set(&mut bubbles.out, bo);
                 part.set(&mut bubbles.inverse, inverse);
-                part.set(&mut bubbles.inverse_across, inverse_across);
+                part.set(&mut bubbles.inverse_out_of_plane, inverse_out_of_plane);
             }
 
             let mut entry = entries.iter();
@@ -108,28 +111,31 @@ impl pulp::WithSimd for Factorise<'_> {
     }
 }
 
+/// True for negative pivots, zero and NaN.
 fn not_positive(pivot: f64) -> bool {
     pivot.is_nan() || pivot <= 0.0
 }
 
 impl Factor {
-    /// Without exchanges: a positive definite pencil needs none, and of another one only a direction is wanted.
-    pub(super) fn of(pencil: &Pencil, kept: &[Kept], x: f64) -> Self {
-        pulp::Arch::new().dispatch(Factorise { pencil, kept, x })
+    /// Factors a pencil at a shift, without pivoting: a positive definite pencil needs none, and for an indefinite one
+    /// an approximate direction is enough.
+    pub(super) fn of(pencil: &RobotPencil, kept: &[Kept], x: f64) -> Self {
+        pulp::Arch::new().dispatch(FactorisePencil { pencil, kept, x })
     }
 
+    /// Solves (K − xM) `into` = `force`.
     #[inline(always)]
-    pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &Pencil, force: &Motion, into: &mut Motion) {
+    pub(super) fn solve<S: Simd>(&self, simd: S, pencil: &RobotPencil, force: &RobotMotion, into: &mut RobotMotion) {
         let n = pencil.dof;
         let mut v = *force.platform();
 
-        // Bubbles to platform.
+        // Eliminate the forces on the bubbles.
         for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
             let mut wrench = [[0.0; LANES]; 6];
             for part in Part::all(simd) {
                 let f = part.mul(part.of(f), part.of(&bubbles.inverse));
-                let g = part.mul(part.of(g), part.of(&bubbles.inverse_across));
+                let g = part.mul(part.of(g), part.of(&bubbles.inverse_out_of_plane));
                 let ends = [
                     part.mul(part.of(&bubbles.normal), f),
                     part.mul(part.of(&bubbles.along), f),
@@ -157,7 +163,7 @@ impl Factor {
             }
         }
 
-        // And back to the bubbles.
+        // Back substitution of the bubbles.
         *into.platform_mut() = v;
         for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
@@ -168,7 +174,7 @@ impl Factor {
                 let left = part.mul_add(part.neg(e), part.of(&bubbles.along), left);
                 part.set(q, part.mul(left, part.of(&bubbles.inverse)));
                 let left = part.mul_add(part.neg(b), part.of(&bubbles.out), part.of(g));
-                part.set(p, part.mul(left, part.of(&bubbles.inverse_across)));
+                part.set(p, part.mul(left, part.of(&bubbles.inverse_out_of_plane)));
             }
         }
     }

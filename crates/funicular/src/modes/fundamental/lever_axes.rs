@@ -1,12 +1,12 @@
-//! Cables at the platform, side by side as their matrices are, and motions of the whole robot.
+//! Lever axes of cables at the platform, side by side like their matrices, and motions of the robot.
 
-use super::batched_cable::{ACROSS, IN_PLANE};
+use super::batched_cable::{IN_PLANE, OUT_OF_PLANE};
 use crate::math::Vec6;
 use crate::math::simd::{LANES, Lane, Lanes, Line, Part, sum};
 use pulp::Simd;
 
-/// Axes of a group's cables as scaled vectors in the platform's coordinates: for each coordinate the cables side by side,
-/// zero where there is none.
+/// Axes of a group's cables as scaled vectors in the platform's coordinates. Each coordinate has the cables side by
+/// side, with zeros in lanes without a cable.
 #[derive(Debug, Default)]
 pub(super) struct Arms {
     pub(super) normal: [Lane; 6],
@@ -15,6 +15,7 @@ pub(super) struct Arms {
 }
 
 impl Arms {
+    /// Sets the axes of the cable in a lane.
     pub(super) fn set(&mut self, lane: usize, [normal, along, out]: [Vec6; 3]) {
         for i in 0..6 {
             self.normal[i][lane] = normal[i];
@@ -23,7 +24,7 @@ impl Arms {
         }
     }
 
-    /// How the platform ends move: n, e, b.
+    /// Motion (n, e, b) of the platform ends.
     #[inline(always)]
     pub(super) fn ends<S: Simd>(&self, part: Part<S>, platform: &Lane) -> [S::f64s; 3] {
         let mut ends = [part.splat(0.0); 3];
@@ -36,7 +37,7 @@ impl Arms {
         ends
     }
 
-    /// Component `i` of the wrench of forces (n, e, b), cable by cable.
+    /// Component `i` of the wrench of forces (n, e, b), per cable.
     #[inline(always)]
     pub(super) fn wrench<S: Simd>(&self, part: Part<S>, i: usize, [n, e, b]: [S::f64s; 3]) -> S::f64s {
         let by_out = part.mul(part.of(&self.out[i]), b);
@@ -44,16 +45,18 @@ impl Arms {
     }
 }
 
-/// Motion of the platform, and of the lowest bubbles of each group's cables in plane and out of plane; or forces on them.
+/// Motion of the platform and of the lowest bubbles of each group's cables, in plane and out of plane; or forces on
+/// them.
 #[derive(Debug)]
-pub(super) struct Motion(Lanes);
+pub(super) struct RobotMotion(Lanes);
 
-impl Motion {
-    /// Of any values.
+impl RobotMotion {
+    /// Motion with arbitrary values.
     pub(super) fn any(groups: usize) -> Self {
         Self(Lanes::any(1 + 2 * groups))
     }
 
+    /// Sets all values to zero.
     pub(super) fn clear(&mut self) {
         self.0.fill(Line::default());
     }
@@ -67,7 +70,7 @@ impl Motion {
         &mut self.0[0]
     }
 
-    /// Those of a group, in plane and out of plane.
+    /// Bubbles of a group, in plane and out of plane.
     pub(super) fn bubbles(&self, group: usize) -> [&Line; 2] {
         [&self.0[1 + 2 * group], &self.0[2 + 2 * group]]
     }
@@ -76,6 +79,7 @@ impl Motion {
         self.0[1 + 2 * group..].get_disjoint_mut([0, 1]).expect("two lines a group")
     }
 
+    /// Multiplies all values by a factor.
     #[inline(always)]
     pub(super) fn scale<S: Simd>(&mut self, simd: S, factor: f64) {
         for part in Part::all(simd) {
@@ -86,6 +90,7 @@ impl Motion {
         }
     }
 
+    /// Adds another motion, multiplied by a factor.
     #[inline(always)]
     pub(super) fn add<S: Simd>(&mut self, simd: S, factor: f64, other: &Self) {
         for part in Part::all(simd) {
@@ -96,6 +101,7 @@ impl Motion {
         }
     }
 
+    /// Sum of the products of all values.
     #[inline(always)]
     pub(super) fn dot<S: Simd>(&self, simd: S, other: &Self) -> f64 {
         let mut products = [0.0; LANES];
@@ -105,17 +111,17 @@ impl Motion {
         sum(&products)
     }
 
-    /// The kept unknowns of a group.
+    /// Motion of the kept unknowns of a group.
     #[inline(always)]
-    pub(super) fn kept<S: Simd>(&self, simd: S, arms: &Arms, group: usize) -> ([Lane; IN_PLANE], [Lane; ACROSS]) {
+    pub(super) fn kept<S: Simd>(&self, simd: S, arms: &Arms, group: usize) -> ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]) {
         let [q, p] = self.bubbles(group);
-        let (mut plane, mut across) = ([[0.0; LANES], [0.0; LANES], q.0], [[0.0; LANES], p.0]);
+        let (mut in_plane, mut out_of_plane) = ([[0.0; LANES], [0.0; LANES], q.0], [[0.0; LANES], p.0]);
         for part in Part::all(simd) {
             let [n, e, b] = arms.ends(part, self.platform());
-            part.set(&mut plane[0], n);
-            part.set(&mut plane[1], e);
-            part.set(&mut across[0], b);
+            part.set(&mut in_plane[0], n);
+            part.set(&mut in_plane[1], e);
+            part.set(&mut out_of_plane[0], b);
         }
-        (plane, across)
+        (in_plane, out_of_plane)
     }
 }

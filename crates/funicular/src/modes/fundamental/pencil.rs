@@ -1,9 +1,9 @@
-//! The whole robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
+//! Robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
 use super::batched_cable::{Abreast, Kept};
-use super::condensed_cables::{Reduced, Whole, degree_of_start};
-use super::lever_axes::{Arms, Motion};
-use super::search::{EXACT, Found, NEAR, ROUGH, lowest};
+use super::condensed_cables::{AllUnknowns, Reduced, degree_of_start};
+use super::lever_axes::{Arms, RobotMotion};
+use super::search::{FINAL, LowestPair, NEAR, ROUGH, lowest};
 use super::{First, Kind, TAU};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
@@ -14,34 +14,36 @@ use crate::statics::Equilibrium;
 use pulp::Simd;
 use std::array::from_fn;
 
-/// A robot about its equilibrium.
-pub(super) struct Pencil {
+/// Pencil K − xM of a robot about its equilibrium.
+pub(super) struct RobotPencil {
     pub(super) dof: usize,
     motions: PlatformMotion,
     ell: f64,
-    /// Stiffness of what has no frequency, and mass of the platform; scaled, in the platform's coordinates.
+    /// Stiffness that does not depend on frequency; scaled, in the platform's coordinates.
     pub(super) constant: Mat6,
+    /// Mass of the platform; scaled, in the platform's coordinates.
     pub(super) mass: Mat6,
     /// Columns of the mass.
     mass_columns: [Line; 6],
-    /// Of each group of cables that have mass.
+    /// Axes of the cables with mass, per group.
     pub(super) arms: Vec<Arms>,
-    /// Which cables these are.
+    /// Indices of the cables of each group.
     pub(super) members: Vec<Vec<usize>>,
     groups: Vec<Abreast>,
     cable_count: usize,
 }
 
-/// Tangents that are drawn before all unknowns are looked at, and the relative change of x that ends it.
+/// Maximum number of condensations of divided cables before the search with all unknowns.
 const MAX_TANGENTS: usize = 3;
+/// Relative change of x below which these condensations end.
 const CLOSE_ENOUGH: f64 = 0.2;
 
-impl Pencil {
-    /// None if a cable is none that this way knows.
+impl RobotPencil {
+    /// Pencil of a robot; `None` if a cable does not hang, has no tension, or has a point without tension.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 
-        // Cables with mass, and the stiffness of the others.
+        // Collect the cables with mass, and add the stiffness of the others.
         let mut massive = Vec::with_capacity(equilibrium.cables.len());
         let mut curves = Vec::with_capacity(equilibrium.cables.len());
         for (i, state) in equilibrium.cables.iter().enumerate() {
@@ -58,7 +60,7 @@ impl Pencil {
             curves.push((&hanging.catenary, mass_per_length));
         }
 
-        // Side by side in groups, with their axes.
+        // Groups of cables side by side, with their axes.
         let groups = Abreast::groups(&curves)?;
         let (mut arms, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
         for group in &groups {
@@ -81,34 +83,34 @@ impl Pencil {
         Some(Self { dof, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
     }
 
-    /// None if the equilibrium is unstable, or the search does not end.
+    /// First mode; `None` if the equilibrium is unstable or the search does not end.
     pub(super) fn first(&mut self) -> Option<First> {
         let mut groups = std::mem::take(&mut self.groups);
-        let cut = groups.iter().any(Abreast::is_cut);
+        let divided = groups.iter().any(Abreast::is_divided);
 
-        // A rough search in matrices condensed at rest.
+        // A rough search with matrices condensed at x = 0.
         let mut start = Reduced::of(&mut groups);
         let metric = start.mass.clone();
         let motion = self.any_motion(&metric, 0);
-        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if cut { &ROUGH } else { &NEAR })?;
-        if cut {
+        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if divided { &ROUGH } else { &NEAR })?;
+        if divided {
             near = self.nearer(near, &mut start, &mut groups)?;
         }
 
-        // The exact one, with all unknowns.
+        // The final search, with all unknowns.
         let degrees = groups.iter().map(|group| degree_of_start(group) + 1).collect();
-        let mut whole = Whole { groups: &mut groups, degrees };
+        let mut whole = AllUnknowns { groups: &mut groups, degrees };
 
-        // Below rather than above, where another motion may be the nearest.
-        let x = if cut { 0.95 * near.square } else { near.square };
+        // Start below the first result: above, another motion may be the nearest.
+        let x = if divided { 0.95 * near.square } else { near.square };
         near.motions.truncate(1);
-        let found = lowest(self, &mut whole, &start.mass, x, near.motions, &EXACT)?;
+        let found = lowest(self, &mut whole, &start.mass, x, near.motions, &FINAL)?;
         Some(self.report(&found))
     }
 
-    /// A better start where cables are cut: at rest, what has been eliminated moves otherwise than at the frequency, which
-    /// comes out far too high.
-    fn nearer(&self, mut near: Found, start: &mut Reduced, groups: &mut [Abreast]) -> Option<Found> {
+    /// Better start for divided cables. At x = 0 their eliminated unknowns move very differently than at the frequency,
+    /// so that the first result is far too high.
+    fn nearer(&self, mut near: LowestPair, start: &mut Reduced, groups: &mut [Abreast]) -> Option<LowestPair> {
         let mut x = 0.7 * near.square;
         for _ in 0..MAX_TANGENTS {
             if start.follow(groups, x) {
@@ -126,22 +128,23 @@ impl Pencil {
         Some(near)
     }
 
-    /// Not at right angles to any mode that somebody built; another one for each number.
-    pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> Motion {
-        // Even over its range, and of either sign but for the first.
-        let part = |i: usize| {
+    /// Start vector number `number`. Its fixed quasi-random entries make orthogonality to a mode practically
+    /// impossible.
+    pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> RobotMotion {
+        // Entries evenly distributed over their range, with both signs except for number 0.
+        let entry = |i: usize| {
             let even = ((i + 97 * number) as f64 * 0.754_877_666).fract();
             if number == 0 { 1.0 - 0.618 * even } else { 1.0 - 2.0 * even }
         };
-        let mut motion = Motion::any(masses.len());
-        *motion.platform_mut() = from_fn(|i| if i < self.dof { part(i) } else { 0.0 });
+        let mut motion = RobotMotion::any(masses.len());
+        *motion.platform_mut() = from_fn(|i| if i < self.dof { entry(i) } else { 0.0 });
         let mut next = 6;
         for (group, (mass, members)) in masses.iter().zip(&self.members).enumerate() {
-            for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.plane[5], &mass.across[2]]) {
+            for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.in_plane[5], &mass.out_of_plane[2]]) {
                 let used = members.len();
                 *line =
                     Line(from_fn(
-                        |i| if i < used { (self.mass[(0, 0)] / mass[i]).sqrt() * part(next + i) } else { 0.0 },
+                        |i| if i < used { (self.mass[(0, 0)] / mass[i]).sqrt() * entry(next + i) } else { 0.0 },
                     ));
                 next += used;
             }
@@ -149,9 +152,9 @@ impl Pencil {
         motion
     }
 
-    /// B y with the masses about x = 0, which inverse iteration goes by: any positive definite B serves it.
+    /// Computes B y with the masses of the condensed cables, for inverse iteration; any positive definite B would do.
     #[inline(always)]
-    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &Motion, into: &mut Motion) {
+    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &RobotMotion, into: &mut RobotMotion) {
         let motion = y.platform();
         let mut platform = [0.0; LANES];
         for part in Part::all(simd) {
@@ -162,18 +165,19 @@ impl Pencil {
             part.set(&mut platform, sum);
         }
 
-        // Cables, and what their ends do to the platform.
+        // Cables, and the forces of their ends on the platform.
         for (group, (arms, mass)) in self.arms.iter().zip(masses).enumerate() {
             let [q, p] = y.bubbles(group);
             let [force_q, force_p] = into.bubbles_mut(group);
             let mut wrench = [[0.0; LANES]; 6];
             for part in Part::all(simd) {
-                let mut plane = [part.splat(0.0); 6];
-                for (entry, mass) in plane.iter_mut().zip(&mass.plane) {
+                let mut in_plane = [part.splat(0.0); 6];
+                for (entry, mass) in in_plane.iter_mut().zip(&mass.in_plane) {
                     *entry = part.of(mass);
                 }
-                let [nn, en, ee, qn, qe, qq] = plane;
-                let [oo, bo, bb] = [part.of(&mass.across[0]), part.of(&mass.across[1]), part.of(&mass.across[2])];
+                let [nn, en, ee, qn, qe, qq] = in_plane;
+                let [oo, bo, bb] =
+                    [part.of(&mass.out_of_plane[0]), part.of(&mass.out_of_plane[1]), part.of(&mass.out_of_plane[2])];
 
                 let ([n, e, b], q, p) = (arms.ends(part, motion), part.of(q), part.of(p));
 
@@ -196,13 +200,14 @@ impl Pencil {
         *into.platform_mut() = platform;
     }
 
-    /// `aᵀ M b` of the platform alone.
-    pub(super) fn platform_mass(&self, a: &Motion, b: &Motion) -> f64 {
+    /// Product `aᵀ M b` of the platform alone.
+    pub(super) fn platform_mass(&self, a: &RobotMotion, b: &RobotMotion) -> f64 {
         let [a, b] = [a, b].map(|motion| Vec6::from_column_slice(&motion.platform()[..6]));
         a.dot(&(self.mass * b))
     }
 
-    fn report(&self, found: &Found) -> First {
+    /// First mode from the lowest eigenvalue and its motion.
+    fn report(&self, found: &LowestPair) -> First {
         let mut cable_energy_fractions = vec![0.0; self.cable_count];
         for (members, masses) in self.members.iter().zip(&found.cables) {
             for (cable, mass) in members.iter().zip(masses) {
@@ -216,7 +221,7 @@ impl Pencil {
         let motion_w = self.motions.expanded(&Vec6::from_column_slice(&motion.platform()[..6]));
         let largest = motion_w[motion_w.iamax()];
 
-        // What moves a platform at rest is rounding.
+        // Below this energy the platform is at rest, and its motion is rounding.
         let at_rest = platform_energy_fraction < 1e-15;
         let shape = from_fn(|i| match i {
             _ if at_rest => 0.0,

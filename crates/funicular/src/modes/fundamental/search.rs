@@ -1,61 +1,67 @@
-//! The lowest eigenvalue of a pencil, between a shift at which it is positive definite and a Rayleigh quotient.
+//! Search for the lowest eigenvalue of a pencil, between a shift at which the pencil is positive definite and a
+//! Rayleigh quotient.
 
 use super::batched_cable::{Kept, place};
-use super::condensed_cables::{Cables, Ends};
+use super::condensed_cables::{Cables, KeptMotion};
 use super::factor::Factor;
-use super::lever_axes::Motion;
-use super::pencil::Pencil;
+use super::lever_axes::RobotMotion;
+use super::pencil::RobotPencil;
 use crate::math::simd::{LANES, Lane, sum};
 use crate::math::{DMat, symmetric_part};
 use pulp::Simd;
 
-/// How far a search goes.
+/// Accuracy and effort of a search.
 pub(super) struct Aim {
     /// Relative width in ω² between the shift and the Rayleigh quotient.
     width: f64,
-    /// Most steps of inverse iteration at one shift; they end when the quotient stands still.
+    /// Maximum number of steps of inverse iteration at one shift; they end when the quotient is constant.
     steps: usize,
-    /// The last step has to be finer than the one before.
+    /// True if the last step must have a finer discretisation than the step before.
     checked: bool,
 }
 
-/// Rounding, which is the stiffest spring's over the softest motion's, comes to 1e-13 in usual robots.
-pub(super) const EXACT: Aim = Aim { width: 1e-9, steps: 6, checked: true };
-/// Where a step costs little.
+/// Final search. The rounding errors, those of the stiffest spring relative to the softest motion, are 1e-13 in usual
+/// robots.
+pub(super) const FINAL: Aim = Aim { width: 1e-9, steps: 6, checked: true };
+
+/// First search for cables of one element, whose steps cost little.
 pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
 
-/// One shift, at rest or well below: as good as cables allow whose unknowns follow as at another frequency.
+/// First search for divided cables: one shift, zero or well below the result. More accuracy is useless while the
+/// eliminated unknowns follow as at another frequency.
 pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
 
-/// Evaluations after which the slow way is faster.
+/// Maximum number of evaluations; beyond it the slow method is faster.
 const MAX_EVALUATIONS: usize = 40;
 
-/// Motions that go along where frequencies are close to each other.
+/// Maximum number of motions iterated together if frequencies are close to each other.
 const BLOCK: usize = 3;
 
-/// Motions, and the Rayleigh quotient of the first.
-pub(super) struct Found {
+/// Approximation of the lowest eigenvalue and its motion.
+pub(super) struct LowestPair {
+    /// Rayleigh quotient of the first motion [rad²/s²].
     pub(super) square: f64,
-    pub(super) motions: Vec<Motion>,
+    /// Motions, the lowest first.
+    pub(super) motions: Vec<RobotMotion>,
     /// Mass of platform and cables in the first motion.
     pub(super) mass: f64,
-    /// The part of each cable, in groups.
+    /// Mass of each cable in the first motion, in groups.
     pub(super) cables: Vec<Lane>,
 }
 
-/// The interval that holds the lowest eigenvalue, as far as it is known.
+/// Interval that contains the lowest eigenvalue.
 struct Bracket {
     /// Highest shift at which the pencil was positive definite.
     low: f64,
-    /// Lowest Rayleigh quotient, or shift with an eigenvalue below.
+    /// Lowest Rayleigh quotient or lowest shift with an eigenvalue below.
     high: f64,
-    /// Last Rayleigh quotient that led downwards.
+    /// Last Rayleigh quotient that was lower than all before.
     leading: f64,
 }
 
 impl Bracket {
-    /// Takes the inertia of the pencil at a shift: so many eigenvalues lie below. False at a shift of zero with any: then
-    /// the pencil is not positive definite at rest.
+    /// Uses the inertia of the pencil at a shift, with `negative` eigenvalues below. The result is false if there are
+    /// any below a shift of zero: then the stiffness is not positive definite.
     fn narrow(&mut self, x: f64, negative: usize) -> bool {
         if negative == 0 {
             self.low = x;
@@ -65,7 +71,7 @@ impl Bracket {
         x > 0.0
     }
 
-    /// Takes a Rayleigh quotient. False if it leads nowhere: a quotient that does not fall belongs to another mode.
+    /// Uses a Rayleigh quotient. The result is false if the quotient does not fall: then it belongs to another mode.
     fn lower_to(&mut self, quotient: f64) -> bool {
         let leads = quotient > 0.0 && quotient <= self.high && quotient < self.leading;
         if leads {
@@ -79,60 +85,59 @@ impl Bracket {
         leads
     }
 
-    /// A shift inside, nearer to its upper end, where the eigenvalue usually is.
+    /// Shift inside the interval, nearer to its upper end, where the eigenvalue usually is.
     fn inside(&self) -> f64 {
         if self.low > 0.0 { 0.25 * self.low + 0.75 * self.high } else { 0.75 * self.high }
     }
 }
 
-/// Fraction of an upper bound that is taken for a lower one where a coarse discretisation has given one above it. The
-/// coarsest has two digits (see [`degree_of_start`](super::condensed_cables::degree_of_start)), so 0.9 is safe; much less
-/// would forget what is known.
+/// Fraction of the upper bound that becomes the lower bound if a coarse discretisation has given a lower bound above
+/// it. The coarsest discretisation has two digits (see [`degree_of_start`](super::condensed_cables::degree_of_start)),
+/// so 0.9 is safe; a much smaller value would lose information.
 const WITHIN_COARSE: f64 = 0.9;
 
-/// What an evaluation has found.
-struct Claim {
-    found: Found,
-    /// The pencil of a finer discretisation at the next shift proves it by being positive definite there.
+/// Result of an evaluation that the next one may prove.
+struct UnprovenPair {
+    found: LowestPair,
+    /// True if it is proved when the pencil of a finer discretisation is positive definite at the next shift.
     provable: bool,
 }
 
-/// Lowest eigenvalue within the aim's width, from a shift x and motions near it; none if the pencil is not positive
-/// definite at rest, or the search does not end.
+/// Lowest eigenvalue within the aim's width, from a shift x and motions near it; `None` if the stiffness is not
+/// positive definite, or the search does not end.
 ///
-/// Inverse iteration at each shift; the next shift is half the width below the quotient, so that the search ends with the
-/// first one that is positive definite. Where this leads to a higher mode, or above several, more motions go along, and
-/// shifts are halved between what is known.
+/// Each shift has an inverse iteration. The next shift is half the width below the quotient, so that the search ends at
+/// the first shift at which the pencil is positive definite. If the iteration leads to a higher mode, or several modes
+/// lie below, more motions are iterated together, and the next shift lies inside the known interval.
 pub(super) fn lowest(
-    pencil: &Pencil,
+    pencil: &RobotPencil,
     cables: &mut impl Cables,
     metric: &[Kept],
     mut x: f64,
-    mut motions: Vec<Motion>,
+    mut motions: Vec<RobotMotion>,
     aim: &Aim,
-) -> Option<Found> {
+) -> Option<LowestPair> {
     let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, leading: f64::INFINITY };
     let mut kept = Vec::with_capacity(metric.len());
-    let mut claim: Option<Claim> = None;
+    let mut claim: Option<UnprovenPair> = None;
 
     for _ in 0..MAX_EVALUATIONS {
-        // Bracket: the eigenvalues below the shift are counted.
+        // Bracket: count the eigenvalues below the shift.
         cables.kept(x, &mut kept);
         let factor = Factor::of(pencil, &kept, x);
         if !bracket.narrow(x, factor.negative) {
             return None;
         }
 
-        // Verify: no eigenvalue lies below the shift that the last quotient led to. A finer discretisation has nothing
-        // below either.
-        if let Some(Claim { found, provable }) = claim.take() {
+        // Verify: no eigenvalue lies below the shift that the last quotient led to, also with a finer discretisation.
+        if let Some(UnprovenPair { found, provable }) = claim.take() {
             if provable && factor.negative == 0 {
                 return Some(found);
             }
             motions = found.motions;
         }
 
-        // Iterate: the motions come nearer to the lowest ones. Where several eigenvalues lie below, as many go along.
+        // Iterate: the motions approach the lowest modes. If several eigenvalues lie below, as many motions are needed.
         if factor.negative > 1 {
             add_any_motions(pencil, metric, &mut motions, factor.negative.min(BLOCK));
         }
@@ -145,8 +150,8 @@ pub(super) fn lowest(
             return Some(found);
         }
 
-        // The next shift: just below the quotient, or between what is known. Only a shift that a coarser discretisation
-        // led to checks this one.
+        // Next shift: just below the quotient, or inside the interval. If the quotient is near its shift, the
+        // discretisation is refined, and the next shift can prove the result.
         let leads = bracket.lower_to(quotient);
         let close = leads && (quotient - x).abs() < CLOSE * quotient;
         if close {
@@ -156,68 +161,70 @@ pub(super) fn lowest(
             add_any_motions(pencil, metric, &mut found.motions, BLOCK);
         }
         x = if leads { quotient * (1.0 - 0.5 * aim.width) } else { bracket.inside() };
-        claim = Some(Claim { found, provable: aim.checked && close });
+        claim = Some(UnprovenPair { found, provable: aim.checked && close });
     }
     None
 }
 
-/// Adds motions of no particular shape until there are `count`.
-fn add_any_motions(pencil: &Pencil, metric: &[Kept], motions: &mut Vec<Motion>, count: usize) {
+/// Adds start vectors until there are `count` motions.
+fn add_any_motions(pencil: &RobotPencil, metric: &[Kept], motions: &mut Vec<RobotMotion>, count: usize) {
     motions.extend((motions.len()..count).map(|number| pencil.any_motion(metric, number)));
 }
 
-/// Relative distance of a shift from its quotient below which a coarse discretisation would be felt.
+/// Relative distance of a shift from its quotient below which the error of a coarse discretisation matters.
 const CLOSE: f64 = 0.1;
 
-/// Inverse iteration at a shift, and what is best of several motions.
+/// Inverse iteration at a shift, and the lowest combination of several motions.
 fn improved(
-    pencil: &Pencil,
+    pencil: &RobotPencil,
     cables: &impl Cables,
     metric: &[Kept],
     factor: &Factor,
     x: f64,
-    motions: Vec<Motion>,
+    motions: Vec<RobotMotion>,
     aim: &Aim,
-) -> Found {
+) -> LowestPair {
     let Iterated { motions, work, ends } =
         pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, aim });
     let count = motions.len();
 
     // Masses of the cables in groups, for each pair of motions.
-    let mut parts = vec![Vec::with_capacity(ends.len()); place(count, 0)];
+    let mut masses = vec![Vec::with_capacity(ends.len()); place(count, 0)];
     for (group, ends) in ends.iter().enumerate() {
-        for (part, masses) in parts.iter_mut().zip(cables.mass(group, ends)) {
-            part.push(masses);
+        for (of_pair, of_group) in masses.iter_mut().zip(cables.mass(group, ends)) {
+            of_pair.push(of_group);
         }
     }
     let mass = |i: usize, j: usize| {
-        let by_cables: f64 = parts[place(i.max(j), i.min(j))].iter().map(sum).sum();
+        let by_cables: f64 = masses[place(i.max(j), i.min(j))].iter().map(sum).sum();
         pencil.platform_mass(&motions[i], &motions[j]) + by_cables
     };
 
     if count == 1 {
         let mass = mass(0, 0);
-        return Found { square: x + work[0] / mass, mass, motions, cables: parts.swap_remove(0) };
+        return LowestPair { square: x + work[0] / mass, mass, motions, cables: masses.swap_remove(0) };
     }
     let work = |i: usize, j: usize| work[count * i + j];
-    combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), motions, &parts)
+    combined(x, &DMat::from_fn(count, count, work), &DMat::from_fn(count, count, mass), motions, &masses)
 }
 
+/// Job for vector registers: inverse iteration at a shift.
 struct Iteration<'a> {
-    pencil: &'a Pencil,
+    pencil: &'a RobotPencil,
     metric: &'a [Kept],
     factor: &'a Factor,
     x: f64,
-    motions: Vec<Motion>,
+    motions: Vec<RobotMotion>,
     aim: &'a Aim,
 }
 
+/// Result of [`Iteration`].
 struct Iterated {
-    motions: Vec<Motion>,
-    /// `yᵀ (K − xM) z` of all pairs of motions.
+    motions: Vec<RobotMotion>,
+    /// Products `yᵀ (K − xM) z` of all pairs of motions.
     work: Vec<f64>,
-    /// The kept unknowns of each group, of each motion.
-    ends: Vec<Vec<Ends>>,
+    /// Motions of the kept unknowns per group, for each motion of the robot.
+    ends: Vec<Vec<KeptMotion>>,
 }
 
 impl pulp::WithSimd for Iteration<'_> {
@@ -228,48 +235,48 @@ impl pulp::WithSimd for Iteration<'_> {
         let Self { pencil, metric, factor, x, mut motions, aim } = self;
         let count = motions.len();
 
-        // B y of each motion.
+        // B y for each motion.
         let (mut forces, mut images) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for motion in &motions {
-            let mut force = Motion::any(metric.len());
+            let mut force = RobotMotion::any(metric.len());
             pencil.inertia(simd, metric, motion, &mut force);
             forces.push(force);
-            images.push(Motion::any(metric.len()));
+            images.push(RobotMotion::any(metric.len()));
         }
 
-        // Inverse iteration until the least quotient stands still.
+        // Inverse iteration until the minimum quotient is constant.
         let mut before = f64::INFINITY;
         for _ in 0..aim.steps {
-            // A z = B y, so zᵀ A z without another product.
+            // A z = B y, so that zᵀ A z needs no other product.
             std::mem::swap(&mut images, &mut forces);
-            let mut least = f64::INFINITY;
+            let mut minimum = f64::INFINITY;
             for k in 0..count {
                 factor.solve(simd, pencil, &images[k], &mut motions[k]);
 
-                // Apart from each other, or all become the first.
+                // Make the motions orthogonal, or all of them would converge to the first mode.
                 let (done, rest) = motions.split_at_mut(k);
                 let (images_done, images_rest) = images.split_at_mut(k);
                 let (forces_done, forces_rest) = forces.split_at_mut(k);
                 let (motion, image, force) = (&mut rest[0], &mut images_rest[0], &mut forces_rest[0]);
                 for i in 0..k {
-                    let part = forces_done[i].dot(simd, motion);
-                    motion.add(simd, -part, &done[i]);
-                    image.add(simd, -part, &images_done[i]);
+                    let component = forces_done[i].dot(simd, motion);
+                    motion.add(simd, -component, &done[i]);
+                    image.add(simd, -component, &images_done[i]);
                 }
 
-                // To unit length, with the force that goes along.
+                // Scale to unit length, together with force and image.
                 pencil.inertia(simd, metric, motion, force);
                 let size = 1.0 / force.dot(simd, motion).sqrt();
                 for vector in [&mut *force, &mut *motion, &mut *image] {
                     vector.scale(simd, size);
                 }
-                least = least.min(motion.dot(simd, image));
+                minimum = minimum.min(motion.dot(simd, image));
             }
 
-            if (least - before).abs() <= 0.01 * least.abs() + 0.1 * aim.width * (x + least).abs() {
+            if (minimum - before).abs() <= 0.01 * minimum.abs() + 0.1 * aim.width * (x + minimum).abs() {
                 break;
             }
-            before = least;
+            before = minimum;
         }
 
         // Products of all pairs, and the motion of the kept unknowns.
@@ -293,20 +300,20 @@ impl pulp::WithSimd for Iteration<'_> {
     }
 }
 
-/// `Σ factor motion`.
+/// Job for vector registers: the sum `Σ factor motion`.
 struct Sum<'a> {
-    motions: &'a [Motion],
+    motions: &'a [RobotMotion],
     factors: Vec<f64>,
     groups: usize,
 }
 
 impl pulp::WithSimd for Sum<'_> {
-    type Output = Motion;
+    type Output = RobotMotion;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Motion {
+    fn with_simd<S: Simd>(self, simd: S) -> RobotMotion {
         let Self { motions, factors, groups } = self;
-        let mut sum = Motion::any(groups);
+        let mut sum = RobotMotion::any(groups);
         sum.clear();
         for (motion, factor) in motions.iter().zip(factors) {
             sum.add(simd, factor, motion);
@@ -315,15 +322,15 @@ impl pulp::WithSimd for Sum<'_> {
     }
 }
 
-/// The motions in which stiffness and mass are diagonal, ascending by their quotient.
-fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec<Lane>]) -> Found {
+/// Combinations of motions in which stiffness and mass are diagonal, in ascending order of their quotient.
+fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<RobotMotion>, masses: &[Vec<Lane>]) -> LowestPair {
     let count = motions.len();
-    let groups = parts[0].len();
+    let groups = masses[0].len();
 
     // L⁻¹ A L⁻ᵀ with the mass L Lᵀ has the quotients as its eigenvalues.
     let factor = mass.clone().cholesky();
     let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
-        return Found { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
+        return LowestPair { square: f64::NAN, motions, mass: f64::NAN, cables: Vec::new() };
     };
     let symmetric = symmetric_part(work);
     let eigen = (&inverse * symmetric * inverse.transpose()).symmetric_eigen();
@@ -338,19 +345,19 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<Motion>, parts: &[Vec
     };
     let first = vectors.column(order[0]);
     let of_group = |group: usize| {
-        let mut masses = [0.0; LANES];
+        let mut sums = [0.0; LANES];
         for i in 0..count {
             for j in 0..count {
-                let part = &parts[place(i.max(j), i.min(j))][group];
-                for (mass, part) in masses.iter_mut().zip(part) {
-                    *mass += first[i] * first[j] * part;
+                let of_pair = &masses[place(i.max(j), i.min(j))][group];
+                for (sum, mass) in sums.iter_mut().zip(of_pair) {
+                    *sum += first[i] * first[j] * mass;
                 }
             }
         }
-        masses
+        sums
     };
 
-    Found {
+    LowestPair {
         square: x + eigen.eigenvalues[order[0]],
         motions: order.iter().map(motion).collect(),
         mass: 1.0,

@@ -1,4 +1,4 @@
-//! The closed form against identities.
+//! Shallow-dynamic cables against identities.
 
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
@@ -30,7 +30,7 @@ fn antisymmetric_modes_know_nothing_of_the_sag() {
             let gap = found.iter().map(|omega| (omega / string - 1.0).abs()).fold(f64::INFINITY, f64::min);
             assert!(gap < 1e-13, "λ² {lambda2}, mode {k}: {gap:e}");
         }
-        // Between two of them lies one that the sag does change.
+        // Between two of them lies a symmetric one, which depends on the sag.
         assert!((18..=20).contains(&found.len()), "λ² {lambda2}: {}", found.len());
     }
 }

@@ -1,4 +1,4 @@
-//! The first natural frequency alone against the first of the whole list.
+//! First natural frequency alone against the first mode of the complete list.
 
 use crate::library::library;
 use crate::random::campaign::robots::{self, Kind};
@@ -10,12 +10,13 @@ use proptest::prelude::*;
 
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
-/// What is wrong with the first mode of a robot, measured by the list up to a tenth above it; energies as good as usual.
+/// Fault of the first mode of a robot, compared with the list up to a tenth above it; energies with the usual accuracy.
 fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
     fault_beyond(robot, rest, first, |_| 1e-6)
 }
 
-/// The same with a bound of the energies' error, of how far the next frequency is above, relative.
+/// Fault of the first mode, with a bound of the energies' error as a function of the relative distance to the next
+/// frequency.
 fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, most: impl Fn(f64) -> f64) -> Option<String> {
     let limit = 1.1 * first.frequency_hz;
     let all = modes::below(&Dynamics::about(robot, rest, Linearisation::default(), limit).unwrap(), limit);
@@ -28,7 +29,7 @@ fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, most: impl Fn(
     if (total - 1.0).abs() > 1e-12 {
         return Some(format!("energies sum to {total}"));
     }
-    // A mode that another one is near to is any mixture of both.
+    // If two modes are near each other, the first may be any mixture of both.
     let apart = all.modes.get(1).map_or(1.0, |next| next.frequency_hz / mode.frequency_hz - 1.0);
     if apart < 1e-3 {
         return None;
@@ -36,7 +37,7 @@ fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, most: impl Fn(
     let energy = (first.platform_energy_fraction - mode.platform_energy_fraction).abs();
     let shape = first.shape.iter().zip(&mode.shape).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let size = mode.shape.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-    // The platform hardly moves in a cable's own mode, and its largest component may be another one.
+    // In a mode of a cable alone the platform hardly moves, and another of its components may be the largest.
     let moves = mode.platform_energy_fraction > 1e-6;
     (energy > most(apart) || first.kind != mode.kind || (moves && shape > 1e-4 * size))
         .then(|| format!("energy {energy:e}, shape {shape:e} off, {apart:e} from the next mode"))
@@ -80,7 +81,7 @@ fn the_first_frequency_of_random_robots_is_that_of_the_whole_list() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
 
-    /// Half of these poses are held by cables that hang nearly without tension, whose first frequencies are those of loops.
+    /// At half of these poses a cable hangs nearly without tension in a loop, which has the first frequency.
     #[test]
     fn the_first_frequency_of_the_papers_robot_is_that_of_the_whole_list_at_any_pose(
         x in -3.0f64..3.0, y in -1.2f64..1.2, z in 0.0f64..2.4, turn in prop::array::uniform3(-3.0f64..3.0),
@@ -91,12 +92,12 @@ proptest! {
         let rest = held.unwrap();
         prop_assume!(matches!(rest.stability, Stability::Stable { .. }));
         let first = modes::first(&robot, &rest).unwrap();
-        // What the frequency's width of 5e-10 leaves room for.
+        // The bound that follows from the frequency's width of 5e-10.
         prop_assert_eq!(fault_beyond(&robot, &rest, &first, |apart| 2.0 * (5e-10 / apart).sqrt()), None);
     }
 }
 
-/// A plate in the xz plane on four cables that cross each other, two of them from below, at rest.
+/// Plate in the xz plane on four cables that cross each other, two of them from below, and its equilibrium.
 fn plate(rope_mass: f64) -> (Robot, Equilibrium) {
     let robot = Robot::from_toml(&format!(
         "name = \"plate\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\

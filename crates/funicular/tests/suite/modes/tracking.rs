@@ -1,4 +1,4 @@
-//! Tracking on a robot whose natural frequencies cross or veer by its symmetry.
+//! Tracking of a robot whose natural frequencies cross or veer, depending on its symmetry.
 
 use funicular::cable::CableModel;
 use funicular::cable_motion::WeightedMotions;
@@ -9,8 +9,8 @@ use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
 use std::fmt::Write;
 
-/// A point mass without weight between pairs of cables along x, y and z; those along x are `ratio` times as stiff as those
-/// along y, and a pair across both has a part `coupling` of that.
+/// Point mass without weight between pairs of cables along x, y and z. The pair along x is `ratio` times as stiff as
+/// the pair along y, and a diagonal pair has the fraction `coupling` of that stiffness.
 fn star(ratio: f64, coupling: f64) -> Robot {
     let mut text =
         String::from("name = \"star\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n");
@@ -37,7 +37,7 @@ fn star(ratio: f64, coupling: f64) -> Robot {
     Robot::from_toml(&text).unwrap()
 }
 
-/// The two lower modes, in the plane of x and y, and how tracking sees them.
+/// The two lower modes, in the plane of x and y, and their motions for tracking.
 fn in_plane(ratio: f64, coupling: f64) -> (Vec<Mode>, Vec<Tracked>) {
     let robot = star(ratio, coupling);
     let State::Lengths(lengths) = &robot.state else { panic!("given by lengths") };
@@ -51,7 +51,7 @@ fn in_plane(ratio: f64, coupling: f64) -> (Vec<Mode>, Vec<Tracked>) {
     (modes, tracked)
 }
 
-/// Ratios from 0.8 to 1.25 in so many steps, symmetric about 1 and without it.
+/// Ratios from 0.8 to 1.25 in a number of steps, symmetric about 1 and without 1 itself.
 fn ratios(steps: i32) -> impl Iterator<Item = f64> {
     (0..steps).map(move |k| (0.8_f64.ln() * (1.0 - 2.0 * f64::from(k) / f64::from(steps - 1))).exp())
 }
@@ -63,7 +63,7 @@ fn modes_along_x_and_along_y_cross_and_keep_their_branches() {
         let branches = track(&tracked);
         for (modes, branches) in modes.iter().zip(&branches) {
             for (mode, branch) in modes.iter().zip(branches) {
-                // The one along x begins as the lower one.
+                // The mode along x is the lower one at first.
                 let along_x = mode.shape[0].abs() > mode.shape[1].abs();
                 assert_eq!(*branch, usize::from(!along_x), "{steps} steps, {} Hz", mode.frequency_hz);
             }
@@ -74,8 +74,8 @@ fn modes_along_x_and_along_y_cross_and_keep_their_branches() {
 
 #[test]
 fn coupled_modes_veer_where_the_steps_are_finer_than_the_range_and_cross_where_they_are_wider() {
-    // k_x − k_y is (ratio − 1) of a pair, the coupling half of `coupling`: each mode turns from x to y while the ratio
-    // goes through 1 ± `coupling`.
+    // k_x − k_y is (ratio − 1) times the stiffness of a pair, the coupling is half of `coupling` times it: each mode
+    // turns from x to y while the ratio passes 1 ± `coupling`.
     let last = |steps, coupling| {
         let tracked: Vec<_> = ratios(steps).map(|ratio| in_plane(ratio, coupling).1).collect();
         track(&tracked).pop().unwrap()

@@ -1,14 +1,14 @@
-//! Random robots by the hundred against robots of bars: every list certified or refused with a reason, none wrong.
+//! Random robots against robots of bars: every list is certified or refused with a reason, none is wrong.
 //!
-//! `FUNICULAR_RANDOM_ROBOTS=2000`, or a range of numbers such as `137..138`, asks for others than the first few; see
-//! CONTRIBUTING.md.
+//! The variable `FUNICULAR_RANDOM_ROBOTS=2000`, or a range of numbers such as `137..138`, selects other robots than the
+//! first few; see CONTRIBUTING.md.
 
 mod bars;
 pub(crate) mod robots;
 
 use bars::Bars;
 use funicular::cable::CableModel;
-use funicular::cable::catenary_dynamic::ExactError;
+use funicular::cable::catenary_dynamic::CatenaryDynamicError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{DMat, Vec3};
 use funicular::modes::{self, Modes};
@@ -19,16 +19,16 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-const EXACT: Linearisation = Linearisation {
+const CATENARY_DYNAMIC: Linearisation = Linearisation {
     cable_model: CableModel::CatenaryDynamic,
     assembly: funicular::dynamics::Assembly::Consistent,
     in_plane_only: false,
 };
 
-/// Bound of the bars' error that their number is chosen for, at the highest frequency.
+/// Bound of the bars' error at the highest frequency, from which their number is chosen.
 const BARS_ERROR: f64 = 1e-4;
 
-/// Robots without the variable: some of every kind.
+/// Robots if the variable is not set: some of every kind.
 const FEW: Range<u64> = 0..60;
 
 fn asked() -> Range<u64> {
@@ -41,34 +41,36 @@ fn asked() -> Range<u64> {
     }
 }
 
-/// What became of the robots.
+/// Results of the robots.
 #[derive(Default)]
 struct Tally {
-    /// By reason.
+    /// Numbers of refused robots by reason.
     refused: BTreeMap<&'static str, Vec<u64>>,
     certified: usize,
     damped: usize,
-    /// Damped lists that are not certified as a mode lies at the limit, so that the contour parts it from its partner.
+    /// Damped lists that are not certified because a mode lies at the limit, so that the contour separates it from its
+    /// partner.
     cut: Vec<u64>,
-    /// Those that say of themselves that they are not certified for another reason.
+    /// Damped lists that are not certified for another reason.
     uncertain: Vec<u64>,
-    /// A description of each fault.
+    /// Description of each fault.
     wrong: Vec<String>,
     modes: usize,
     gaps: usize,
-    /// Relative width between two counts around one frequency, and around several.
+    /// Relative width between two counts around one frequency.
     alone: Vec<f64>,
+    /// Number of frequencies and relative width between two counts around several frequencies.
     together: Vec<(usize, f64)>,
-    /// Lists that no count could be compared with, since static forces take up nearly all stiffness.
+    /// Lists that could not be compared with a count, because static forces cancel nearly all stiffness.
     out_of_reach: Vec<u64>,
-    /// Robots whose pose, as it was built, is no stable equilibrium.
+    /// Number of robots whose pose, as it was built, is no stable equilibrium.
     unstable_pose: usize,
-    /// Robots that forward statics without a start finds in another equilibrium.
+    /// Robots for which forward statics without a start finds another equilibrium.
     elsewhere: Vec<u64>,
-    /// Robots in which it finds none without a start.
+    /// Robots for which forward statics without a start finds no equilibrium.
     astray: Vec<u64>,
     bars: usize,
-    /// Cables whose sag is below 1, 5, 10, 15 % of the chord.
+    /// Numbers of cables whose sag is below 1, 5, 10, 15 % of the chord.
     sags: [usize; 4],
 }
 
@@ -88,18 +90,18 @@ fn every_random_robot_is_certified_or_refused_and_agrees_with_its_bars() {
     }
     tally.print(started.elapsed());
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
-    // Seen: 1 of 2000, a zero among nine close ones.
+    // Among 2000 robots there was one, with a zero among nine close ones.
     assert!(tally.uncertain.len() <= 1 + tally.certified / 1000, "damped lists not certified: {:?}", tally.uncertain);
-    // Seen: 4 of 2000.
+    // Among 2000 robots there were four.
     assert!(tally.astray.len() <= 1 + tally.certified / 200, "no equilibrium without a start: {:?}", tally.astray);
-    // Something has been looked at.
+    // Enough robots were compared.
     assert!(asked.end - asked.start < 20 || (tally.certified > 10 && tally.alone.len() > 10 * tally.certified));
 }
 
-/// Looks at one robot.
+/// Examines one robot.
 ///
 /// # Errors
-/// The reason why the program gives no list.
+/// The reason for which the program gives no list.
 fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
     let mut fault = |what: String| tally.wrong.push(format!("robot {} ({:?}): {what}", sample.index, sample.layout));
     let rest = match rest_of(sample) {
@@ -121,18 +123,18 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
     match statics::forward(&sample.robot, &sample.lengths, StaticModel::Catenary, None) {
         Ok(found) if gap(&found.pose, &rest.pose) < 1e-6 * sample.lengths[0] => {}
         Ok(_) => tally.elsewhere.push(sample.index),
-        // Refused with the pose and the residual reached: near a saddle of symmetric robots.
+        // Reported with the pose and the residual reached: near a saddle of symmetric robots.
         Err(StaticsError::NotConverged { .. }) => tally.astray.push(sample.index),
         Err(refused) => fault(format!("forward statics without a start: {refused}")),
     }
     let mut fault = |what: String| tally.wrong.push(format!("robot {} ({:?}): {what}", sample.index, sample.layout));
 
     let limit = sample.below_hz * TAU;
-    let dynamics = match Dynamics::about(&sample.robot, &rest, EXACT, sample.below_hz) {
+    let dynamics = match Dynamics::about(&sample.robot, &rest, CATENARY_DYNAMIC, sample.below_hz) {
         Ok(dynamics) => dynamics,
         Err(
             DynamicsError::NoTension { cable, .. }
-            | DynamicsError::CatenaryDynamic { cable, reason: ExactError::NoTension },
+            | DynamicsError::CatenaryDynamic { cable, reason: CatenaryDynamicError::NoTension },
         ) => {
             let i = sample.robot.cables.iter().position(|c| c.name == cable).unwrap();
             let hanging = rest.cables[i].hanging.as_ref().unwrap();
@@ -141,7 +143,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
             }
             return Err("a cable without tension");
         }
-        Err(DynamicsError::CatenaryDynamic { reason: ExactError::TooFine { .. }, .. }) => {
+        Err(DynamicsError::CatenaryDynamic { reason: CatenaryDynamicError::TooFine { .. }, .. }) => {
             if sample.kind != Kind::FarTooHigh {
                 fault(format!("{} Hz are too many", sample.below_hz));
             }
@@ -187,24 +189,25 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Whether a mode lies so near the limit that damping, which lowers a cable's frequency by 3ξ²/2, may carry it across.
+/// True if a mode is so near the limit that damping, which lowers a cable's frequency by 3ξ²/2, may move it to the
+/// other side.
 fn at_the_limit(sample: &Sample, rest: &Equilibrium) -> bool {
     let damping = sample.robot.cables.iter().map(|cable| match cable.material.damping {
         Damping::Ratio(ratio) => ratio,
         Damping::Viscous(_) => 0.0,
     });
     let width = 2.0 * damping.fold(0.0, f64::max).powi(2);
-    let wider = Dynamics::about(&sample.robot, rest, EXACT, sample.below_hz * 1.01).unwrap();
+    let wider = Dynamics::about(&sample.robot, rest, CATENARY_DYNAMIC, sample.below_hz * 1.01).unwrap();
     let below = |part: f64| wider.modes_below(sample.below_hz * TAU * part);
     below(1.0 + width) > below(1.0 - width)
 }
 
-/// A mode of the platform on such cables may have no damping.
+/// True if a cable has no mass: a mode of the platform on such cables may have no damping.
 fn has_massless(sample: &Sample) -> bool {
     sample.robot.cables.iter().any(|cable| cable.material.mass_per_length == 0.0)
 }
 
-/// Where the platform rests, started at the pose the robot was built in: whether that is there, and whether it was stable.
+/// Equilibrium from the pose in which the robot was built; true if it is at that pose, and true if that pose is stable.
 fn rest_of(sample: &Sample) -> Result<(Equilibrium, bool, bool), StaticsError> {
     let Sample { robot, lengths, pose, .. } = sample;
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, Some(pose))?;
@@ -212,7 +215,7 @@ fn rest_of(sample: &Sample) -> Result<(Equilibrium, bool, bool), StaticsError> {
         return Ok((rest, true, true));
     }
     let here = gap(&rest.pose, pose) < 1e-6 * lengths[0];
-    // By differences of the wrench, so without the program's tangent.
+    // Stiffness by differences of the wrench, without the program's tangent.
     let (n, radius) = (robot.platform.motion.count(), robot.platform_length());
     let step = 1e-6 * radius;
     let wrench_at = |i: usize, step: f64| {
@@ -226,7 +229,7 @@ fn rest_of(sample: &Sample) -> Result<(Equilibrium, bool, bool), StaticsError> {
         (0..n).for_each(|k| stiffness[(k, i)] = change[k] / if k < 3 { 1.0 } else { radius });
     }
     let values = ((&stiffness + stiffness.transpose()) * 0.5).symmetric_eigenvalues();
-    // Differences are good to 1e-8 or so of the largest.
+    // The differences are accurate to about 1e-8 of the largest.
     Ok((rest, here, values.min() > 1e-7 * values.max()))
 }
 
@@ -234,7 +237,8 @@ fn gap(one: &Pose, other: &Pose) -> f64 {
     (one.position_w - other.position_w).norm().max(one.rot_wp.angle_to(&other.rot_wp))
 }
 
-/// In every gap of the list that is wider than the bars' error the bars count as many frequencies below as are listed.
+/// Compares the list with the bars: in every gap wider than the bars' error, they count as many frequencies below as
+/// listed.
 fn compare(sample: &Sample, found: &Modes, bars: &Bars, tally: &mut Tally) {
     let listed: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz * TAU).collect();
     let limit = found.below_hz * TAU;
@@ -313,8 +317,10 @@ fn bars_are_off_by_no_more_than_their_bound_and_by_a_quarter_of_it_at_half_their
     for sample in (1000..).map(robots::sample).filter(|sample| sample.kind == Kind::Proper).take(12) {
         let rest = rest_of(&sample).unwrap().0;
         let limit = sample.below_hz * TAU;
-        let found =
-            modes::below(&Dynamics::about(&sample.robot, &rest, EXACT, sample.below_hz).unwrap(), sample.below_hz);
+        let found = modes::below(
+            &Dynamics::about(&sample.robot, &rest, CATENARY_DYNAMIC, sample.below_hz).unwrap(),
+            sample.below_hz,
+        );
         let bars = Bars::fine_enough(&sample.robot, &rest, limit, 2e-3);
         let counts: Vec<usize> = bars.counts().iter().map(|count| 2 * count).collect();
         let finer = Bars::new(&sample.robot, &rest, &counts);
@@ -332,7 +338,7 @@ fn bars_are_off_by_no_more_than_their_bound_and_by_a_quarter_of_it_at_half_their
             worst = worst.max(off / bound);
             checked += 1;
             assert!(off < bound, "robot {}, mode {i}: {off:e}, bound {bound:e}", sample.index);
-            // What is left of fourth order, and of the eigenvalues' rounding.
+            // The remainder of fourth order, and the rounding of the eigenvalues.
             let left = ((4.0 * half - one) / 3.0 / omega - 1.0).abs();
             let bound_of_left = 4.0 * bound * bound + 1e-8;
             assert!(left < bound_of_left, "robot {}, mode {i}: {left:e}, {off:e}, bound {bound:e}", sample.index);

@@ -1,4 +1,4 @@
-//! One element of each of several cables: its matrices, and their elimination.
+//! Elements of several cables side by side: their matrices and the elimination of their unknowns.
 
 use super::element_integrals::{MASSES, RULES, TRIPLES};
 use crate::catenary::Catenary;
@@ -6,55 +6,59 @@ use crate::math::simd::{LANES, Lane, Lanes, Line, Part};
 use pulp::Simd;
 use std::array::from_fn;
 
-/// Components of C in the plane, and out of it: (nn, en, ee, oo).
-const PARTS: usize = 4;
+/// Number of entries of C in plane and out of plane: (nn, en, ee, oo).
+const COMPONENTS: usize = 4;
 
-/// Functions of an element that most searches end with.
+/// Number of functions of an element at the end of most searches; room for them is reserved.
 const USUAL_FUNCTIONS: usize = 12;
 
-/// Place in a lower triangle by rows.
+/// Index of an entry in a lower triangle by rows.
 #[inline(always)]
 pub(in crate::modes::fundamental) const fn place(row: usize, column: usize) -> usize {
     row * (row + 1) / 2 + column
 }
 
-/// Stiffness and mass of an element of each cable over its hats and bubbles.
+/// Elements side by side, one per lane, with their stiffness and mass over hats and bubbles.
 #[derive(Debug)]
-pub(super) struct Element {
-    /// Degree that the matrices have.
+pub(super) struct ElementBatch {
+    /// Degree of the matrices.
     degree: usize,
-    /// Legendre coefficients of C over half the length [N/m], the parts of each degree.
+    /// Legendre coefficients of C over half the length [N/m]: the entries of C for each degree.
     coefficients: Lanes,
-    /// Lower triangle by rows, unknowns n, e of each function: hats, then bubbles, ascending.
-    plane: Lanes,
-    /// The same out of plane.
-    across: Lanes,
+    /// Stiffness in plane: lower triangle by rows, unknowns n, e of each function; hats, then bubbles, ascending.
+    in_plane: Lanes,
+    /// Stiffness out of plane: lower triangle by rows, one unknown per function.
+    out_of_plane: Lanes,
     /// Half the mass [kg].
     half_mass: Lane,
-    /// The factors at the last frequency: rows of eliminated unknowns, the inverses of their pivots on the diagonal.
-    pub(super) plane_factor: Lanes,
-    pub(super) across_factor: Lanes,
-    /// Functions of the factors.
+    /// Factor in plane at the last frequency: rows of eliminated unknowns, with the inverse pivots on the diagonal.
+    pub(super) in_plane_factor: Lanes,
+    /// Factor out of plane at the last frequency, in the layout of the one in plane.
+    pub(super) out_of_plane_factor: Lanes,
+    /// Number of functions of the factors.
     functions: usize,
 }
 
-/// What C depends on: the force along the unstrained length of an element.
+/// Data on which C depends: the force along the unstrained length of each element.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Shapes {
+pub(super) struct ForceShapes {
     /// Force at the middle of the element, along e and n [N].
     along: Lane,
     normal: Lane,
-    /// Half its change from end to end [N].
+    /// Half the change of this force from end to end [N].
     along_change: Lane,
     normal_change: Lane,
+    /// Axial stiffness EA [N].
     axial_stiffness: Lane,
+    /// Inverse of half the length [1/m].
     inverse_half: Lane,
+    /// Half the mass [kg].
     half_mass: Lane,
 }
 
-impl Shapes {
-    /// Lane `i`: the element between two arc lengths [m] of a cable of mass m per length [kg/m]; e has the components
-    /// `axis` along the horizontal and up.
+impl ForceShapes {
+    /// Sets lane `i` to the element between two arc lengths [m] of a cable with mass m per length [kg/m]. The
+    /// components of e along the horizontal and up are `axis`.
     pub(super) fn set(&mut self, i: usize, (catenary, mass): (&Catenary, f64), axis: [f64; 2], from: f64, to: f64) {
         let rope = catenary.rope();
         let w = rope.weight_per_length;
@@ -69,32 +73,32 @@ impl Shapes {
     }
 }
 
-impl Element {
-    /// With so many Legendre terms of C, by Gauss's rule.
+impl ElementBatch {
+    /// Elements with a given number of Legendre terms of C, computed by Gauss's rule.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(simd: S, s: &Shapes, terms: usize) -> Self {
-        let mut coefficients = Lanes::any(PARTS * terms);
+    pub(super) fn new<S: Simd>(simd: S, s: &ForceShapes, terms: usize) -> Self {
+        let mut coefficients = Lanes::any(COMPONENTS * terms);
 
-        // With as many points as terms, what is left out comes back in the last term at most.
+        // With as many points as terms, the terms left out affect at most the last term.
         let rule = &RULES[terms - 1];
 
         // C at the points of the rule, and its coefficients.
-        let mut at_points = Lanes::any(PARTS * terms);
+        let mut at_points = Lanes::any(COMPONENTS * terms);
         for part in Part::all(simd) {
-            for (xi, parts) in rule.points.iter().zip(at_points.chunks_exact_mut(PARTS)) {
-                for (lane, value) in parts.iter_mut().zip(s.integrands(part, *xi)) {
+            for (xi, entries) in rule.points.iter().zip(at_points.chunks_exact_mut(COMPONENTS)) {
+                for (lane, value) in entries.iter_mut().zip(s.integrands(part, *xi)) {
                     part.set(lane, value);
                 }
             }
-            for (weights, sums) in rule.weights.iter().zip(coefficients.chunks_exact_mut(PARTS)) {
-                let mut sum = [part.splat(0.0); PARTS];
-                for (weight, parts) in weights.iter().zip(at_points.chunks_exact(PARTS)) {
+            for (weights, sums) in rule.weights.iter().zip(coefficients.chunks_exact_mut(COMPONENTS)) {
+                let mut sum = [part.splat(0.0); COMPONENTS];
+                for (weight, entries) in weights.iter().zip(at_points.chunks_exact(COMPONENTS)) {
                     let weight = part.splat(*weight);
-                    for k in 0..PARTS {
-                        sum[k] = part.mul_add(weight, part.of(&parts[k]), sum[k]);
+                    for k in 0..COMPONENTS {
+                        sum[k] = part.mul_add(weight, part.of(&entries[k]), sum[k]);
                     }
                 }
-                for k in 0..PARTS {
+                for k in 0..COMPONENTS {
                     part.set(&mut sums[k], sum[k]);
                 }
             }
@@ -103,42 +107,42 @@ impl Element {
         Self {
             degree: 0,
             coefficients,
-            plane: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
-            across: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
+            in_plane: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
+            out_of_plane: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
             half_mass: s.half_mass,
-            plane_factor: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
-            across_factor: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
+            in_plane_factor: Lanes::with_room(place(2 * USUAL_FUNCTIONS, 0)),
+            out_of_plane_factor: Lanes::with_room(place(USUAL_FUNCTIONS, 0)),
             functions: 0,
         }
     }
 
-    /// Adds rows of the stiffness up to a degree: `∫ C N_a′ N_b′` over products of slopes. H hats; the slope of the second
-    /// is minus that of the first.
+    /// Adds rows of the stiffness up to a degree: `∫ C N_a′ N_b′` over products of slopes. There are H hats; the slope
+    /// of the second hat is minus that of the first.
     #[inline(always)]
     fn refine<S: Simd, const H: usize>(&mut self, simd: S, degree: usize) {
-        let Self { coefficients, plane, across, .. } = self;
+        let Self { coefficients, in_plane, out_of_plane, .. } = self;
         let triples = &*TRIPLES;
 
         let functions = |degree: usize| if degree == 0 { 0 } else { degree + H - 1 };
         for f in functions(self.degree)..functions(degree) {
             // Room for the row of the function.
-            let (row, row_across) = (plane.len(), across.len());
-            plane.resize(row + 4 * f + 3, Line::ZERO);
-            across.resize(row_across + f + 1, Line::ZERO);
-            let (of_n, of_e) = plane[row..].split_at_mut(2 * f + 1);
-            let of_b = &mut across[row_across..];
+            let (row, row_out_of_plane) = (in_plane.len(), out_of_plane.len());
+            in_plane.resize(row + 4 * f + 3, Line::ZERO);
+            out_of_plane.resize(row_out_of_plane + f + 1, Line::ZERO);
+            let (of_n, of_e) = in_plane[row..].split_at_mut(2 * f + 1);
+            let of_b = &mut out_of_plane[row_out_of_plane..];
 
             let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
             for part in Part::all(simd) {
                 for j in 0..=f {
-                    // Sum over the coefficients of C that both slopes have in common.
+                    // Sum over the coefficients of C that contribute to the product of both slopes.
                     let (high, low) = (slope(f), slope(j));
-                    let mut sums = [part.splat(0.0); PARTS];
-                    let every_second =
-                        coefficients[PARTS * (high - low).min(coefficients.len() / PARTS)..].chunks_exact(PARTS);
+                    let mut sums = [part.splat(0.0); COMPONENTS];
+                    let every_second = coefficients[COMPONENTS * (high - low).min(coefficients.len() / COMPONENTS)..]
+                        .chunks_exact(COMPONENTS);
                     for (factor, c) in triples.of(high, low).iter().zip(every_second.step_by(2)) {
                         let factor = part.splat(*factor);
-                        for k in 0..PARTS {
+                        for k in 0..COMPONENTS {
                             sums[k] = part.mul_add(factor, part.of(&c[k]), sums[k]);
                         }
                     }
@@ -161,37 +165,48 @@ impl Element {
         self.degree = self.degree.max(degree);
     }
 
-    /// Factors K − xM at a degree, down to `plane` and `across` unknowns.
+    /// Factors K − xM at a degree, down to the given numbers of unknowns in plane and out of plane.
     #[inline(always)]
     pub(super) fn factorise<S: Simd, const H: usize>(
         &mut self,
         simd: S,
         x: f64,
         degree: usize,
-        (plane_kept, across_kept): (usize, usize),
+        (in_plane_kept, out_of_plane_kept): (usize, usize),
         min_pivot: &mut Lane,
     ) {
         self.refine::<S, H>(simd, degree);
         let functions = degree + H - 1;
         let inertia = self.half_mass.map(|mass| x * mass);
-        let Self { plane, across, plane_factor, across_factor, .. } = self;
-        plane_factor.resize(place(2 * functions, 0), Line::ZERO);
-        across_factor.resize(place(functions, 0), Line::ZERO);
+        let Self { in_plane, out_of_plane, in_plane_factor, out_of_plane_factor, .. } = self;
+        in_plane_factor.resize(place(2 * functions, 0), Line::ZERO);
+        out_of_plane_factor.resize(place(functions, 0), Line::ZERO);
         for part in Part::all(simd) {
-            factor::<S, 2, H>(part, plane, plane_factor, functions, &inertia, plane_kept, min_pivot);
-            factor::<S, 1, H>(part, across, across_factor, functions, &inertia, across_kept, min_pivot);
+            factor::<S, 2, H>(part, in_plane, in_plane_factor, functions, &inertia, in_plane_kept, min_pivot);
+            factor::<S, 1, H>(
+                part,
+                out_of_plane,
+                out_of_plane_factor,
+                functions,
+                &inertia,
+                out_of_plane_kept,
+                min_pivot,
+            );
         }
         self.functions = functions;
     }
 
-    /// Amplitudes of all functions, in plane and across, that follow the kept ones.
+    /// Amplitudes of all functions, in plane and out of plane, that follow the kept ones.
     #[inline(always)]
-    pub(super) fn moved<S: Simd>(&self, simd: S, plane: &[Lane], across: &[Lane]) -> [Lanes; 2] {
-        let Self { plane_factor, across_factor, functions, .. } = self;
-        [substitute(simd, plane_factor, 2 * functions, plane), substitute(simd, across_factor, *functions, across)]
+    pub(super) fn moved<S: Simd>(&self, simd: S, in_plane: &[Lane], out_of_plane: &[Lane]) -> [Lanes; 2] {
+        let Self { in_plane_factor, out_of_plane_factor, functions, .. } = self;
+        [
+            substitute(simd, in_plane_factor, 2 * functions, in_plane),
+            substitute(simd, out_of_plane_factor, *functions, out_of_plane),
+        ]
     }
 
-    /// `aᵀ M b` in plane and out of plane.
+    /// Products `aᵀ M b` in plane and out of plane.
     #[inline(always)]
     pub(super) fn mass<S: Simd, const H: usize>(&self, simd: S, a: &[Lanes; 2], b: &[Lanes; 2]) -> [Lane; 2] {
         let mut masses = [[0.0; LANES]; 2];
@@ -204,10 +219,10 @@ impl Element {
     }
 }
 
-impl Shapes {
-    /// C over half the length at ξ: its parts.
+impl ForceShapes {
+    /// Entries of C over half the length at ξ.
     #[inline(always)]
-    fn integrands<S: Simd>(&self, part: Part<S>, xi: f64) -> [S::f64s; PARTS] {
+    fn integrands<S: Simd>(&self, part: Part<S>, xi: f64) -> [S::f64s; COMPONENTS] {
         let simd = part.simd;
         let xi = part.splat(xi);
         let along = part.mul_add(xi, part.of(&self.along_change), part.of(&self.along));
@@ -216,20 +231,20 @@ impl Shapes {
         let tension = simd.sqrt_f64s(square);
         let ea = part.of(&self.axial_stiffness);
         let scale = simd.div_f64s(part.mul(part.of(&self.inverse_half), ea), simd.add_f64s(ea, tension));
-        let across = part.mul(scale, tension);
+        let out_of_plane = part.mul(scale, tension);
         let extra = simd.div_f64s(part.mul(scale, ea), square);
         let by_normal = part.mul(extra, normal);
         [
-            part.mul_add(by_normal, normal, across),
+            part.mul_add(by_normal, normal, out_of_plane),
             part.mul(by_normal, along),
-            part.mul_add(part.mul(extra, along), along, across),
-            across,
+            part.mul_add(part.mul(extra, along), along, out_of_plane),
+            out_of_plane,
         ]
     }
 }
 
-/// K − xM of D components a function without the unknowns from number `kept` on, whose rows keep what [`substitute`]
-/// needs.
+/// Eliminates the unknowns from number `kept` on of K − xM with D components per function. Their rows keep the values
+/// that [`substitute`] needs.
 #[inline(always)]
 fn factor<S: Simd, const D: usize, const H: usize>(
     part: Part<S>,
@@ -240,11 +255,10 @@ fn factor<S: Simd, const D: usize, const H: usize>(
     kept: usize,
     min_pivot: &mut Lane,
 ) {
+    // K − xM.
     for (entry, k) in matrix.iter_mut().zip(stiffness) {
         part.set(entry, part.of(k));
     }
-
-    // K − xM.
     let inertia = part.neg(part.of(inertia));
     for (k, j, mass) in MASSES[H - 1].of(functions) {
         let mass = part.mul(part.splat(*mass), inertia);
@@ -255,7 +269,7 @@ fn factor<S: Simd, const D: usize, const H: usize>(
         }
     }
 
-    // From the last unknown down, four at a time.
+    // Eliminate from the last unknown down, four at a time.
     let n = D * functions;
     let odd = (n - kept) % ABREAST;
     let first = n - odd;
@@ -270,10 +284,10 @@ fn factor<S: Simd, const D: usize, const H: usize>(
     }
 }
 
-/// Unknowns eliminated at a time: so many products to each number that is fetched and stored.
+/// Number of unknowns eliminated at a time, which is also the number of products per number loaded and stored.
 const ABREAST: usize = 4;
 
-/// Eliminates unknowns t, t + 1, … t + R − 1, the last of those that are left.
+/// Eliminates unknowns t, t + 1, … t + R − 1, the last of the remaining ones.
 #[inline(always)]
 fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usize, min_pivot: &mut Lane) {
     let (above, mut rest) = matrix[..place(t + R, 0)].split_at_mut(place(t, 0));
@@ -283,7 +297,7 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
         row
     });
 
-    // The rows among each other.
+    // Elimination among these rows.
     let mut inverses = [part.splat(0.0); R];
     for r in (0..R).rev() {
         let (lower, row) = rows.split_at_mut(r);
@@ -297,9 +311,8 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
         }
     }
 
-    // What they take off the rows above.
+    // Their contribution to the rows above; two rows at a time share the loaded numbers.
     let rows: [&[Line]; R] = rows.map(|row| &row[..t]);
-    // Two rows at a time share what they fetch.
     let mut row = t % 2;
     if row == 1 {
         let mut sum = part.of(&above[0]);
@@ -336,18 +349,19 @@ fn eliminate<S: Simd, const R: usize>(part: Part<S>, matrix: &mut [Line], t: usi
     }
 }
 
+/// Replaces a pivot by its inverse, returns the inverse, and updates the minimum pivot.
 #[inline(always)]
 fn invert_pivot<S: Simd>(part: Part<S>, row: &mut [Line], at: usize, min_pivot: &mut Lane) -> S::f64s {
     let pivot = part.of(&row[at]);
-    let least = part.of(min_pivot);
-    let lower = part.simd.less_than_f64s(pivot, least);
-    part.set(min_pivot, part.simd.select_f64s(lower, pivot, least));
+    let minimum = part.of(min_pivot);
+    let lower = part.simd.less_than_f64s(pivot, minimum);
+    part.set(min_pivot, part.simd.select_f64s(lower, pivot, minimum));
     let inverse = part.inverse(pivot);
     part.set(&mut row[at], inverse);
     inverse
 }
 
-/// The eliminated unknowns, at rest but for what the kept ones do to them.
+/// Motion of all n unknowns: the eliminated ones follow the kept ones, without other forces on them.
 #[inline(always)]
 fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lanes {
     let mut all = Lanes::any(n);
@@ -362,7 +376,7 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
             part.set(&mut all[t], part.neg(part.mul(sum, part.of(&row[t]))));
             t += 1;
         }
-        // Two at a time: the second waits for the first in one product only.
+        // Two at a time: only one product of the second depends on the first.
         while t < n {
             let (first, second) = factor[place(t, 0)..place(t + 2, 0)].split_at(t + 1);
             let (known, new) = all.split_at_mut(t);
@@ -390,7 +404,7 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
     all
 }
 
-/// `aᵀ M b` of D components a function, over half the mass.
+/// Product `aᵀ M b` with D components per function, divided by half the mass.
 #[inline(always)]
 fn mass<S: Simd, const D: usize, const H: usize>(part: Part<S>, a: &[Line], b: &[Line]) -> S::f64s {
     let (a, b) = (a.as_chunks::<D>().0, b.as_chunks::<D>().0);

@@ -1,19 +1,19 @@
-//! Integrals over [−1, 1] of hats and bubbles, and Gauss's rules.
+//! Integrals of hats and bubbles over [−1, 1], and Gauss rules.
 
 use super::element::place;
 use super::{MAX_DEGREES, MAX_TERMS};
 use crate::math::legendre;
 use std::sync::LazyLock;
 
-/// `∫ N_a N_b dξ` of the functions of an element that are not zero, (a, b ≤ a, value), by rows: hats, then bubbles.
+/// Nonzero integrals `∫ N_a N_b dξ` of the functions of an element as (a, b ≤ a, value), by rows: hats, then bubbles.
 pub(super) struct Masses {
     entries: Vec<(usize, usize, f64)>,
-    /// Where each row ends.
+    /// End of each row.
     ends: Vec<usize>,
 }
 
 impl Masses {
-    /// With one hat, that at −1, or both.
+    /// Integrals for elements with one hat, at −1, or with both hats.
     fn with_hats(hats: usize) -> Self {
         let first = -1.0 / 6f64.sqrt();
         let second = 1.0 / (3.0 * 10f64.sqrt());
@@ -22,7 +22,7 @@ impl Masses {
             match (f + 1).saturating_sub(hats) {
                 0 if f == 1 => entries.push((1, 0, 1.0 / 3.0)),
                 0 => {}
-                // Bubbles meet the hats in their first two.
+                // Only the first two bubbles have integrals with the hats.
                 1 => entries.extend((0..hats).map(|hat| (f, hat, first))),
                 2 => entries.extend((0..hats).map(|hat| (f, hat, if hat == 0 { second } else { -second }))),
                 k => {
@@ -39,25 +39,26 @@ impl Masses {
         Self { entries, ends }
     }
 
-    /// Of so many functions, at least one.
+    /// Integrals of the first `functions` functions, at least one.
     #[inline(always)]
     pub(super) fn of(&self, functions: usize) -> &[(usize, usize, f64)] {
         &self.entries[..self.ends[functions - 1]]
     }
 }
 
-/// With one hat, and with two.
+/// Mass integrals of elements with one hat and with two.
 pub(super) static MASSES: LazyLock<[Masses; 2]> = LazyLock::new(|| [1, 2].map(Masses::with_hats));
 
-/// `∫ P_l s_j s_k dξ` of the slopes s of two functions and Legendre's P_l, for l = |k − j|, |k − j| + 2, … k + j, outside
-/// of which they vanish.
+/// Integrals `∫ P_l s_j s_k dξ` of the slopes s of two functions and Legendre's P_l, for l = |k − j|, |k − j| + 2, … k
+/// + j; for other l they are zero.
 pub(super) struct Triples {
-    /// Where each pair (k, j ≤ k) begins.
+    /// Start of each pair (k, j ≤ k).
     starts: Vec<usize>,
     values: Vec<f64>,
 }
 
 impl Triples {
+    /// Integrals of the pair (k, j ≤ k), ascending in l.
     #[inline(always)]
     pub(super) fn of(&self, k: usize, j: usize) -> &[f64] {
         let at = place(k, j);
@@ -65,15 +66,16 @@ impl Triples {
     }
 }
 
-/// By Adams's product: `P_k P_j = Σ_r a_r a_{k−r} a_{j−r}/a_{k+j−r} (2l + 1)/(2l + 2r + 1) P_l`, l = k + j − 2r,
-/// a_r = (2r − 1)!!/r!; a sum of positive terms.
+/// Integrals of products of slopes, by Adams's product:
+/// `P_k P_j = Σ_r a_r a_{k−r} a_{j−r}/a_{k+j−r} (2l + 1)/(2l + 2r + 1) P_l`, l = k + j − 2r, a_r = (2r − 1)!!/r!; a sum
+/// of positive terms.
 pub(super) static TRIPLES: LazyLock<Triples> = LazyLock::new(|| {
     let mut a = vec![1.0_f64; 2 * MAX_DEGREES];
     for r in 1..a.len() {
         a[r] = a[r - 1] * (2.0 * r as f64 - 1.0) / r as f64;
     }
     let (mut starts, mut values) = (vec![0], Vec::new());
-    // Of the orthonormal polynomials; the hat's slope is −1/2.
+    // Factors of the orthonormal polynomials; the slope of the hat is −1/2.
     let scale = |k: usize| if k == 0 { -0.5 } else { (k as f64 + 0.5).sqrt() };
     for k in 0..MAX_DEGREES {
         for j in 0..=k {
@@ -88,15 +90,15 @@ pub(super) static TRIPLES: LazyLock<Triples> = LazyLock::new(|| {
     Triples { starts, values }
 });
 
-/// A Gauss rule.
+/// Gauss rule for Legendre coefficients.
 pub(super) struct Rule {
-    /// ξ.
+    /// Points ξ.
     pub(super) points: Vec<f64>,
-    /// For each l the weights of the points times (2l + 1)/2 P_l(ξ).
+    /// For each l, the weights of the points times (2l + 1)/2 P_l(ξ).
     pub(super) weights: Vec<Vec<f64>>,
 }
 
-/// Gauss's rules of 1, 2, … points.
+/// Gauss rules of 1, 2, … points.
 pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
     (1..=MAX_TERMS)
         .map(|count| {

@@ -1,29 +1,31 @@
-//! Where cables are cut into elements, so that C is smooth on each.
+//! Division of cables into elements, so that C is smooth on each.
 
 use crate::cable::catenary_dynamic::{ellipse, has_tension};
 use crate::catenary::Catenary;
 
-/// Smallest Bernstein ellipse of an element: see [`ellipse`]. What [`GROWTH`] leaves is larger.
+/// Minimum size of the Bernstein ellipse of an element, see [`ellipse`]. The elements that [`GROWTH`] gives have larger
+/// ones.
 const SMOOTH_ENOUGH: f64 = 2.4;
 
-/// Length of an element over the distance of its nearer end from where C is singular.
+/// Ratio of the length of an element to the distance of its nearer end from the singularity of C.
 const GROWTH: f64 = 2.5;
 
-/// How a cable is cut.
+/// Elements of a cable, which grow with the distance from its lowest point.
 #[derive(Debug, Clone)]
-pub(super) struct Mesh {
-    /// Ends of its elements from start to end [m].
+pub(super) struct GradedMesh {
+    /// Ends of the elements from start to end [m].
     pub(super) nodes: Vec<f64>,
-    /// Components of its axis e along the horizontal and up: the chord's, or upright where it is cut.
+    /// Components of the cable's axis e along the horizontal and up: along the chord, or vertical with several
+    /// elements.
     pub(super) axis: [f64; 2],
-    /// Number of the node at which the cable is slackest; 0 with one element.
+    /// Number of the node with the lowest tension; 0 with one element.
     pub(super) kept: usize,
-    /// The smallest Bernstein ellipse.
+    /// Size of the smallest Bernstein ellipse.
     pub(super) size: f64,
 }
 
-impl Mesh {
-    /// None if the cable has no tension somewhere.
+impl GradedMesh {
+    /// Elements of a cable; `None` if a point of it has no tension.
     pub(super) fn of(catenary: &Catenary) -> Option<Self> {
         if !has_tension(catenary) {
             return None;
@@ -33,17 +35,17 @@ impl Mesh {
         if size >= SMOOTH_ENOUGH {
             return Some(Self { nodes: vec![0.0, length], axis: catenary.chord_direction(), kept: 0, size });
         }
-        let (nodes, kept) = cut(catenary);
+        let (nodes, kept) = graded_nodes(catenary);
         let of_element = |pair: &[f64]| ellipse(catenary, 0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
         let size = nodes.windows(2).map(of_element).fold(f64::INFINITY, f64::min);
-        // The lowest point of a slack cable swings level.
+        // The lowest point of a slack cable moves horizontally.
         Some(Self { nodes, axis: [0.0, 1.0], kept, size })
     }
 }
 
-/// Elements that grow to both sides of where the cable is slackest: all nodes from start to end [m], and which one is
-/// there.
-fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
+/// Elements that grow to both sides of the point of lowest tension: all nodes from start to end [m], and the number of
+/// the node at that point.
+fn graded_nodes(catenary: &Catenary) -> (Vec<f64>, usize) {
     let rope = catenary.rope();
     let (length, w) = (rope.unstrained_length, rope.weight_per_length);
     // C is singular at lowest ± i depth.
@@ -51,8 +53,8 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
 
     let distance = |s: f64| (s - lowest).hypot(depth);
 
-    // An element much shorter than this distance would be stiff for nothing: the outermost one may have the lowest point
-    // inside.
+    // An element much shorter than this distance would only add stiffness, so the lowest point may lie inside the
+    // outermost element.
     let outermost = |end: f64| if (0.0..length).contains(&lowest) { 2.0 * depth } else { GROWTH * distance(end) };
     let middle = if lowest < depth {
         outermost(0.0).min(0.5 * length)
@@ -63,13 +65,13 @@ fn cut(catenary: &Catenary) -> (Vec<f64>, usize) {
     };
 
     // Elements to both sides.
-    let side = |whole: f64, sign: f64| {
+    let side = |total: f64, sign: f64| {
         let mut ends = Vec::new();
         let mut at = 0.0;
-        while at < whole {
+        while at < total {
             let next = at + GROWTH * distance(middle + sign * at);
-            // A short last element is as good as none.
-            at = if next > 0.8 * whole { whole } else { next };
+            // A short last element is merged with the one before it.
+            at = if next > 0.8 * total { total } else { next };
             ends.push(at);
         }
         ends
@@ -101,7 +103,7 @@ mod tests {
                 axial_stiffness: 1e5,
             };
             let catenary = Catenary::between(span, rise, rope).unwrap();
-            let Some(Mesh { nodes, kept, .. }) = Mesh::of(&catenary) else { return Ok(()) };
+            let Some(GradedMesh { nodes, kept, .. }) = GradedMesh::of(&catenary) else { return Ok(()) };
             if kept == 0 {
                 prop_assert_eq!(nodes.len(), 2);
                 return Ok(());

@@ -1,93 +1,95 @@
-//! Cables of several elements: the elements of all of them side by side, and the nodes cable by cable.
+//! Cables of several elements: elements of all cables are computed side by side, nodes cable by cable.
 
-use super::element::{Element, place};
-use super::mesh::Mesh;
-use super::{ACROSS, IN_PLANE, Kept};
+use super::element::{ElementBatch, place};
+use super::mesh::GradedMesh;
+use super::{IN_PLANE, Kept, OUT_OF_PLANE};
 use crate::math::Matrix;
 use crate::math::simd::{LANES, Lane, Lanes};
 
-/// One cable's elements, and its nodes at the last frequency.
+/// Elements of one cable, and the elimination of its nodes at the last frequency.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
     /// Number of its first element among those of all chains.
     first: usize,
+    /// Number of its elements.
     elements: usize,
-    /// The node that is kept beside the platform end, node 0.
+    /// Number of the node that is kept besides the platform end, which is node 0.
     kept: usize,
-    plane: Nodes<2>,
-    across: Nodes<1>,
-    /// What the kept unknowns do to e of the kept node, and the inverse of its pivot.
+    in_plane: Nodes<2>,
+    out_of_plane: Nodes<1>,
+    /// Stiffness of the kept unknowns against the unknown e of the kept node, and the inverse of its pivot.
     level: ([f64; IN_PLANE], f64),
 }
 
 impl Chain {
-    pub(super) fn new(mesh: &Mesh, first: usize) -> Self {
+    pub(super) fn new(mesh: &GradedMesh, first: usize) -> Self {
         Self {
             first,
             elements: mesh.nodes.len() - 1,
             kept: mesh.kept,
-            plane: Nodes::default(),
-            across: Nodes::default(),
+            in_plane: Nodes::default(),
+            out_of_plane: Nodes::default(),
             level: ([0.0; IN_PLANE], 0.0),
         }
     }
 
-    /// Eliminates the nodes between elements that are condensed onto their ends; writes the lane of `into`.
-    fn condense(&mut self, packs: &[Element], min_pivots: &[Lane], lane: usize, into: &mut Kept) {
-        let mut least = self.of(min_pivots).fold(f64::INFINITY, f64::min);
+    /// Eliminates the nodes between elements that are already condensed onto their ends, and sets a lane of `into`.
+    fn condense(&mut self, packs: &[ElementBatch], min_pivots: &[Lane], lane: usize, into: &mut Kept) {
+        let mut min_pivot = self.of(min_pivots).fold(f64::INFINITY, f64::min);
 
-        let entry = |factor: fn(&Element) -> &Lanes, e: usize, row: usize, column: usize| {
+        let entry = |factor: fn(&ElementBatch) -> &Lanes, e: usize, row: usize, column: usize| {
             let at = self.first + e;
             factor(&packs[at / LANES])[place(row.max(column), row.min(column))][at % LANES]
         };
-        let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.plane_factor, e, row, column);
+        let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.in_plane_factor, e, row, column);
         let out_of_plane =
-            |e: usize, row: usize, column: usize| entry(|element| &element.across_factor, e, row, column);
+            |e: usize, row: usize, column: usize| entry(|element| &element.out_of_plane_factor, e, row, column);
 
-        // In plane, where e of the kept node goes out last.
-        let [own, between, kept] = self.plane.eliminate(in_plane, self.elements, self.kept, &mut least);
+        // In plane; the unknown e of the kept node is eliminated last.
+        let [own, between, kept] = self.in_plane.eliminate(in_plane, self.elements, self.kept, &mut min_pivot);
         let pivot = kept[(1, 1)];
-        least = if pivot < least { pivot } else { least };
+        min_pivot = if pivot < min_pivot { pivot } else { min_pivot };
         let level = [between[(0, 1)], between[(1, 1)], kept[(0, 1)]];
         self.level = (level, 1.0 / pivot);
         let all = [own[(0, 0)], own[(1, 0)], own[(1, 1)], between[(0, 0)], between[(1, 0)], kept[(0, 0)]];
         for row in 0..IN_PLANE {
             for column in 0..=row {
                 let at = place(row, column);
-                into.plane[at][lane] = all[at] - level[row] * level[column] / pivot;
+                into.in_plane[at][lane] = all[at] - level[row] * level[column] / pivot;
             }
         }
 
         // Out of plane.
-        let all = self.across.eliminate(out_of_plane, self.elements, self.kept, &mut least);
-        for (into, k) in into.across.iter_mut().zip(all) {
+        let all = self.out_of_plane.eliminate(out_of_plane, self.elements, self.kept, &mut min_pivot);
+        for (into, k) in into.out_of_plane.iter_mut().zip(all) {
             into[lane] = k[(0, 0)];
         }
 
-        into.min_pivot[lane] = least;
+        into.min_pivot[lane] = min_pivot;
     }
 
-    /// Puts the motion of all nodes, as it follows from that of the kept unknowns, into the ends of the elements.
-    fn spread(&self, plane: [f64; IN_PLANE], across: [f64; ACROSS], ends: &mut [Ends]) {
-        let [n, e, q] = plane;
+    /// Sets the motion of the elements' ends from the motion of the kept unknowns, which all nodes follow.
+    fn spread(&self, in_plane: [f64; IN_PLANE], out_of_plane: [f64; OUT_OF_PLANE], ends: &mut [ElementEnds]) {
+        let [n, e, q] = in_plane;
         let (level, inverse) = self.level;
         let level = -inverse * (level[0] * n + level[1] * e + level[2] * q);
-        let plane = self.plane.follow([n, e].into(), [q, level].into(), self.elements, self.kept);
-        let across = self.across.follow([across[0]].into(), [across[1]].into(), self.elements, self.kept);
-        for (node, (plane, across)) in plane.iter().zip(&across).enumerate() {
-            // The second end of one element and the first of the next; the anchor does not move.
+        let in_plane = self.in_plane.follow([n, e].into(), [q, level].into(), self.elements, self.kept);
+        let out_of_plane =
+            self.out_of_plane.follow([out_of_plane[0]].into(), [out_of_plane[1]].into(), self.elements, self.kept);
+        for (node, (in_plane, out_of_plane)) in in_plane.iter().zip(&out_of_plane).enumerate() {
+            // A node is the second end of one element and the first end of the next. The anchor does not move.
             for (element, side) in [(node.checked_sub(1), 1), (Some(node), 0)] {
                 let Some(element) = element else { continue };
                 let at = self.first + element;
                 let ends = &mut ends[at / LANES];
-                ends.plane[2 * side][at % LANES] = plane[0];
-                ends.plane[2 * side + 1][at % LANES] = plane[1];
-                ends.across[side][at % LANES] = across[0];
+                ends.in_plane[2 * side][at % LANES] = in_plane[0];
+                ends.in_plane[2 * side + 1][at % LANES] = in_plane[1];
+                ends.out_of_plane[side][at % LANES] = out_of_plane[0];
             }
         }
     }
 
-    /// Those of its elements, from what packs have.
+    /// Values of the chain's elements, from the values of all packs.
     fn of(&self, packs: &[Lane]) -> impl Iterator<Item = f64> {
         (self.first..self.first + self.elements).map(|at| packs[at / LANES][at % LANES])
     }
@@ -95,19 +97,19 @@ impl Chain {
 
 /// Motion of both ends of elements side by side.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Ends {
-    pub(super) plane: [Lane; 4],
-    pub(super) across: [Lane; 2],
+pub(super) struct ElementEnds {
+    pub(super) in_plane: [Lane; 4],
+    pub(super) out_of_plane: [Lane; 2],
 }
 
-/// Elimination of a chain's nodes but two, D unknowns each.
+/// Elimination of all nodes of a chain except two, with D unknowns per node.
 #[derive(Debug, Clone, Default)]
 struct Nodes<const D: usize> {
-    /// Of each node that was eliminated: the inverse of its pivot.
+    /// Inverse pivot of each eliminated node.
     inverse: Vec<Block<D>>,
-    /// Stiffness of each node against the next: row the node's.
+    /// Stiffness of each node (rows) against the next (columns).
     next: Vec<Block<D>>,
-    /// Of the platform end against each node up to the kept one.
+    /// Stiffness of the platform end against each node up to the kept one.
     end: Vec<Block<D>>,
 }
 
@@ -115,8 +117,8 @@ type Block<const D: usize> = Matrix<D, D>;
 type Column<const D: usize> = Matrix<D, 1>;
 
 impl<const D: usize> Nodes<D> {
-    /// From the stiffness `entry(element, row, column)` of condensed elements: what is left of the platform end, of it
-    /// against the kept node, and of that.
+    /// Eliminates the nodes from the stiffness `entry(element, row, column)` of condensed elements. The results are the
+    /// blocks of the platform end, of the platform end against the kept node, and of the kept node.
     fn eliminate(
         &mut self,
         entry: impl Fn(usize, usize, usize) -> f64,
@@ -124,17 +126,17 @@ impl<const D: usize> Nodes<D> {
         kept: usize,
         min_pivot: &mut f64,
     ) -> [Block<D>; 3] {
-        let part =
+        let block =
             |e: usize, row: usize, column: usize| Block::<D>::from_fn(|i, j| entry(e, row * D + i, column * D + j));
 
-        // The chain: nodes on the diagonal, neighbours beside it.
+        // Block tridiagonal matrix of the chain: nodes on the diagonal, neighbours beside it.
         let Self { inverse, next, end } = self;
-        let mut own: Vec<Block<D>> = (0..elements).map(|e| part(e, 0, 0)).collect();
-        for (e, block) in own.iter_mut().enumerate().skip(1) {
-            *block += part(e - 1, 1, 1);
+        let mut own: Vec<Block<D>> = (0..elements).map(|e| block(e, 0, 0)).collect();
+        for (e, own) in own.iter_mut().enumerate().skip(1) {
+            *own += block(e - 1, 1, 1);
         }
         next.clear();
-        next.extend((0..elements - 1).map(|e| part(e, 0, 1)));
+        next.extend((0..elements - 1).map(|e| block(e, 0, 1)));
 
         inverse.clear();
         inverse.resize(elements, Block::zeros());
@@ -146,7 +148,7 @@ impl<const D: usize> Nodes<D> {
             own[node - 1] -= before * inverse[node] * before.transpose();
         }
 
-        // From the platform towards it.
+        // From the platform towards the kept node.
         end.clear();
         end.extend([Block::zeros(), next[0]]);
         for node in 1..kept {
@@ -159,7 +161,7 @@ impl<const D: usize> Nodes<D> {
         [own[0], end[kept], own[kept]]
     }
 
-    /// Motion of all nodes.
+    /// Motion of all nodes from that of the platform end and the kept node.
     fn follow(&self, platform: Column<D>, at_kept: Column<D>, elements: usize, kept: usize) -> Vec<Column<D>> {
         let mut all = vec![Column::zeros(); elements];
         (all[0], all[kept]) = (platform, at_kept);
@@ -173,7 +175,7 @@ impl<const D: usize> Nodes<D> {
     }
 }
 
-/// By the last unknown, then the first; D is 1 or 2.
+/// Inverse of a symmetric block with one or two rows, by elimination of the last unknown and then the first.
 fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
     let mut note = |pivot: f64| {
         *min_pivot = if pivot < *min_pivot { pivot } else { *min_pivot };
@@ -193,27 +195,32 @@ fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
     })
 }
 
-/// What is left of the nodes of chains, whose elements are condensed onto their ends.
-pub(super) fn condense(chains: &mut [Chain], packs: &[Element], min_pivots: &[Lane]) -> Kept {
+/// Stiffness of the kept unknowns of chains whose elements are condensed onto their ends.
+pub(super) fn condense(chains: &mut [Chain], packs: &[ElementBatch], min_pivots: &[Lane]) -> Kept {
     let mut kept = Kept::default();
-    // Where there is no cable, pivots are to be divided by.
-    (kept.plane[5], kept.across[2]) = ([1.0; LANES], [1.0; LANES]);
+    // In lanes without a cable the pivots must not be zero.
+    (kept.in_plane[5], kept.out_of_plane[2]) = ([1.0; LANES], [1.0; LANES]);
     for (lane, chain) in chains.iter_mut().enumerate() {
         chain.condense(packs, min_pivots, lane, &mut kept);
     }
     kept
 }
 
-/// Motions of packs of elements that follow those of the kept unknowns of chains.
-pub(super) fn ends(chains: &[Chain], packs: usize, plane: &[Lane; IN_PLANE], across: &[Lane; ACROSS]) -> Vec<Ends> {
-    let mut ends = vec![Ends::default(); packs];
+/// Motions of the ends of packs of elements, which follow those of the kept unknowns of chains.
+pub(super) fn ends(
+    chains: &[Chain],
+    packs: usize,
+    in_plane: &[Lane; IN_PLANE],
+    out_of_plane: &[Lane; OUT_OF_PLANE],
+) -> Vec<ElementEnds> {
+    let mut ends = vec![ElementEnds::default(); packs];
     for (lane, chain) in chains.iter().enumerate() {
-        chain.spread(plane.map(|of| of[lane]), across.map(|of| of[lane]), &mut ends);
+        chain.spread(in_plane.map(|values| values[lane]), out_of_plane.map(|values| values[lane]), &mut ends);
     }
     ends
 }
 
-/// The sums over each chain, of what packs have.
+/// Sums over the elements of each chain, from the values of all packs.
 pub(super) fn sums(chains: &[Chain], of_packs: &[[Lane; 2]]) -> [Lane; 2] {
     let mut sums = [[0.0; LANES]; 2];
     for (component, sums) in sums.iter_mut().enumerate() {

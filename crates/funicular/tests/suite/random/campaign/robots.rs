@@ -1,8 +1,9 @@
-//! Random robots over the range of robots that are built, and beyond: numbered, each its own seed.
+//! Random robots over the range of robots that are built, and beyond; the number of a robot is its seed.
 //!
-//! A pose comes first, then sag ratios and straight tensions that balance the platform, then ropes whose weight gives
-//! that sag at that tension, and last the unstrained lengths at which catenaries balance it too. So sag is what is asked
-//! for, from taut to 15 % of the chord, and the equilibrium is known before the program is asked.
+//! A robot starts from a pose. Then come sag ratios and tensions of straight cables that balance the platform, ropes
+//! whose weight gives that sag at that tension, and last the unstrained lengths at which catenaries balance it too. So
+//! the sag has the requested value, from taut to 15 % of the chord, and the equilibrium is known before the program is
+//! used.
 
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::{DMat, Rotation, Vec3, Vec6};
@@ -13,33 +14,33 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// Why a robot is in the collection.
+/// Purpose of a robot in the collection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
-    /// Has modes.
+    /// Robot with modes.
     Proper,
-    /// A rigid platform on 4 or 5 cables.
+    /// Rigid platform on 4 or 5 cables.
     TooFewCables,
     /// One cable without mass is longer than its chord.
     Slack,
-    /// Asked up to a thousand times the frequency that gives a list of modest length.
+    /// Robot whose frequency limit is up to a thousand times the limit of a list of modest length.
     FarTooHigh,
 }
 
-/// How the cables are placed.
+/// Arrangement of the cables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Layout {
     /// Rigid platform on six cables from above.
     Hanging,
     /// Rigid platform on 7 to 12 cables, some of them from below.
     Redundant,
-    /// Rigid platform, cables in exact mirror images or turned images of each other, or nearly so.
+    /// Rigid platform with cables that are mirrored or rotated images of each other, exactly or nearly.
     Symmetric,
-    /// 4 to 12 cables that meet in a point.
+    /// Point mass on 4 to 12 cables.
     PointMass,
 }
 
-/// A robot, with what is known of it.
+/// Robot with its known properties.
 #[derive(Debug, Clone)]
 pub(crate) struct Sample {
     pub(crate) index: u64,
@@ -47,17 +48,17 @@ pub(crate) struct Sample {
     pub(crate) layout: Layout,
     pub(crate) robot: Robot,
     pub(crate) lengths: Vec<f64>,
-    /// In equilibrium with these lengths, though not always a stable one.
+    /// Pose of equilibrium with these lengths; it may be unstable.
     pub(crate) pose: Pose,
-    /// Sag over chord of each cable, about.
+    /// Approximate ratio of sag to chord of each cable.
     pub(crate) sag: Vec<f64>,
-    /// Limit of the list.
+    /// Frequency limit of the list.
     pub(crate) below_hz: f64,
-    /// The robot file, to be run by itself.
+    /// Text of the robot file.
     pub(crate) text: String,
 }
 
-/// The robot of this number.
+/// Robot of a number.
 pub(crate) fn sample(index: u64) -> Sample {
     let mut seed = [0; 32];
     seed[..8].copy_from_slice(&index.to_le_bytes());
@@ -75,7 +76,7 @@ pub(crate) fn sample(index: u64) -> Sample {
         60..85 => Layout::Symmetric,
         _ => Layout::PointMass,
     };
-    // Most places of cables hold no platform, or not with tension in all; then others are drawn.
+    // Most arrangements hold no platform, or not with tension in all cables; then others are drawn.
     for _ in 0..100_000 {
         if let Some(sample) = draw.attempt(index, kind, layout) {
             return sample;
@@ -86,7 +87,7 @@ pub(crate) fn sample(index: u64) -> Sample {
 
 struct Draw(TestRng);
 
-/// Where cables start and end, world axes from the pose's origin.
+/// Start and end of the cables, world axes from the pose's origin.
 struct Places {
     levers: Vec<Vec3>,
     anchors: Vec<Vec3>,
@@ -98,7 +99,7 @@ impl Draw {
         self.0.random_range(low..high)
     }
 
-    /// Even in the logarithm.
+    /// Uniformly distributed in the logarithm.
     fn decades(&mut self, low: f64, high: f64) -> f64 {
         10f64.powf(self.between(low, high))
     }
@@ -107,7 +108,7 @@ impl Draw {
         self.0.random_bool(part)
     }
 
-    /// One try; none if the cables cannot hold the platform.
+    /// One attempt; `None` if the cables cannot hold the platform.
     fn attempt(&mut self, index: u64, kind: Kind, layout: Layout) -> Option<Sample> {
         let size = self.decades(-0.3, 1.0);
         let mut places = match layout {
@@ -117,7 +118,7 @@ impl Draw {
         let n = places.levers.len();
         let symmetric = places.symmetric;
         if symmetric && self.chance(0.5) {
-            // Nearly: multiplicities fall apart by as little as rounding.
+            // Nearly symmetric: multiple frequencies separate, some by as little as rounding.
             let off = size * self.decades(-10.0, -2.0);
             for anchor in &mut places.anchors {
                 *anchor += Vec3::from_fn(|_, _| off * self.between(-1.0, 1.0));
@@ -137,7 +138,7 @@ impl Draw {
         let weight = mass * G;
         let cables = self.cables(&places, layout, &up, &com, weight, &sag)?;
         let inertia = if layout == Layout::PointMass { None } else { Some(self.inertia(mass, radius, symmetric)) };
-        // The platform's frame is turned against the world's, since levers are given in world axes.
+        // The platform's frame is rotated against the world's, because levers are given in world axes.
         let angles: [f64; 3] =
             std::array::from_fn(|_| if symmetric || inertia.is_none() { 0.0 } else { self.between(-40.0, 40.0) });
         let position: [f64; 3] = std::array::from_fn(|_| if symmetric { 0.0 } else { size * self.between(-1.0, 1.0) });
@@ -170,7 +171,8 @@ impl Draw {
             balanced(&robot, &pose, &cables)?
         };
         if kind == Kind::Slack {
-            // Without mass, a little longer than its chord wherever the platform is held by the others.
+            // This cable has no mass and is slightly longer than its chord at the pose where the others hold the
+            // platform.
             let i = self.0.random_range(0..n);
             let rope = |mass: f64| {
                 format!(
@@ -222,8 +224,8 @@ impl Draw {
         Places { levers, anchors, symmetric: false }
     }
 
-    /// Two or three families of cables that symmetry maps onto themselves: mirrored in two planes, which rounding keeps,
-    /// or turned about the vertical and mirrored.
+    /// Two or three families of cables that a symmetry maps onto themselves: mirrored in two planes, which is exact to
+    /// rounding, or rotated about the vertical and mirrored.
     fn symmetric(&mut self, size: f64) -> Places {
         let (mut levers, mut anchors) = (Vec::new(), Vec::new());
         let two_planes = self.chance(0.5);
@@ -260,8 +262,8 @@ impl Draw {
         Places { levers, anchors, symmetric: true }
     }
 
-    /// Sag ratios. A robot's own level runs evenly with its number; cables that all sag by 12.5 % or more pull down,
-    /// whatever their slope, and hold no platform (a cable's end is level where sin α cos α = 4 d/l).
+    /// Sag ratios. The level of a robot is evenly distributed with its number. Cables that all sag by 12.5 % or more
+    /// pull down with any slope and hold no platform (a cable's end is horizontal if sin α cos α = 4 d/l).
     fn sags(&mut self, index: u64, n: usize, alike: bool) -> Vec<f64> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let level = 0.1 * (index as f64 * GOLDEN).fract();
@@ -310,7 +312,7 @@ impl Draw {
         let load = DMat::from_fn(columns.nrows(), 1, |i, _| -load[i]);
         let wanted = self.decades(-0.5, 0.7) * weight;
         let start = DMat::from_fn(n, 1, |_, _| wanted * if places.symmetric { 0.5 } else { self.between(0.2, 1.0) });
-        // Fewer cables than degrees of freedom balance no pose that is asked for.
+        // Fewer cables than degrees of freedom do not balance an arbitrary pose.
         let tensions = if n < rows {
             start
         } else {
@@ -333,7 +335,7 @@ impl Draw {
         )
     }
 
-    /// Three principal moments, as of a body with about the attachments' radius.
+    /// Three principal moments of a body with about the radius of the attachments.
     fn inertia(&mut self, mass: f64, radius: f64, symmetric: bool) -> [f64; 3] {
         let square = |draw: &mut Self| draw.between(0.05, 0.5) * radius * radius;
         let (x, y, z) = (square(self), square(self), square(self));
@@ -341,7 +343,7 @@ impl Draw {
         [mass * (y + z), mass * (x + z), mass * (x + y)]
     }
 
-    /// A limit [Hz] below which the cables alone have a dozen to 150 modes.
+    /// Limit [Hz] below which the cables alone have a dozen to 150 modes.
     fn limit(&mut self, cables: &[Fit]) -> f64 {
         let modes = self.decades(1.1, 2.2);
         let per_hz: f64 =
@@ -352,10 +354,10 @@ impl Draw {
 
 /// Gravity [m/s²].
 const G: f64 = 9.81;
-/// Largest ratio of sag to chord.
+/// Maximum ratio of sag to chord.
 const DEEPEST: f64 = 0.15;
 
-/// A cable as it is meant to be.
+/// Intended data of a cable.
 struct Fit {
     chord: f64,
     tension: f64,
@@ -368,7 +370,8 @@ fn wrench(force: &Vec3, lever: &Vec3, radius: f64) -> Vec6 {
     Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-/// `Aᵀ (A Aᵀ)⁻¹`: the least change of tensions that makes a change of wrench; none if the cables do not span it.
+/// Pseudoinverse `Aᵀ (A Aᵀ)⁻¹`, for the smallest change of tensions that gives a change of wrench; `None` if the cables
+/// do not span all wrenches.
 fn inverse(columns: &DMat) -> Option<DMat> {
     Some(columns.transpose() * (columns * columns.transpose()).cholesky()?.inverse())
 }
@@ -399,7 +402,7 @@ fn with_lengths(text: &str, lengths: &[f64]) -> String {
     whole
 }
 
-/// Unstrained lengths with which the catenaries balance the platform at the pose, from about the tensions wanted.
+/// Unstrained lengths with which the catenaries balance the platform at the pose, near the intended tensions.
 fn balanced(robot: &Robot, pose: &Pose, cables: &[Fit]) -> Option<Vec<f64>> {
     let n = cables.len();
     let rows = robot.platform.motion.count();
@@ -436,7 +439,7 @@ fn balanced(robot: &Robot, pose: &Pose, cables: &[Fit]) -> Option<Vec<f64>> {
             return None;
         }
         last = size;
-        // The direction of a cable's pull hardly depends on its tension: some ten rounds.
+        // The direction of a cable's force hardly depends on its tension: about ten rounds are enough.
         let change = &inverse * left;
         for (tension, change) in tensions.iter_mut().zip(change.iter()) {
             *tension -= change;
@@ -447,12 +450,12 @@ fn balanced(robot: &Robot, pose: &Pose, cables: &[Fit]) -> Option<Vec<f64>> {
     }
 }
 
-/// The unstrained length at which a cable has a tension along its chord, which falls as it grows.
+/// Unstrained length at which a cable has a given tension along its chord; the tension falls as the length grows.
 fn length_for(span: f64, rise: f64, weight_per_length: f64, axial_stiffness: f64, tension: f64) -> f64 {
     let chord = span.hypot(rise);
     let (mut low, mut high) = (0.5 * chord, 10.0 * chord);
     let mut length = chord;
-    // Three to six; the rest is bisection where rounding has no better.
+    // Three to six steps are usual; the others are bisections at the limit of rounding.
     for _ in 0..100 {
         let rope = Rope { unstrained_length: length, weight_per_length, axial_stiffness };
         let cable = Catenary::between(span, rise, rope).unwrap();
