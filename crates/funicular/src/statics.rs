@@ -4,10 +4,10 @@
 //! |---|---|
 //! | the equilibrium of a robot at its state | [`rest`] |
 //! | pose from unstrained lengths | [`forward`] |
-//! | every equilibrium of given lengths | [`all`], [`another_stable_equilibrium`] |
+//! | every equilibrium of given lengths | [`all_equilibria`], [`another_stable_equilibrium`] |
 //! | lengths from a pose, as many cables as degrees of freedom | [`inverse`] |
 //! | lengths from a pose, more cables than degrees of freedom | [`distribute_tensions`] by a [`TensionRule`] |
-//! | the nearest pose that fewer cables hold | [`nearest`] |
+//! | the nearest pose that fewer cables hold | [`nearest_equilibrium`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | how an equilibrium follows a number of the robot | [`derivatives`] |
 //! | balance at any pose, energy, nearness to a singular pose | [`wrench`], [`energy`], [`tension_gain`] |
@@ -44,13 +44,13 @@ mod tension_gain; // nearness to a singular pose
 
 pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, tangent_with_drag};
 pub use energy::energy;
-pub use equilibria::{Candidate, Candidates, all, another_stable_equilibrium};
+pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
 pub use forward::forward;
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
-pub use nearest_pose::{Nearest, distance, nearest};
+pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub use residual::{carries_nothing, wrench};
 pub use solve::{Solution, inverse, solve, solve_at};
 pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};

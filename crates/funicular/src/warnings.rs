@@ -63,7 +63,7 @@ pub enum Warning {
         translation: f64,
         /// How far it is turned from what was asked [degrees].
         turn_deg: f64,
-        /// Both together [m], [`crate::statics::distance`].
+        /// Both together [m], [`crate::statics::pose_distance`].
         distance: f64,
     },
     /// A shallow-sag model on cables that sag deeper.

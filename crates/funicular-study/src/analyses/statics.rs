@@ -222,7 +222,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     let mut warnings = at_rest.warnings(None);
     if all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let found = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
+        let found = statics::all_equilibria(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
         if let (true, Some(expected)) = (found.lacks_some(), found.expected_index_sum) {
             warnings.push(format!(
                 "the list of equilibria is not whole: the sum of (−1)^(falling directions) is {}, of all it is {expected} \

@@ -9,9 +9,9 @@
 
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
-use super::forward::{AT_REST, Search, elastic, forward};
+use super::forward::{AT_REST, EnergySearch, elastic, forward};
 use super::model::StaticModel;
-use super::nearest_pose::distance;
+use super::nearest_pose::pose_distance;
 use super::residual::check_lengths;
 use crate::math::{Vec3, symmetric};
 use crate::platform::load_size;
@@ -30,7 +30,7 @@ pub struct Candidate {
     /// Energy above that of the lowest of the list [J]; none where the wind turns with the cables or a moment acts, which
     /// have no potential.
     pub energy: Option<f64>,
-    /// Distance from the pose asked [m], see [`distance`](super::distance).
+    /// Distance from the pose asked [m], see [`pose_distance`](super::pose_distance).
     pub distance: f64,
 }
 
@@ -91,7 +91,7 @@ const INDIFFERENT: f64 = 1e-9;
 /// # use funicular::{robot::Robot, statics::{self, StaticModel}};
 /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
-/// let all = statics::all(&robot, &lengths, StaticModel::Catenary, None)?;
+/// let all = statics::all_equilibria(&robot, &lengths, StaticModel::Catenary, None)?;
 /// assert!(all.found[0].is_stable() && all.found[0].distance < 1e-6);
 /// assert!(all.found.len() >= 4 && Some(all.index_sum) == all.expected_index_sum);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -99,39 +99,39 @@ const INDIFFERENT: f64 = 1e-9;
 ///
 /// # References
 /// docs/theory.md, equations (50) and (51).
-pub fn all(
+pub fn all_equilibria(
     robot: &Robot,
     lengths: &[f64],
     model: StaticModel,
-    asked: Option<&Pose>,
+    requested: Option<&Pose>,
 ) -> Result<Candidates, StaticsError> {
     if model == StaticModel::Ideal {
         return Err(StaticsError::NeedsElasticCables);
     }
-    let first = forward(robot, lengths, model, asked)?;
+    let first = forward(robot, lengths, model, requested)?;
 
-    let mut hunt = EquilibriumSearch::new(robot, lengths, model, asked.copied().unwrap_or(first.pose));
-    hunt.take(&first);
+    let mut search = EquilibriumSearch::new(robot, lengths, model, requested.copied().unwrap_or(first.pose));
+    search.take(&first);
     let mut last_find = 0;
     let mut starts = 0;
     let max_starts = if robot.platform.motion.can_turn() { MAX_STARTS } else { 0 };
 
-    while starts < max_starts && hunt.found.len() < MAX_FOUND {
-        let wanting = hunt.expected().is_some_and(|expected| expected != hunt.index_sum());
+    while starts < max_starts && search.found.len() < MAX_FOUND {
+        let wanting = search.expected().is_some_and(|expected| expected != search.index_sum());
         if starts >= last_find + if wanting { 10 * IDLE } else { IDLE } {
             break;
         }
         starts += 1;
 
-        let Some(start) = hunt.start(starts) else { continue };
-        let new = [hunt.downhill(start), hunt.stationary(start)].into_iter().flatten();
+        let Some(start) = search.start(starts) else { continue };
+        let new = [search.downhill(start), search.stationary(start)].into_iter().flatten();
         for equilibrium in new.collect::<Vec<_>>() {
-            if hunt.take(&equilibrium) {
+            if search.take(&equilibrium) {
                 last_find = starts;
             }
         }
     }
-    Ok(hunt.sorted(starts))
+    Ok(search.sorted(starts))
 }
 
 /// Another stable equilibrium for the lengths of one, if a short search meets any; of several the lowest (without energy the
@@ -157,22 +157,22 @@ pub fn another_stable_equilibrium(robot: &Robot, equilibrium: &Equilibrium) -> O
         return None;
     }
 
-    let mut hunt = EquilibriumSearch::new(robot, &lengths, equilibrium.model, equilibrium.pose);
-    hunt.take(equilibrium);
-    let one = hunt.found.remove(0);
+    let mut search = EquilibriumSearch::new(robot, &lengths, equilibrium.model, equilibrium.pose);
+    search.take(equilibrium);
+    let one = search.found.remove(0);
     for k in 1..=FEW_STARTS {
-        if let Some(other) = hunt.start(k).and_then(|start| hunt.downhill(start))
-            && !(one.0.indifferent > 0 && hunt.same_plateau(&one, &other))
-            && distance(robot, &other.pose, &equilibrium.pose) > SAME * hunt.size
+        if let Some(other) = search.start(k).and_then(|start| search.downhill(start))
+            && !(one.0.indifferent > 0 && search.same_plateau(&one, &other))
+            && pose_distance(robot, &other.pose, &equilibrium.pose) > SAME * search.size
         {
-            hunt.take(&other);
+            search.take(&other);
         }
     }
 
-    hunt.found.retain(|(candidate, _)| candidate.is_stable());
-    let key = |found: &(Candidate, f64)| if hunt.has_energy() { found.1 } else { found.0.distance };
-    let (other, energy) = hunt.found.iter().min_by(|a, b| key(a).total_cmp(&key(b)))?.clone();
-    Some((other, hunt.has_energy().then_some(energy - one.1)))
+    search.found.retain(|(candidate, _)| candidate.is_stable());
+    let key = |found: &(Candidate, f64)| if search.has_energy() { found.1 } else { found.0.distance };
+    let (other, energy) = search.found.iter().min_by(|a, b| key(a).total_cmp(&key(b)))?.clone();
+    Some((other, search.has_energy().then_some(energy - one.1)))
 }
 
 /// A search and what it has found, each with its energy [J].
@@ -180,15 +180,15 @@ struct EquilibriumSearch<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
     model: StaticModel,
-    asked: Pose,
+    requested: Pose,
     /// What distances are compared with: the platform and the longest cable [m].
     size: f64,
     found: Vec<(Candidate, f64)>,
 }
 
 impl<'a> EquilibriumSearch<'a> {
-    fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, asked: Pose) -> Self {
-        Self { robot, lengths, model, asked, size: robot.platform_length(), found: Vec::new() }
+    fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, requested: Pose) -> Self {
+        Self { robot, lengths, model, requested, size: robot.platform_length(), found: Vec::new() }
     }
 
     /// The loads have a potential.
@@ -211,8 +211,8 @@ impl<'a> EquilibriumSearch<'a> {
                 if sine > 0.0 { axis * (2.0 * sine.atan2(w) / sine) } else { axis }
             }
         };
-        let turned = self.asked.moved(&Vec3::zeros(), &turn);
-        let mut search = Search::new(self.robot, self.lengths, self.model, &turned);
+        let turned = self.requested.moved(&Vec3::zeros(), &turn);
+        let mut search = EnergySearch::new(self.robot, self.lengths, self.model, &turned);
         search.turns = false;
         let (trial, _) = search.minimise(turned);
         search.holds(&trial).then_some(trial.pose)
@@ -227,7 +227,7 @@ impl<'a> EquilibriumSearch<'a> {
         if !self.has_energy() {
             return None;
         }
-        let search = Search::new(self.robot, self.lengths, self.model, &start);
+        let search = EnergySearch::new(self.robot, self.lengths, self.model, &start);
         let mut here = search.at(start);
         let mut steps = 0;
 
@@ -264,7 +264,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// Adds an equilibrium unless it is in the list; whether it did.
     fn take(&mut self, equilibrium: &Equilibrium) -> bool {
-        let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
+        let search = EnergySearch::new(self.robot, self.lengths, self.model, &equilibrium.pose);
         let trial = search.at(equilibrium.pose);
 
         let (values, _) = symmetric::eigen(&search.stiffness(&trial), search.coordinates.count());
@@ -272,12 +272,12 @@ impl<'a> EquilibriumSearch<'a> {
         let falling = values.iter().filter(|value| **value < -zero).count();
         let indifferent = values.iter().filter(|value| value.abs() <= zero).count();
 
-        let distance_of = |other: &Pose| distance(self.robot, &equilibrium.pose, other);
+        let distance_of = |other: &Pose| pose_distance(self.robot, &equilibrium.pose, other);
         let candidate = Candidate {
             falling,
             indifferent,
             energy: None,
-            distance: distance_of(&self.asked),
+            distance: distance_of(&self.requested),
             equilibrium: equilibrium.clone(),
         };
         let new = (candidate, trial.energy);
@@ -300,7 +300,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// An equilibrium has the energy of an indifferent one: the platform gets there without work.
     fn same_plateau(&self, one: &(Candidate, f64), other: &Equilibrium) -> bool {
-        let search = Search::new(self.robot, self.lengths, self.model, &other.pose);
+        let search = EnergySearch::new(self.robot, self.lengths, self.model, &other.pose);
         self.level(one.1, search.at(other.pose).energy)
     }
 

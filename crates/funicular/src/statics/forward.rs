@@ -68,13 +68,13 @@ pub(super) struct Trial {
     pub(super) wrench: Vec6,
     pub(super) residual: f64,
     /// [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables under very small loads: below it the
-    /// search cannot come nearer. Whether the place is an equilibrium, [`Search::holds`] says.
+    /// search cannot come nearer. Whether the place is an equilibrium, [`EnergySearch::holds`] says.
     pub(super) limit: f64,
     pub(super) energy: f64,
 }
 
 /// The robot with its lengths: energy, wrench and stiffness at any pose.
-pub(super) struct Search<'a> {
+pub(super) struct EnergySearch<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
     /// The cables; the drag of the wind is that of one pose, so that all loads have a potential.
@@ -86,7 +86,7 @@ pub(super) struct Search<'a> {
     pub(super) turns: bool,
 }
 
-impl<'a> Search<'a> {
+impl<'a> EnergySearch<'a> {
     /// With the drag that the cables have at `pose`.
     pub(super) fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, pose: &Pose) -> Self {
         let loaded = LoadedCable::all(robot, pose, model);
@@ -180,7 +180,7 @@ pub(super) fn elastic(
     model: StaticModel,
     start: Pose,
 ) -> Result<Equilibrium, StaticsError> {
-    let mut search = Search::new(robot, lengths, model, &start);
+    let mut search = EnergySearch::new(robot, lengths, model, &start);
     let (mut here, mut iterations) = search.minimise(start);
 
     if robot.wind_turns_with_cables() {
@@ -188,7 +188,7 @@ pub(super) fn elastic(
         // part that the drag's turn is of the stiffness.
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
-            search = Search::new(robot, lengths, model, &here.pose);
+            search = EnergySearch::new(robot, lengths, model, &here.pose);
             here = search.at(here.pose);
             if here.residual < AT_REST || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
                 break;
@@ -225,7 +225,7 @@ const ARMIJO: f64 = 1e-4;
 /// Saddles that one search leaves; each time the energy falls, so that none is met twice.
 const MAX_ESCAPES: usize = 3;
 
-impl Search<'_> {
+impl EnergySearch<'_> {
     /// A step from a place cut to what may be taken at once, and how many times that it was: half a radian, a fifth of
     /// the mean cable or a tenth of the mean distance.
     pub(super) fn limited(&self, from: &Trial, step: &Vec6) -> (Vec6, f64) {
@@ -316,7 +316,7 @@ const MAX_SHIFT: f64 = 1e9;
 
 /// A search on its way downhill.
 struct Descent<'a, 's> {
-    search: &'a Search<'s>,
+    search: &'a EnergySearch<'s>,
     here: Trial,
     /// What is added to the diagonal of the stiffness [N/m].
     shift: f64,
@@ -328,7 +328,7 @@ struct Descent<'a, 's> {
 }
 
 impl<'a, 's> Descent<'a, 's> {
-    fn new(search: &'a Search<'s>, start: Pose) -> Self {
+    fn new(search: &'a EnergySearch<'s>, start: Pose) -> Self {
         let stiffest: f64 = search.loaded.iter().map(LoadedCable::axial_stiffness).sum();
         let min_diagonal = MIN_DIAGONAL * stiffest / search.lengths.iter().copied().fold(0.0, f64::max);
         let here = search.at(start);
@@ -446,7 +446,7 @@ const NOISE: f64 = 1e-10;
 const ESCAPES: [f64; 6] = [0.3, -0.3, 0.1, -0.1, 0.01, -0.01];
 
 /// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
-fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
+fn descend_from_saddle(search: &EnergySearch<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
     let (values, vectors) = symmetric::eigen(stiffness, search.coordinates.count());
     let noise = NOISE * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
@@ -475,7 +475,7 @@ mod tests {
 
     /// The exit of a descent, and what rounding leaves.
     fn descent(robot: &Robot, start: Pose) -> (Trial, usize, Exit) {
-        Search::new(robot, &LENGTHS, StaticModel::Catenary, &start).descend(start)
+        EnergySearch::new(robot, &LENGTHS, StaticModel::Catenary, &start).descend(start)
     }
 
     #[test]

@@ -18,10 +18,10 @@ use crate::robot::{Cable, Pose, Robot};
 
 /// An equilibrium near a pose that was asked for.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Nearest {
+pub struct NearestEquilibrium {
     /// The equilibrium, stable or indifferent; its pose is not the one asked.
     pub equilibrium: Equilibrium,
-    /// Distance of its pose from the one asked [m], see [`distance`].
+    /// Distance of its pose from the one asked [m], see [`pose_distance`].
     pub distance: f64,
 }
 
@@ -77,7 +77,7 @@ const ALONG: f64 = 1e-9;
 
 /// How far apart two poses are [m]: translation and ℓ times the angle between them, in the root of the sum of squares, ℓ
 /// being [`Robot::platform_length`].
-pub fn distance(robot: &Robot, from: &Pose, to: &Pose) -> f64 {
+pub fn pose_distance(robot: &Robot, from: &Pose, to: &Pose) -> f64 {
     gap(robot, from, to).norm()
 }
 
@@ -89,7 +89,7 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 }
 
 /// The pose nearest to a given one that the cables can hold by some lengths, for robots with fewer cables than degrees of freedom;
-/// nearest by [`distance`], among poses around the one that the first guess of lengths leads to.
+/// nearest by [`pose_distance`], among poses around the one that the first guess of lengths leads to.
 ///
 /// # Errors
 /// [`StaticsError`]: ideal cables, a pose out of a planar platform's plane, coinciding ends, or no convergence.
@@ -112,26 +112,30 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 ///     anchor_m = [0.0, 0.0, 3.0]
 /// "#;
 /// let robot = Robot::from_toml(text)?;
-/// let found = statics::nearest(&robot, &Pose::new([0.3, 0.0, 1.0], [0.0; 3]), StaticModel::Catenary)?;
+/// let found = statics::nearest_equilibrium(&robot, &Pose::new([0.3, 0.0, 1.0], [0.0; 3]), StaticModel::Catenary)?;
 /// assert!((found.distance - 0.3).abs() < 1e-9);
 /// assert!((found.equilibrium.pose.position_w.z - 1.0).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Nearest, StaticsError> {
+pub fn nearest_equilibrium(
+    robot: &Robot,
+    requested: &Pose,
+    model: StaticModel,
+) -> Result<NearestEquilibrium, StaticsError> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if model == StaticModel::Ideal {
         return Err(StaticsError::InverseCableCount { cables, dof });
     }
-    robot.platform.motion.check(asked)?;
+    robot.platform.motion.check(requested)?;
 
     // On the surface, by a first guess of the lengths.
     let coordinates = Coordinates::of(robot);
-    let mut lengths = first_lengths(robot, asked, model)?;
-    let mut here = forward(robot, &lengths, model, Some(asked))?;
+    let mut lengths = first_lengths(robot, requested, model)?;
+    let mut here = forward(robot, &lengths, model, Some(requested))?;
     let mut iterations = here.iterations;
     let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
     let mut surface = Surface::at(robot, &here);
-    let mut missing = gap(robot, &here.pose, asked);
+    let mut missing = gap(robot, &here.pose, requested);
 
     let (mut bend, mut damping) = (Mat6::identity(), 0.0);
     for _ in 0..MAX_STEPS {
@@ -146,7 +150,7 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
         let start = coordinates.moved(&here.pose, &motion);
         if let Ok(next) = forward(robot, &trial, model, Some(&start)) {
             iterations += next.iterations;
-            let next_missing = gap(robot, &next.pose, asked);
+            let next_missing = gap(robot, &next.pose, requested);
             let next_surface = Surface::at(robot, &next);
             let next_could = next_surface.along(&next_missing);
 
@@ -188,7 +192,7 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
     }
 
     here.iterations = iterations;
-    Ok(Nearest { equilibrium: here, distance: missing.norm() })
+    Ok(NearestEquilibrium { equilibrium: here, distance: missing.norm() })
 }
 
 /// Lengths of cables whose tensions balance the platform's load as well as straight cables can, none below its least.
@@ -199,28 +203,28 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
     // Load with half of each cable's, and the unit wrenches.
     let mut load = load_wrench(robot, pose);
     let mut columns = DMat::zeros(6, n);
-    let mut lines = Vec::with_capacity(n);
+    let mut loaded = Vec::with_capacity(n);
     for (i, cable) in robot.cables.iter().enumerate() {
         let straight = StraightCable::at(cable, pose);
         let chord = straight.chord_w.norm();
         if chord == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
-        let line = LoadedCable::at(robot, i, pose, model);
-        load += wrench_of(&(line.load.vector_w() * (0.5 * chord)), &straight.lever_w);
+        let cable = LoadedCable::at(robot, i, pose, model);
+        load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &straight.lever_w);
         columns.set_column(i, &straight.unit_wrench(&coordinates));
-        lines.push((line, straight.chord_w));
+        loaded.push((cable, straight.chord_w));
     }
 
     // Tensions that balance it best, and the lengths that have them.
     let right = -coordinates.reduce(&load);
     let balanced = columns.svd(true, true).solve(&right, PARALLEL).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
     let lengths = (0..n).map(|i| {
-        let (line, chord_w) = &lines[i];
+        let (cable, chord_w) = &loaded[i];
         let chord = chord_w.norm();
         // Not so slack that its length would be all sag.
-        let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * line.load.size * chord);
-        line.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
+        let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * cable.load.size * chord);
+        cable.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
     });
     Ok(lengths.collect())
 }
@@ -259,14 +263,14 @@ impl Surface {
 
         // Motions and lengths that go together: the null space of both.
         let svd = equations.svd(false, true);
-        let rows = svd.v_t.expect("asked for");
+        let rows = svd.v_t.expect("requested for");
         let largest = svd.singular_values.max();
         let free: Vec<usize> = (0..n + m).filter(|&k| svd.singular_values[k] <= ZERO * largest).collect();
 
         // Of these an orthonormal basis of the motions; what moves nothing is a change of tensions alone.
         let motions = DMat::from_fn(6, free.len(), |i, k| if i < n { rows[(free[k], i)] } else { 0.0 });
         let svd = motions.svd(true, true);
-        let (u, v_t) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
+        let (u, v_t) = (svd.u.expect("requested for"), svd.v_t.expect("requested for"));
         let kept: Vec<usize> = (0..svd.singular_values.len()).filter(|&k| svd.singular_values[k] > ALONG).collect();
         let lengths = kept.iter().map(|&k| {
             let of = |i: usize| free.iter().enumerate().map(|(j, &row)| v_t[(k, j)] * rows[(row, n + i)]).sum::<f64>();

@@ -5,7 +5,7 @@ use super::error::StaticsError;
 use super::forward::forward;
 use super::inverse::determinate;
 use super::model::StaticModel;
-use super::nearest_pose::nearest;
+use super::nearest_pose::nearest_equilibrium;
 use super::tension::{TensionRule, distribute_tensions};
 use crate::robot::{Pose, Robot, State};
 use std::cmp::Ordering;
@@ -16,7 +16,7 @@ pub struct Solution {
     /// The equilibrium.
     pub equilibrium: Equilibrium,
     /// The pose asked, where fewer cables than degrees of freedom hold only the nearest to it, and how far that is [m], by
-    /// [`distance`](super::distance).
+    /// [`pose_distance`](super::pose_distance).
     pub requested_pose: Option<(Pose, f64)>,
     /// The rule that the tensions were chosen by, where there was a choice.
     pub rule: Option<TensionRule>,
@@ -49,7 +49,7 @@ pub fn solve(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Re
 
 /// Equilibrium of a robot at a state, which need not be its own: of unstrained lengths the pose ([`forward`]); of a pose the
 /// lengths and tensions ([`inverse`]), by the rule where more cables than degrees of freedom leave a choice
-/// ([`distribute_tensions`]); of a pose that fewer cables cannot hold, the nearest one that they can ([`nearest`]).
+/// ([`distribute_tensions`]); of a pose that fewer cables cannot hold, the nearest one that they can ([`nearest_equilibrium`]).
 ///
 /// # Errors
 /// [`StaticsError`] of the function that solves it; [`StaticsError::NoState`] of an unknown state.
@@ -75,9 +75,9 @@ pub fn solve_at(
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
-        State::Pose(pose) => match cables_to_freedoms(robot) {
+        State::Pose(pose) => match cables_to_degrees_of_freedom(robot) {
             Ordering::Less => {
-                let nearest = nearest(robot, pose, model)?;
+                let nearest = nearest_equilibrium(robot, pose, model)?;
                 Ok(Solution { requested_pose: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
             }
             Ordering::Equal => Ok(found(determinate(robot, pose, model)?)),
@@ -92,10 +92,10 @@ pub fn solve_at(
 /// The unstrained lengths and tensions that hold the platform at a pose.
 ///
 /// With more cables than degrees of freedom the tensions are chosen: as low as their limits allow; [`solve_at`] takes other
-/// rules. With as many there is one solution, whatever the limits; [`crate::validity`] compares.
+/// rules. With as many there is one solution, whatever the limits; [`crate::warnings`] compares.
 ///
 /// # Errors
-/// [`StaticsError`]: fewer cables than degrees of freedom ([`nearest`] knows what they can hold), tensions beyond their limits
+/// [`StaticsError`]: fewer cables than degrees of freedom ([`nearest_equilibrium`] knows what they can hold), tensions beyond their limits
 /// if there is a choice, a singular pose, a straight cable that would have to push, no tensions found for sagging ones,
 /// coinciding ends, or no convergence.
 ///
@@ -111,7 +111,7 @@ pub fn solve_at(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
-    match cables_to_freedoms(robot) {
+    match cables_to_degrees_of_freedom(robot) {
         Ordering::Equal => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.
         Ordering::Less | Ordering::Greater => distribute_tensions(robot, pose, model, &TensionRule::default()),
@@ -119,13 +119,13 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
 }
 
 /// Number of cables, compared with the number of degrees of freedom.
-fn cables_to_freedoms(robot: &Robot) -> Ordering {
+fn cables_to_degrees_of_freedom(robot: &Robot) -> Ordering {
     robot.cables.len().cmp(&robot.platform.motion.count())
 }
 
 /// Refuses a tension rule where the tensions follow from the state alone.
 fn refuse_rule_without_choice(robot: &Robot) -> Result<(), StaticsError> {
-    let choice = cables_to_freedoms(robot) == Ordering::Greater;
+    let choice = cables_to_degrees_of_freedom(robot) == Ordering::Greater;
     match &robot.state {
         State::Pose(_) if !choice => {
             let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());

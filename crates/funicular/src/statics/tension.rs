@@ -23,8 +23,8 @@ use super::ideal;
 use super::model::StaticModel;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
-use cable_at_pose::Line;
-use search::Search;
+use cable_at_pose::CableAtPose;
+use search::TensionSearch;
 
 /// Which of all possible tensions a robot with more cables than degrees of freedom shall have.
 ///
@@ -101,13 +101,14 @@ pub fn distribute_tensions(
     }
 
     let coordinates = Coordinates::of(robot);
-    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, coordinates)).collect();
-    check(robot, model, rule, &lines)?;
-    let mut search = Search::new(robot, pose, lines);
+    let cables_at_pose: Vec<CableAtPose> =
+        (0..cables).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
+    check(robot, model, rule, &cables_at_pose)?;
+    let mut search = TensionSearch::new(robot, pose, cables_at_pose);
 
     match rule {
         TensionRule::Lowest => {
-            let minima: Vec<f64> = search.lines().iter().map(|line| line.range.minimum).collect();
+            let minima: Vec<f64> = search.cables().iter().map(|cable| cable.range.minimum).collect();
             search.nearest_to(&minima)?;
         }
         TensionRule::Closest(wanted) => {
@@ -119,14 +120,14 @@ pub fn distribute_tensions(
     }
 
     let iterations = search.iterations();
-    let lines = search.into_lines();
+    let held = search.into_cables();
     if model == StaticModel::Ideal {
-        let tensions: Vec<f64> = lines.iter().map(Line::tau).collect();
+        let tensions: Vec<f64> = held.iter().map(CableAtPose::tau).collect();
         return Ok(ideal::collect(robot, *pose, &tensions, iterations));
     }
 
-    let lengths: Vec<f64> = lines.iter().map(|line| line.hanging.catenary.rope().unstrained_length).collect();
-    let hanging = lines.into_iter().map(|line| line.hanging).collect();
+    let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
+    let hanging = held.into_iter().map(|cable| cable.hanging).collect();
     Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
 }
 
@@ -135,7 +136,12 @@ pub fn distribute_tensions(
 const MAX_CABLES_TO_STIFFEN: usize = 200;
 
 /// Refuses what no tension can satisfy and what a rule does not know enough for.
-fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) -> Result<(), StaticsError> {
+fn check(
+    robot: &Robot,
+    model: StaticModel,
+    rule: &TensionRule,
+    cables_at_pose: &[CableAtPose],
+) -> Result<(), StaticsError> {
     if let TensionRule::Closest(wanted) = rule {
         let cables = robot.cables.len();
         if wanted.len() != 1 && wanted.len() != cables {
@@ -153,8 +159,8 @@ fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) 
         return Err(StaticsError::TooManyToStiffen { cables: robot.cables.len(), limit: MAX_CABLES_TO_STIFFEN });
     }
 
-    for (cable, line) in robot.cables.iter().zip(lines) {
-        let (cable, minimum, maximum) = (cable.name.clone(), line.range.minimum, line.range.maximum);
+    for (cable, at_pose) in robot.cables.iter().zip(cables_at_pose) {
+        let (cable, minimum, maximum) = (cable.name.clone(), at_pose.range.minimum, at_pose.range.maximum);
         if minimum >= maximum {
             return Err(StaticsError::LimitsExclude { cable, minimum, maximum });
         }

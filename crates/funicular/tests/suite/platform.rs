@@ -33,7 +33,7 @@ fn a_force_at_the_centre_of_mass_is_weight() {
     let heavier = robot.with_mass(robot.platform.mass + more);
     for model in [StaticModel::Ideal, StaticModel::Spring, StaticModel::Catenary] {
         let [a, b] = [&loaded, &heavier].map(|robot| statics::forward(robot, &lengths, model, None).unwrap());
-        assert!(statics::distance(&robot, &a.pose, &b.pose) < 1e-10, "{model:?}");
+        assert!(statics::pose_distance(&robot, &a.pose, &b.pose) < 1e-10, "{model:?}");
         for (a, b) in a.cables.iter().zip(&b.cables) {
             assert!((a.tension_platform - b.tension_platform).abs() < 1e-7);
         }
@@ -92,7 +92,7 @@ fn a_moment_is_a_force_beside_the_origin_to_statics_and_not_to_stiffness() {
     // And forward statics finds both again.
     for (robot, at) in [(&beside, &a), (&moved, &b)] {
         let back = statics::forward(robot, &lengths_of(at), StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(robot, &back.pose, &rest.pose) < 1e-8);
+        assert!(statics::pose_distance(robot, &back.pose, &rest.pose) < 1e-8);
     }
 }
 

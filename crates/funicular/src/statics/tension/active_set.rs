@@ -69,7 +69,7 @@ impl Polyhedron {
 }
 
 /// Inequalities, and those of them that hold a point: everything that the active-set method has to know of them.
-pub(super) trait Walls {
+pub(super) trait ConstraintSet {
     /// Number of independent directions in which a point may move.
     fn dimension(&self) -> usize;
 
@@ -101,7 +101,7 @@ pub(super) trait Walls {
 
 /// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
 /// holds it there; `None` if there is no such point.
-pub(super) fn nearest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+pub(super) fn nearest(walls: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
     let tolerance = tolerance.max(rounding(x));
     approach(walls, x, tolerance)
 }
@@ -111,7 +111,7 @@ pub(super) fn nearest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> 
 /// way are zero). `None` if the polyhedron has no points or no highest one.
 ///
 /// The point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see [`Far`].
-pub(super) fn highest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+pub(super) fn highest(walls: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
     let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
     point.last_mut()?.far = 1.0;
     let held = approach(walls, &mut point, tolerance.max(rounding(x)))?;
@@ -124,7 +124,7 @@ pub(super) fn highest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> 
 
 /// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
 /// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
-fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) -> Option<Vec<Active<M>>> {
+fn approach<W: ConstraintSet, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) -> Option<Vec<Active<M>>> {
     let mut active: Vec<Active<M>> = Vec::with_capacity(walls.dimension() + 1);
     // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
     for _ in 0..100 * (walls.dimension() + 1) {
@@ -208,7 +208,7 @@ pub(super) trait Magnitude:
     fn plus_near(self, by: f64) -> Self;
 
     /// Takes rounding from a point that lies on all active inequalities.
-    fn settle(x: &mut [Self], walls: &mut impl Walls);
+    fn settle(x: &mut [Self], walls: &mut impl ConstraintSet);
 }
 
 impl Magnitude for f64 {
@@ -239,7 +239,7 @@ impl Magnitude for f64 {
         self + by
     }
 
-    fn settle(_: &mut [Self], _: &mut impl Walls) {}
+    fn settle(_: &mut [Self], _: &mut impl ConstraintSet) {}
 }
 
 /// `far · L + near` with an L larger than every number: what is far is compared first.
@@ -318,7 +318,7 @@ impl Magnitude for Far {
     }
 
     /// The far part is what the vertical has outside of the active normals.
-    fn settle(x: &mut [Self], walls: &mut impl Walls) {
+    fn settle(x: &mut [Self], walls: &mut impl ConstraintSet) {
         walls.split_vertical();
         x.iter_mut().zip(walls.rest()).for_each(|(x, rest)| x.far = *rest);
     }
@@ -337,7 +337,7 @@ impl<'a> Dense<'a> {
     }
 }
 
-impl Walls for Dense<'_> {
+impl ConstraintSet for Dense<'_> {
     fn dimension(&self) -> usize {
         self.set.dimension
     }

@@ -5,7 +5,7 @@
 //! is a system of as many equations as degrees of freedom. A step costs time in proportion to the number of cables; with a basis
 //! of the null space it costs its square, and a wall dropped its cube. Theory, equations (40a) and (40b).
 
-use super::active_set::{DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, Walls, worst};
+use super::active_set::{ConstraintSet, DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, worst};
 use super::null_space::Solutions;
 use crate::math::{Mat6, Vec6, symmetric};
 
@@ -183,7 +183,7 @@ impl Bounds {
     }
 }
 
-impl Walls for Bounds {
+impl ConstraintSet for Bounds {
     fn dimension(&self) -> usize {
         self.balance.len() - self.dof + usize::from(self.lifted)
     }
@@ -274,13 +274,13 @@ fn inverse_of(matrix: &Mat6) -> Mat6 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::feasible_set::{Found, Room};
+    use super::super::feasible_set::{FeasiblePoint, FeasibleSet};
     use super::super::null_space::Solutions;
     use crate::math::Vec6;
     use proptest::prelude::*;
 
     /// Bounds of one cable: lower and upper, how fast both draw in with the height, and a floor that does not.
-    type Bound = (f64, f64, f64, f64, f64);
+    type CableBounds = (f64, f64, f64, f64, f64);
 
     fn solutions(columns: &[[f64; 6]], right: &[f64; 6], dof: usize, directions: bool) -> Option<Solutions> {
         let columns: Vec<Vec6> = columns.iter().map(|column| Vec6::from_column_slice(column)).collect();
@@ -288,8 +288,8 @@ mod tests {
     }
 
     /// The walls of tensions with a height as the rules build them: floors, and a ceiling of the height.
-    fn room<'a>(solutions: &'a Solutions, bounds: &[Bound], lifted: bool) -> Room<'a> {
-        let mut room = Room::new(solutions, lifted);
+    fn room<'a>(solutions: &'a Solutions, bounds: &[CableBounds], lifted: bool) -> FeasibleSet<'a> {
+        let mut room = FeasibleSet::new(solutions, lifted);
         for (i, (lower, width, by_lower, by_upper, floor)) in bounds.iter().enumerate() {
             let lift = |by: &f64| if lifted { -by } else { 0.0 };
             room.add(Some(i), 1.0, lift(by_lower), *lower);
@@ -304,8 +304,8 @@ mod tests {
 
     /// What the method in the null space finds, and what the one in the space of the cables does.
     fn compare(
-        few: Option<Found>,
-        many: Option<Found>,
+        few: Option<FeasiblePoint>,
+        many: Option<FeasiblePoint>,
         start: &[f64],
         height: Option<f64>,
     ) -> Result<(), TestCaseError> {
@@ -319,14 +319,14 @@ mod tests {
             return Ok(());
         };
         prop_assert!((few.height - many.height).abs() < 1e-9 * size, "{} {}", few.height, many.height);
-        let distance = |found: &Found| {
+        let distance = |found: &FeasiblePoint| {
             let cables: f64 = found.sigma.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
             (cables + (found.height - height) * (found.height - height)).sqrt()
         };
         prop_assert!((distance(&many) - distance(&few)).abs() < 1e-9 * size, "{} {}", distance(&few), distance(&many));
 
         // What holds the nearest point is the same.
-        let multipliers = |found: &Found| {
+        let multipliers = |found: &FeasiblePoint| {
             let mut sum = std::collections::BTreeMap::new();
             for held in found.held.iter().filter(|held| held.multiplier > 1e-7) {
                 *sum.entry(held.row).or_insert(0.0) += held.multiplier;
@@ -344,13 +344,13 @@ mod tests {
 
     /// All walls and the balance hold.
     fn check(
-        found: Option<&Found>,
+        found: Option<&FeasiblePoint>,
         columns: &[[f64; 6]],
         right: &[f64],
-        bounds: &[Bound],
+        bounds: &[CableBounds],
         lifted: bool,
     ) -> Result<(), TestCaseError> {
-        let Some(Found { sigma, height, .. }) = found else { return Ok(()) };
+        let Some(FeasiblePoint { sigma, height, .. }) = found else { return Ok(()) };
         for (k, right) in right.iter().enumerate() {
             let sum: f64 = columns.iter().zip(sigma).map(|(column, sigma)| column[k] * sigma).sum();
             prop_assert!((sum - right).abs() < 1e-10, "{sum} for {right}");

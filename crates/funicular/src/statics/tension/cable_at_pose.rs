@@ -15,7 +15,7 @@ use crate::statics::model::StaticModel;
 /// exactly, the vertical one nearly linear in τ, and above [`Catenary::SLACKEST`] every tension in the cable grows
 /// with τ, so that limits at the ends are limits of τ.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub(super) struct CableAtPose {
     pub hanging: HangingCable,
     lever_w: Vec3,
     coordinates: Coordinates,
@@ -32,12 +32,12 @@ pub(super) struct Line {
 
 /// A tension somewhere in the cable and its derivative by τ.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Tension {
+pub(super) struct TensionByTau {
     pub value: f64,
     pub slope: f64,
 }
 
-impl Line {
+impl CableAtPose {
     /// Cable `i`, taut enough for its slope to be that of a taut cable; its ends must not coincide.
     pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, coordinates: Coordinates) -> Self {
         let cable = LoadedCable::at(robot, i, pose, model);
@@ -139,34 +139,34 @@ impl Line {
     }
 
     /// The least tension anywhere in the cable.
-    pub(super) fn least(&self) -> Tension {
+    pub(super) fn least(&self) -> TensionByTau {
         let [lower, _] = self.ends();
         let cos = self.span / self.hanging.chord_w().norm();
         let catenary = &self.hanging.catenary;
         if catenary.vertical_force_at_start() < 0.0 && catenary.vertical_force_at_end() > 0.0 {
-            Tension { value: catenary.horizontal_force(), slope: cos }
+            TensionByTau { value: catenary.horizontal_force(), slope: cos }
         } else {
             lower
         }
     }
 
     /// The greatest tension anywhere in the cable.
-    pub(super) fn greatest(&self) -> Tension {
+    pub(super) fn greatest(&self) -> TensionByTau {
         self.ends()[1]
     }
 
     /// The tensions at the lower and at the upper end.
-    fn ends(&self) -> [Tension; 2] {
+    fn ends(&self) -> [TensionByTau; 2] {
         let catenary = &self.hanging.catenary;
         if self.rope().weight_per_length == 0.0 {
-            return [Tension { value: self.tau, slope: 1.0 }; 2];
+            return [TensionByTau { value: self.tau, slope: 1.0 }; 2];
         }
         let [h_by_length, v_by_length] = catenary.start_force_by_length();
         let tension = |vertical: f64, by_length: f64| {
             let horizontal = catenary.horizontal_force();
             let value = (horizontal * horizontal + vertical * vertical).sqrt();
             let slope = (horizontal * h_by_length + vertical * by_length) * self.length_rate / value;
-            Tension { value, slope }
+            TensionByTau { value, slope }
         };
         let start = tension(catenary.vertical_force_at_start(), v_by_length);
         let end = tension(catenary.vertical_force_at_end(), v_by_length + self.rope().weight_per_length);

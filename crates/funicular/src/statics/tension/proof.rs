@@ -6,7 +6,7 @@
 //! variable, along the true curve of the cable.
 
 use super::active_set::Polyhedron;
-use super::cable_at_pose::Line;
+use super::cable_at_pose::CableAtPose;
 use crate::math::{Vec3, Vec6};
 use crate::robot::PlatformMotion;
 
@@ -26,13 +26,13 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone)]
 pub(super) struct Reach {
     /// The cable at the least τ within its limits, not slacker than (37), and at the greatest.
-    ends: [Line; 2],
+    ends: [CableAtPose; 2],
 }
 
 impl Reach {
-    /// From a cable in any state; `minimum` is its [`Line::at_minimum`].
-    pub(super) fn of(line: &Line, minimum: f64) -> Self {
-        let mut ends = [line.clone(), line.clone()];
+    /// From a cable in any state; `minimum` is its [`CableAtPose::at_minimum`].
+    pub(super) fn of(cable: &CableAtPose, minimum: f64) -> Self {
+        let mut ends = [cable.clone(), cable.clone()];
         ends[0].set(minimum);
         ends[1].at_maximum();
         // Limits that are no wider than the bend of a heavy rope.
@@ -42,14 +42,14 @@ impl Reach {
         Self { ends }
     }
 
-    fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> Seen {
-        let line = &self.ends[0];
-        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&line.wrench(force_w)));
-        let upward = in_direction(&line.hanging.axes_w().1);
-        let sin = line.sin();
-        Seen {
-            along: in_direction(&line.hanging.chord_w().normalize()),
-            of_length: -0.5 * upward * line.weight_per_length(),
+    fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> DirectionalShare {
+        let cable = &self.ends[0];
+        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&cable.wrench(force_w)));
+        let upward = in_direction(&cable.hanging.axes_w().1);
+        let sin = cable.sin();
+        DirectionalShare {
+            along: in_direction(&cable.hanging.chord_w().normalize()),
+            of_length: -0.5 * upward * cable.weight_per_length(),
             convex_bend: upward * sin >= 0.0,
             steep: sin.abs() > STEEP,
         }
@@ -63,7 +63,7 @@ impl Reach {
 
 /// A cable seen in one direction: its share is `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct DirectionalShare {
     /// What the share is per τ of a straight cable.
     along: f64,
     /// The factor of the length, `−½ b w` [N/m in parts of y].
@@ -76,7 +76,7 @@ struct Seen {
 
 /// A point of a cable's share.
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct SharePoint {
     tau: f64,
     /// The cable's wrench, scaled, in the platform's coordinates.
     wrench: Vec6,
@@ -87,14 +87,14 @@ struct Point {
     length: [f64; 2],
 }
 
-impl Point {
-    fn of(line: &Line, y: &Vec6, seen: &Seen, motion: &PlatformMotion) -> Self {
-        let wrench = motion.reduced(&line.wrench(&line.force().0));
-        let straight = seen.along * line.tau();
-        let length = line.length().map(|value| seen.of_length * value);
-        let slope = y.dot(&motion.reduced(&line.column()));
+impl SharePoint {
+    fn of(cable: &CableAtPose, y: &Vec6, seen: &DirectionalShare, motion: &PlatformMotion) -> Self {
+        let wrench = motion.reduced(&cable.wrench(&cable.force().0));
+        let straight = seen.along * cable.tau();
+        let length = cable.length().map(|value| seen.of_length * value);
+        let slope = y.dot(&motion.reduced(&cable.column()));
         let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
-        Self { tau: line.tau(), wrench, straight, bend, length }
+        Self { tau: cable.tau(), wrench, straight, bend, length }
     }
 
     fn share(&self) -> f64 {
@@ -104,14 +104,14 @@ impl Point {
 
 /// A part of a cable's reach.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct TauInterval {
     cable: usize,
-    ends: [Point; 2],
+    ends: [SharePoint; 2],
 }
 
-impl Part {
+impl TauInterval {
     /// Nothing between the ends is above: (39b).
-    fn bound(&self, seen: &Seen) -> f64 {
+    fn bound(&self, seen: &DirectionalShare) -> f64 {
         let [from, to] = &self.ends;
         let width = to.tau - from.tau;
 
@@ -136,7 +136,7 @@ impl Part {
         sums.fold(f64::INFINITY, f64::min)
     }
 
-    fn best(&self) -> Point {
+    fn best(&self) -> SharePoint {
         let [from, to] = self.ends;
         if from.share() > to.share() { from } else { to }
     }
@@ -151,13 +151,13 @@ pub(super) struct Verdict {
 }
 
 /// A load that cables are to balance, within their reaches; in the platform's coordinates, scaled.
-pub(super) struct Claim<'a> {
+pub(super) struct Infeasibility<'a> {
     pub reaches: &'a [Reach],
     pub load: Vec6,
     pub motion: PlatformMotion,
 }
 
-impl Claim<'_> {
+impl Infeasibility<'_> {
     /// Whether a direction proves that the load is not balanced: the first one, or one of those that follow from it.
     ///
     /// Every direction that proves nothing has a set of tensions within the limits on the wrong side of its plane. The
@@ -203,20 +203,20 @@ impl Claim<'_> {
     }
 
     /// Whether one direction proves it, and the points of the cables with the greatest shares in it.
-    fn examine(&self, y: &Vec6) -> (bool, Vec<Point>) {
-        let mut parts: Vec<Part> = Vec::with_capacity(self.reaches.len());
-        let seen: Vec<Seen> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
+    fn examine(&self, y: &Vec6) -> (bool, Vec<SharePoint>) {
+        let mut parts: Vec<TauInterval> = Vec::with_capacity(self.reaches.len());
+        let seen: Vec<DirectionalShare> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
         for (cable, reach) in self.reaches.iter().enumerate() {
-            let end = |k: usize| Point::of(&reach.ends[k], y, &seen[cable], &self.motion);
-            parts.push(Part { cable, ends: [end(0), end(1)] });
+            let end = |k: usize| SharePoint::of(&reach.ends[k], y, &seen[cable], &self.motion);
+            parts.push(TauInterval { cable, ends: [end(0), end(1)] });
         }
-        let mut best: Vec<Point> = parts.iter().map(Part::best).collect();
+        let mut best: Vec<SharePoint> = parts.iter().map(TauInterval::best).collect();
         let own = y.dot(&self.load);
         let size = own.abs() + best.iter().map(|point| point.share().abs()).sum::<f64>();
 
         for _ in 0..=MAX_HALVINGS {
             // The sum of all bounds decides, …
-            let mut bounds: Vec<f64> = best.iter().map(Point::share).collect();
+            let mut bounds: Vec<f64> = best.iter().map(SharePoint::share).collect();
             for part in &parts {
                 bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable]));
             }
@@ -225,23 +225,23 @@ impl Claim<'_> {
             }
 
             // … or that of shares that the cables do have.
-            if own + best.iter().map(Point::share).sum::<f64>() >= -ROUNDING * size {
+            if own + best.iter().map(SharePoint::share).sum::<f64>() >= -ROUNDING * size {
                 break;
             }
 
             // Between both the part that is least known is halved.
-            let excess = |part: &Part| part.bound(&seen[part.cable]) - best[part.cable].share();
+            let excess = |part: &TauInterval| part.bound(&seen[part.cable]) - best[part.cable].share();
             let widest = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])));
             let Some(widest) = widest else { break };
-            let Part { cable, ends: [from, to] } = parts[widest];
-            let mut line = self.reaches[cable].ends[0].clone();
-            line.set((from.tau * to.tau).sqrt());
-            let middle = Point::of(&line, y, &seen[cable], &self.motion);
+            let TauInterval { cable, ends: [from, to] } = parts[widest];
+            let mut there = self.reaches[cable].ends[0].clone();
+            there.set((from.tau * to.tau).sqrt());
+            let middle = SharePoint::of(&there, y, &seen[cable], &self.motion);
             if middle.share() > best[cable].share() {
                 best[cable] = middle;
             }
             parts[widest].ends = [from, middle];
-            parts.push(Part { cable, ends: [middle, to] });
+            parts.push(TauInterval { cable, ends: [middle, to] });
         }
         (false, best)
     }

@@ -6,12 +6,12 @@
 mod cutting_planes;
 mod model;
 
-use super::search::Search;
+use super::search::TensionSearch;
 use crate::math::{Mat6, symmetric, symmetric_part};
 use crate::platform::Coordinates;
 use crate::statics::error::StaticsError;
 use crate::statics::stiffness::assembled;
-use model::{Model, Step};
+use model::{Model, StiffeningStep};
 
 /// Gain of stiffness, relative, that is not worth a step.
 const GAIN: f64 = 3e-8;
@@ -23,7 +23,7 @@ const MAX_STEPS: usize = 40;
 const MIN_STEP: f64 = 1e-3;
 
 /// Tensions within the limits that make the robot stiffest.
-pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
+pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     search.near_middle()?;
     survey(search)?;
     if climb(search) { Ok(()) } else { cutting_planes::search(search) }
@@ -31,7 +31,7 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
 
 /// Moves to the stiffest of a few tensions: the present ones and those half-way from them to the limits, forth and back
 /// along every direction. Where ropes sag there are several optima; this begins near a high one.
-fn survey(search: &mut Search<'_>) -> Result<(), StaticsError> {
+fn survey(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     let linear = search.linearise();
     let middle = search.tensions();
     let solutions = search.solutions(&linear, &vec![1.0; middle.len()])?;
@@ -60,12 +60,12 @@ fn survey(search: &mut Search<'_>) -> Result<(), StaticsError> {
 struct Start {
     tau: Vec<f64>,
     value: f64,
-    step: Step,
+    step: StiffeningStep,
 }
 
 impl Start {
     /// Restores the balance and makes this part of the rest of the step.
-    fn go(&self, search: &mut Search<'_>, part: f64) {
+    fn go(&self, search: &mut TensionSearch<'_>, part: f64) {
         let step = self.step.restoring.iter().zip(&self.step.stiffening);
         let tau: Vec<f64> = self.tau.iter().zip(step).map(|(from, (to, on))| from + to + part * on).collect();
         search.set(&tau);
@@ -73,7 +73,7 @@ impl Start {
 }
 
 /// Newton's method from the present tensions; whether it arrives.
-fn climb(search: &mut Search<'_>) -> bool {
+fn climb(search: &mut TensionSearch<'_>) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut last: Option<Start> = None;
     let mut part = 1.0;
@@ -107,21 +107,21 @@ fn climb(search: &mut Search<'_>) -> bool {
 }
 
 /// The scaled stiffness of the robot at the present tensions, in the platform's coordinates.
-fn present(search: &Search<'_>) -> Mat6 {
-    let cables = search.lines().iter().map(|line| {
-        let (force, lever) = line.force();
-        (line.hanging.tangent_w(), force, lever)
+fn present(search: &TensionSearch<'_>) -> Mat6 {
+    let cables = search.cables().iter().map(|cable| {
+        let (force, lever) = cable.force();
+        (cable.hanging.tangent_w(), force, lever)
     });
     let total = Coordinates::of(search.robot()).scale_matrix(&assembled(search.robot(), search.pose(), cables));
     search.robot().platform.motion.reduced_matrix(&symmetric_part(&total))
 }
 
-fn min_eigenvalue(search: &Search<'_>) -> f64 {
+fn min_eigenvalue(search: &TensionSearch<'_>) -> f64 {
     symmetric::eigenvalues(&present(search), search.robot().platform.motion.count())[0]
 }
 
 /// Whether the least eigenvalue is above a value; in a fraction of its time.
-fn is_above(search: &Search<'_>, value: f64) -> bool {
+fn is_above(search: &TensionSearch<'_>, value: f64) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut above = present(search);
     for k in 0..6 {
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
     use crate::robot::{Pose, Robot, TensionLimits};
     use crate::statics::StaticModel;
-    use crate::statics::tension::Line;
+    use crate::statics::tension::CableAtPose;
 
     const COGIRO: &str = funicular_robots::COGIRO;
     const CAROCA: &str = funicular_robots::CAROCA;
@@ -165,10 +165,10 @@ mod tests {
         )
     }
 
-    fn begun<'a>(robot: &'a Robot, pose: &'a Pose) -> Option<Search<'a>> {
+    fn begun<'a>(robot: &'a Robot, pose: &'a Pose) -> Option<TensionSearch<'a>> {
         let coordinates = Coordinates::of(robot);
-        let line = |i| Line::new(robot, i, pose, StaticModel::Catenary, coordinates);
-        let mut search = Search::new(robot, pose, (0..robot.cables.len()).map(line).collect());
+        let cable = |i| CableAtPose::new(robot, i, pose, StaticModel::Catenary, coordinates);
+        let mut search = TensionSearch::new(robot, pose, (0..robot.cables.len()).map(cable).collect());
         search.middle().ok()?;
         Some(search)
     }

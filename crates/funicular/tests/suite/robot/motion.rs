@@ -93,7 +93,7 @@ fn a_planar_platform_has_a_plane_and_one_moment_of_inertia() {
         ("\"planar-xz\"", "\"planar\"", "needs the normal of its plane", 3),
         ("\"planar-xz\"", "\"planar-xz\"\nplane_normal = [0, 1, 0]", "`plane_normal` goes with `degrees of freedom", 4),
         ("\"planar-xz\"", "\"planar\"\nplane_normal = [0, 0, 0]", "has no direction", 4),
-        ("\"planar-xz\"", "\"rigid\"\nplane_offset_m = 1", "`plane_offset_m` is of a planar platform", 4),
+        ("\"planar-xz\"", "\"rigid\"\nplane_offset_m = 1", "`plane_offset_m` is for a planar platform only", 4),
         ("\"planar-xz\"", "\"planar-zx\"", "`motion` is \"planar-zx\", which is unknown", 3),
         ("m2 = 0.3", "m2 = -0.3", "`inertia_kg_m2` is -0.3, it must be positive", 5),
         ("attachment_m = [-0.3, 0.0, 0.1]\n", "", "has no `attachment_m`", 10),
@@ -128,12 +128,12 @@ fn a_plate_is_the_symmetric_half_of_two_rigidly_joined_ones() {
         let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
         let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
         let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(&robot, &pose, &back.pose) < 1e-9);
+        assert!(statics::pose_distance(&robot, &pose, &back.pose) < 1e-9);
 
         let joined = two_plates(rope_mass, 0.25);
         let twice = [lengths.clone(), lengths].concat();
         let rest = statics::forward(&joined, &twice, StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(&joined, &pose, &rest.pose) < 1e-8);
+        assert!(statics::pose_distance(&joined, &pose, &rest.pose) < 1e-8);
 
         let linearisation = Linearisation { cable_model: model, ..Default::default() };
         let (below, about) = (25.0, Dynamics::about);
@@ -261,7 +261,7 @@ fn tensions_of_a_planar_robot_with_four_cables_are_chosen_within_limits() {
             assert!(TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).distance() > -1e-6 * 400.0);
         }
         let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(&robot, &pose, &back.pose) < 1e-8, "{}", rule.name());
+        assert!(statics::pose_distance(&robot, &pose, &back.pose) < 1e-8, "{}", rule.name());
     }
 }
 

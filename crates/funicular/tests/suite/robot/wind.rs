@@ -46,7 +46,7 @@ fn a_load_along_the_cables_is_weight_by_another_name() {
     loaded.load.point_p = robot.platform.center_of_mass_p;
     let lengths = lengths(&robot);
     let [a, b] = [&robot, &loaded].map(|r| statics::forward(r, &lengths, StaticModel::Catenary, None).unwrap());
-    assert!(statics::distance(&robot, &a.pose, &b.pose) < 1e-10);
+    assert!(statics::pose_distance(&robot, &a.pose, &b.pose) < 1e-10);
     for (i, (x, y)) in a.cables.iter().zip(&b.cables).enumerate() {
         assert!((x.tension_anchor - y.tension_anchor).abs() < 1e-8);
         let (x, y) = (Sag::of(&robot, i, x), Sag::of(&loaded, i, y));
@@ -95,7 +95,7 @@ fn inverse_statics_in_wind_is_the_way_back() {
     let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
     let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
     let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-    assert!(statics::distance(&robot, &back.pose, &pose) < 1e-8);
+    assert!(statics::pose_distance(&robot, &back.pose, &pose) < 1e-8);
     assert!(back.residual <= statics::RESIDUAL_LIMIT);
 
     let text = COGIRO.replacen("mass_kg_per_m", "drag_coefficient = 1.1\ndrag_diameter_m = 0.004\nmass_kg_per_m", 1);
@@ -112,7 +112,7 @@ fn inverse_statics_in_wind_is_the_way_back() {
     assert!((held.cables[0].tension_platform - still.unwrap().cables[0].tension_platform).abs() > 0.1);
     let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
     let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
-    assert!(statics::distance(&robot, &back.pose, &pose) < 1e-8);
+    assert!(statics::pose_distance(&robot, &back.pose, &pose) < 1e-8);
 }
 
 /// The tangent is that of loads which keep their direction; with the loads held at one pose it has to be minus the
@@ -133,7 +133,7 @@ fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
     dead.load.force_w = robot.force_at_mass_centre_w() - robot.gravity_w * robot.platform.mass;
     dead.load.point_p = robot.platform.center_of_mass_p;
     let again = statics::forward(&dead, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
-    assert!(statics::distance(&robot, &again.pose, &rest.pose) < 1e-9);
+    assert!(statics::pose_distance(&robot, &again.pose, &rest.pose) < 1e-9);
     // Sag makes the wrench bend within millimetres; a larger step leaves its square.
     let step = 1e-6;
     let by = |k: usize| {

@@ -46,6 +46,6 @@ fn forward_statics_of_few_cables_is_a_minimum_of_the_energy() {
         // Another road to it: from another start, turned and moved.
         let start = rest.pose.moved(&Vec3::new(0.3, -0.2, 0.3), &Vec3::new(0.2, 0.1, -0.2));
         let again = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&start)).unwrap();
-        assert!(statics::distance(&robot, &again.pose, &rest.pose) < 1e-7);
+        assert!(statics::pose_distance(&robot, &again.pose, &rest.pose) < 1e-7);
     }
 }

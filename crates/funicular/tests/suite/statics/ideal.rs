@@ -46,7 +46,7 @@ fn ideal_cables_that_are_too_few_are_refused() {
     let robot = crane(4, 0.0);
     let pose = Pose::new([0.0, 0.0, 1.0], [0.0; 3]);
     for error in [
-        statics::nearest(&robot, &pose, StaticModel::Ideal).unwrap_err(),
+        statics::nearest_equilibrium(&robot, &pose, StaticModel::Ideal).unwrap_err(),
         statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap_err(),
     ] {
         assert!(matches!(error, StaticsError::InverseCableCount { cables: 4, dof: 6 }));

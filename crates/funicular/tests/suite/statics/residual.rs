@@ -19,7 +19,7 @@ fn a_load_that_rounding_hides_is_refused() {
         assert!(error.is_no_solution() && error.code() == "not-converged");
         let text = error.to_string();
         assert!(text.contains("loads are too small") && text.contains("give the platform more mass"), "{text}");
-        assert_eq!(statics::all(&robot, &lengths, model, None).unwrap_err().code(), "not-converged");
+        assert_eq!(statics::all_equilibria(&robot, &lengths, model, None).unwrap_err().code(), "not-converged");
     }
 }
 

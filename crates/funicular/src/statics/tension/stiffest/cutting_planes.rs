@@ -6,7 +6,7 @@
 //! qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not stiffen is shortened.
 
 use super::super::active_set::Polyhedron;
-use super::super::search::{Linear, Search};
+use super::super::search::{Linear, TensionSearch};
 use super::{GAIN, min_eigenvalue, present};
 use crate::math::{Mat6, Vec6, symmetric, symmetric_part};
 use crate::statics::error::StaticsError;
@@ -21,7 +21,7 @@ const MAX_ROUNDS: usize = 100;
 const CUTS: usize = 3;
 
 /// Tensions within the limits that make the robot stiffest.
-pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
+pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     search.middle()?;
     let mut best = search.tensions();
     let mut stiffness = min_eigenvalue(search);
@@ -58,16 +58,20 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
 
 /// The stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and how
 /// stiff it then is.
-fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Result<(Vec<f64>, f64), StaticsError> {
+fn stiffest_of_linear(
+    search: &TensionSearch<'_>,
+    linear: &Linear,
+    reach: f64,
+) -> Result<(Vec<f64>, f64), StaticsError> {
     let dof = search.robot().platform.motion.count();
     let here = search.tensions();
     let solutions = search.solutions(linear, &vec![1.0; here.len()])?;
     let stiffness = present(search);
     let rates: Vec<Mat6> = search
-        .lines()
+        .cables()
         .iter()
-        .map(|line| {
-            let rate = line.stiffness_by_tension();
+        .map(|cable| {
+            let rate = cable.stiffness_by_tension();
             search.robot().platform.motion.reduced_matrix(&(symmetric_part(&rate)))
         })
         .collect();
@@ -78,7 +82,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
     let mut set = Polyhedron::new(solutions.redundancy() + 1);
     for (i, [lower, upper]) in linear.limits.iter().enumerate() {
         let particular = solutions.particular[i];
-        let least = lower.at.max(search.lines()[i].slackest).max(here[i] - reach);
+        let least = lower.at.max(search.cables()[i].slackest).max(here[i] - reach);
         let most = upper.at.min(here[i] + reach);
         set.add(solutions.part(i), 1.0, Some(0.0), least - particular);
         set.add(solutions.part(i), -1.0, Some(0.0), particular - most);

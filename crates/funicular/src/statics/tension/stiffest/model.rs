@@ -6,9 +6,9 @@
 //! eigenvalues meet.
 
 use super::super::active_set::Polyhedron;
-use super::super::cable_at_pose::{Line, Rates};
+use super::super::cable_at_pose::{CableAtPose, Rates};
 use super::super::null_space::Solutions;
-use super::super::search::{Linear, Search};
+use super::super::search::{Linear, TensionSearch};
 use crate::math::{DMat, Mat6, Vec6};
 
 /// Eigenvalues within this part of the least one are kept together with it.
@@ -28,7 +28,7 @@ const HOLD: f64 = 1e-4;
 pub(super) type Weights = Vec<(f64, Vec6)>;
 
 /// A step of the tensions.
-pub(super) struct Step {
+pub(super) struct StiffeningStep {
     /// By how much every tension changes to hold the platform [N], …
     pub restoring: Vec<f64>,
     /// … and then to stiffen it.
@@ -74,7 +74,7 @@ pub(super) struct Model {
 impl Model {
     /// `None` at a singular pose.
     pub(super) fn here(
-        search: &Search<'_>,
+        search: &TensionSearch<'_>,
         stiffness: &Mat6,
         (values, vectors): (Vec<f64>, Vec<Vec6>),
     ) -> Option<Self> {
@@ -90,13 +90,13 @@ impl Model {
         let count = values.iter().take_while(|value| **value <= near).count();
 
         // How cables turn these motions, per tension.
-        let rates: Vec<Rates> = search.lines().iter().map(Line::rates).collect();
+        let rates: Vec<Rates> = search.cables().iter().map(CableAtPose::rates).collect();
         let turned: Vec<Vec<Vec6>> = vectors[..count]
             .iter()
             .map(|q| {
                 let displacement = motion.expanded(q);
-                let cables = search.lines().iter().zip(&rates);
-                cables.map(|(line, rates)| motion.reduced(&line.applied(&rates.first, &displacement))).collect()
+                let cables = search.cables().iter().zip(&rates);
+                cables.map(|(cable, rates)| motion.reduced(&cable.applied(&rates.first, &displacement))).collect()
             })
             .collect();
 
@@ -157,7 +157,7 @@ impl Model {
     }
 
     /// H for a least eigenvalue made of these motions.
-    fn curvature(&self, search: &Search<'_>, weights: &Weights) -> DMat {
+    fn curvature(&self, search: &TensionSearch<'_>, weights: &Weights) -> DMat {
         let d = self.solutions.redundancy();
         let kept = self.turned.len();
         let mut curvature = DMat::zeros(d, d);
@@ -194,15 +194,15 @@ impl Model {
 
     /// Second derivative of a motion's stiffness by every tension. The prices of the balance turn its curvature, which
     /// takes the tensions off the directions, into stiffness.
-    fn bends(&self, search: &Search<'_>, displacement: &Vec6, turned: &[Vec6]) -> Vec<f64> {
+    fn bends(&self, search: &TensionSearch<'_>, displacement: &Vec6, turned: &[Vec6]) -> Vec<f64> {
         let motion = &search.robot().platform.motion;
         let expanded = motion.expanded(displacement);
         let multipliers = self.solutions.multipliers(|i| turned[i].dot(displacement));
-        let cables = search.lines().iter().zip(&self.rates);
+        let cables = search.cables().iter().zip(&self.rates);
         cables
-            .map(|(line, rates)| {
-                let stiffness = line.applied(&rates.second, &expanded).dot(&expanded);
-                stiffness - motion.reduced(&line.wrench(&rates.second.force_w)).dot(&multipliers)
+            .map(|(cable, rates)| {
+                let stiffness = cable.applied(&rates.second, &expanded).dot(&expanded);
+                stiffness - motion.reduced(&cable.wrench(&rates.second.force_w)).dot(&multipliers)
             })
             .collect()
     }
@@ -212,7 +212,7 @@ impl Model {
     ///
     /// Along the eigenvectors of H, scaled, `½ zᵀ H z` is a distance, and the step a projection on a polyhedron. A
     /// convex direction is gone along as far as a concave one of the same curvature.
-    pub(super) fn step(&self, search: &Search<'_>, weights: &Weights) -> Option<Step> {
+    pub(super) fn step(&self, search: &TensionSearch<'_>, weights: &Weights) -> Option<StiffeningStep> {
         let d = self.solutions.redundancy();
         let slope = DMat::from_fn(d, 1, |k, _| self.block_by_z[k][(0, 0)]);
 
@@ -232,7 +232,7 @@ impl Model {
         for (i, [lower, upper]) in self.linear.limits.iter().enumerate() {
             let normal = DMat::from_iterator(1, d, self.solutions.part(i).copied()) * &turn;
             let last = (!one).then_some(0.0);
-            let least = lower.at.max(search.lines()[i].slackest).max(FALL * self.tau[i]);
+            let least = lower.at.max(search.cables()[i].slackest).max(FALL * self.tau[i]);
             set.add(normal.iter(), 1.0, last, least - self.balanced[i]);
             set.add(normal.iter(), -1.0, last, self.balanced[i] - upper.at);
         }
@@ -253,7 +253,7 @@ impl Model {
         let gain = lowest(&self.block_at(z.as_slice())).0 - self.value - 0.5 * unit * u.norm_squared();
         let restoring = self.balanced.iter().zip(&self.tau).map(|(to, from)| to - from).collect();
         let stiffening = (0..self.tau.len()).map(|i| self.solutions.part(i).zip(z.iter()).map(|(n, z)| n * z).sum());
-        Some(Step { restoring, stiffening: stiffening.collect(), gain, weights })
+        Some(StiffeningStep { restoring, stiffening: stiffening.collect(), gain, weights })
     }
 
     /// S at these directions' parts.
