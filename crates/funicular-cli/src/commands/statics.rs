@@ -52,7 +52,7 @@ impl Printed for Statics {
             (Some(other), None) => other_text(other),
             (None, None) => String::new(),
         };
-        let balance = if self.carries_nothing {
+        let balance = if self.is_unloaded {
             "No load and no tension: nothing to balance,".to_owned()
         } else {
             format!("Residual {:.1e}", self.residual)

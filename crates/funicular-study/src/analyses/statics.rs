@@ -36,7 +36,7 @@ pub struct Statics {
     pub residual: f64,
     /// Neither loads nor tensions: the residual says nothing.
     #[serde(skip)]
-    pub carries_nothing: bool,
+    pub is_unloaded: bool,
     pub iterations: usize,
     /// Absent for ideal cables, which are rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -248,7 +248,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
         residual: equilibrium.residual,
-        carries_nothing: statics::carries_nothing(robot, equilibrium),
+        is_unloaded: statics::is_unloaded(robot, equilibrium),
         iterations: equilibrium.iterations,
         stable,
         stiffness_min_n_per_m,

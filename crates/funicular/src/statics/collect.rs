@@ -1,4 +1,4 @@
-//! An equilibrium made of cables that hang at a pose.
+//! Equilibrium made of cables that hang at a pose.
 
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium, Stability};

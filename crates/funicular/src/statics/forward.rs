@@ -111,17 +111,17 @@ impl<'a> EnergySearch<'a> {
     /// [`MAX_RESIDUAL_OF_ROUNDING`] at least, or if nothing is there to be balanced.
     pub(super) fn holds(&self, trial: &Trial) -> bool {
         trial.residual <= trial.limit.min(MAX_RESIDUAL_OF_ROUNDING)
-            || (self.carries_nothing(trial) && trial.residual <= trial.limit)
+            || (self.is_unloaded(trial) && trial.residual <= trial.limit)
     }
 
     /// Nothing acts on the platform and its cables, and all tensions together are rounding.
-    fn carries_nothing(&self, trial: &Trial) -> bool {
+    fn is_unloaded(&self, trial: &Trial) -> bool {
         trial.limit >= 1.0 && load_size(self.robot) == 0.0 && self.loaded.iter().all(|cable| cable.load.size == 0.0)
     }
 
     /// The equilibrium at a place that [holds](Self::holds).
     pub(super) fn collected(&self, trial: Trial, model: StaticModel, iterations: usize) -> Equilibrium {
-        let nothing = self.carries_nothing(&trial);
+        let nothing = self.is_unloaded(&trial);
         let mut equilibrium = collect(self.robot, trial.pose, model, trial.cables, self.lengths, iterations);
         if nothing {
             equilibrium.residual = 0.0;

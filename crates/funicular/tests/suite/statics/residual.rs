@@ -56,10 +56,10 @@ fn without_load_and_tension_there_is_nothing_to_balance() {
         robot.gravity_w = Vec3::zeros();
         for model in [StaticModel::Spring, StaticModel::Catenary, StaticModel::Ideal] {
             let rest = statics::forward(&robot, &lengths, model, None).unwrap();
-            assert!(rest.residual == 0.0 && statics::carries_nothing(&robot, &rest), "{model:?} {:e}", rest.residual);
+            assert!(rest.residual == 0.0 && statics::is_unloaded(&robot, &rest), "{model:?} {:e}", rest.residual);
         }
         robot.load.force_w.z = -1.0;
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        assert!(!statics::carries_nothing(&robot, &rest) && rest.residual > 0.0);
+        assert!(!statics::is_unloaded(&robot, &rest) && rest.residual > 0.0);
     }
 }
