@@ -239,8 +239,8 @@ fn tensions_that_no_choice_provides_are_no_solution_and_what_binds_is_named() {
             expected,
         );
     };
-    refused(&["--max-tension-n", "200"], 1, "the nearest miss the limits by ");
-    refused(&["--max-tension-n", "200"], 1, "held by the maximum of cables ");
-    refused(&["--target-tension-n", "1,2"], 2, "2 wanted tensions for 8 cables");
+    refused(&["--max-tension-n", "200"], 1, "the best tensions violate the limits by ");
+    refused(&["--max-tension-n", "200"], 1, "because of the maximum of cables ");
+    refused(&["--target-tension-n", "1,2"], 2, "2 target tensions given for 8 cables");
     refused(&["--tension-rule", "stiffest", "--static-model", "ideal"], 2, "ideal cables, which are rigid");
 }

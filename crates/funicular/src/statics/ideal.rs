@@ -81,7 +81,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
 
     // Tensions at this pose.
     let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
-    if let Some((i, tension)) = pushing(&tensions) {
+    if let Some((i, tension)) = most_negative(&tensions) {
         let (cable, p) = (robot.cables[i].name.clone(), pose.position_w);
         return Err(StaticsError::LengthsPush { cable, tension, x: p.x, y: p.y, z: p.z });
     }
@@ -94,7 +94,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
 const ZERO_TENSION: f64 = 1e-12;
 
 /// Straight cable with the most negative tension, and this tension [N], if one is negative beyond rounding.
-pub(super) fn pushing(tensions: &[f64]) -> Option<(usize, f64)> {
+pub(super) fn most_negative(tensions: &[f64]) -> Option<(usize, f64)> {
     let largest = tensions.iter().fold(0.0, |most: f64, tension| most.max(tension.abs()));
     let least = tensions.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
     least.filter(|(_, tension)| *tension < -ZERO_TENSION * largest)

@@ -131,6 +131,6 @@ impl fmt::Display for LimitViolation {
         let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
         write!(f, "by {:.4} N", self.by)?;
-        if limits.is_empty() { Ok(()) } else { write!(f, ", held by {}", limits.join(" and ")) }
+        if limits.is_empty() { Ok(()) } else { write!(f, ", because of {}", limits.join(" and ")) }
     }
 }

@@ -9,7 +9,7 @@ use crate::robot::{Cable, LineLoad, Pose, Robot};
 /// Maximum ratio of unstrained length to chord in the search for slack cables at a pose where straight cables would
 /// have negative tension. For 30,000 random robots in equilibrium with cables up to 1.25 times as long as their chords,
 /// the limit 2 finds every equilibrium. Poses that only longer ropes hold are held by the ropes' weight alone.
-pub(super) const LONGEST: f64 = 2.0;
+pub(super) const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// Cable without its length: anchor, rope and load.
 #[derive(Debug, Clone, Copy)]

@@ -1,11 +1,11 @@
-//! Pose to unstrained lengths and tensions for more cables than degrees of freedom: of all tensions that hold the platform, those
-//! within the limits that a rule prefers.
+//! Tension distribution: inverse statics for more cables than degrees of freedom. Of all tensions that hold the
+//! platform, a rule chooses the best within the limits.
 //!
-//! The unknown of every cable is its tension τ parallel to the chord. The balance is linear in them but for the small
-//! vertical share of the sag; so it is linearised about the last tensions, the best solution of the linear problem is
-//! taken, and so on (sequential quadratic programming). The linear problem is solved in the null space of the balance,
-//! which has one or two dimensions in most robots: it takes microseconds, a general solver a tenth of a millisecond.
-//! With many cables it is solved in the space of the cables instead, see [`room`].
+//! The unknown of every cable is its tension τ parallel to the chord. The balance is linear in the tensions apart from
+//! the small vertical contribution of the sag. So the balance is linearised about the last tensions, the linear problem
+//! is solved, and so on (sequential quadratic programming). The linear problem is solved in the null space of the
+//! balance, which has one or two dimensions for most robots: this takes microseconds, a general solver a tenth of a
+//! millisecond. With many cables it is solved in the space of the cables instead, see [`feasible_set`].
 
 mod active_set;
 mod bounds;
@@ -26,27 +26,27 @@ use crate::robot::{Pose, Robot};
 use cable_at_pose::CableAtPose;
 use search::TensionSearch;
 
-/// Which of all possible tensions a robot with more cables than degrees of freedom shall have.
+/// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
 ///
-/// What a rule weighs is the tension τ of each cable parallel to its chord, (10a), which is between those of its ends;
-/// limits hold for the whole cable, both ends included.
+/// The rules compare the tension τ of each cable parallel to its chord, (10a), which is between those of its ends. The
+/// limits hold for the complete cable, both ends included.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum TensionRule {
-    /// As low as possible: the least sum of squares of what is above the minimum, (38).
+    /// Lowest tensions: minimum sum of squares of the excess over the minimum, (38).
     #[default]
     Lowest,
-    /// As near as possible to a wanted tension [N], one for all or one a cable, in least squares.
+    /// Tensions closest to a target [N], one for all cables or one per cable, in least squares.
     Closest(Vec<f64>),
-    /// As far as possible from the limits: the largest least [`TensionMargin::relative`](super::TensionMargin), (39).
-    /// Of equals the nearest to the middles. Needs a maximum for every cable.
+    /// Tensions farthest from the limits: maximum of the smallest [`TensionMargin::relative`](super::TensionMargin),
+    /// (39). Of equal solutions the one nearest to the middles. Needs a maximum for every cable.
     Middle,
-    /// As stiff as possible: the largest least eigenvalue of the scaled stiffness, (40), which is
-    /// [`Stability`](super::Stability)'s. Needs elastic cables and a maximum for every one.
+    /// Stiffest tensions: maximum of the minimum eigenvalue of the scaled stiffness, (40), which
+    /// [`Stability`](super::Stability) gives. Needs elastic cables and a maximum for every cable.
     Stiffest,
 }
 
 impl TensionRule {
-    /// Name on the command line.
+    /// Name in commands and files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Lowest => "lowest",
@@ -57,15 +57,17 @@ impl TensionRule {
     }
 }
 
-/// The unstrained lengths and tensions that hold the platform at a pose, the tensions within the limits of the robot
-/// file and chosen by a rule. More cables than degrees of freedom; with as many, [`inverse`](super::inverse) has the only answer.
+/// Unstrained lengths and tensions that hold the platform at a pose, the tensions within the limits of the robot file
+/// and chosen by a rule. For more cables than degrees of freedom; with as many cables [`inverse`](super::inverse) gives
+/// the unique solution.
 ///
-/// The balance holds to [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT), the limits to a millionth, and the rule's
-/// optimum to a millionth of the tensions (of the stiffness for [`TensionRule::Stiffest`], whose optimum is local where cables sag).
+/// Accuracy: the balance to [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT), the limits to a millionth, and the rule's
+/// optimum to a millionth of the tensions (for [`TensionRule::Stiffest`] of the stiffness; its optimum is local if
+/// cables sag).
 ///
 /// # Errors
-/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, limits that exclude each other, a rule that needs
-/// more than it is given, no tensions within the limits, or no convergence.
+/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, a minimum not below its maximum, missing data for
+/// the rule, no tensions within the limits, or no convergence.
 ///
 /// # Example
 /// ```
@@ -111,9 +113,9 @@ pub fn distribute_tensions(
             let minima: Vec<f64> = search.cables().iter().map(|cable| cable.range.minimum).collect();
             search.nearest_to(&minima)?;
         }
-        TensionRule::Closest(wanted) => {
-            let wanted: Vec<f64> = wanted.iter().copied().cycle().take(cables).collect();
-            search.nearest_to(&wanted)?;
+        TensionRule::Closest(target) => {
+            let target: Vec<f64> = target.iter().copied().cycle().take(cables).collect();
+            search.nearest_to(&target)?;
         }
         TensionRule::Middle => search.middle()?,
         TensionRule::Stiffest => stiffest::search(&mut search)?,
@@ -131,24 +133,24 @@ pub fn distribute_tensions(
     Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
 }
 
-/// Most cables of the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred cables take a third
-/// of a second, two hundred some seconds.
+/// Maximum number of cables for the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred
+/// cables take a third of a second, two hundred some seconds.
 const MAX_CABLES_TO_STIFFEN: usize = 200;
 
-/// Refuses what no tension can satisfy and what a rule does not know enough for.
+/// Refuses limits that no tension can satisfy, and rules without the data that they need.
 fn check(
     robot: &Robot,
     model: StaticModel,
     rule: &TensionRule,
     cables_at_pose: &[CableAtPose],
 ) -> Result<(), StaticsError> {
-    if let TensionRule::Closest(wanted) = rule {
+    if let TensionRule::Closest(target) = rule {
         let cables = robot.cables.len();
-        if wanted.len() != 1 && wanted.len() != cables {
-            return Err(StaticsError::WantedCount { given: wanted.len(), cables });
+        if target.len() != 1 && target.len() != cables {
+            return Err(StaticsError::TargetCount { given: target.len(), cables });
         }
-        if let Some(value) = wanted.iter().copied().find(|value| !(*value >= 0.0 && value.is_finite())) {
-            return Err(StaticsError::Wanted { value });
+        if let Some(value) = target.iter().copied().find(|value| !(*value >= 0.0 && value.is_finite())) {
+            return Err(StaticsError::TargetTension { value });
         }
     }
 

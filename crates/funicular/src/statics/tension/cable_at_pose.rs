@@ -74,8 +74,8 @@ impl CableAtPose {
         // The least tension is nearly linear in τ; 2 or 3 passes. The rest is a guard.
         for _ in 0..30 {
             self.set(tau);
-            let least = self.least();
-            let next = (tau + (self.range.minimum - least.value) / least.slope).max(self.slackest);
+            let min = self.min_tension();
+            let next = (tau + (self.range.minimum - min.value) / min.slope).max(self.slackest);
             if (next - tau).abs() <= 1e-12 * next {
                 break;
             }
@@ -95,8 +95,8 @@ impl CableAtPose {
         // As for the least tension.
         for _ in 0..30 {
             self.set(tau);
-            let greatest = self.greatest();
-            let next = (tau + (self.range.maximum - greatest.value) / greatest.slope).max(self.slackest);
+            let max = self.max_tension();
+            let next = (tau + (self.range.maximum - max.value) / max.slope).max(self.slackest);
             if (next - tau).abs() <= 1e-12 * next {
                 break;
             }
@@ -139,7 +139,7 @@ impl CableAtPose {
     }
 
     /// The least tension anywhere in the cable.
-    pub(super) fn least(&self) -> TensionByTau {
+    pub(super) fn min_tension(&self) -> TensionByTau {
         let [lower, _] = self.ends();
         let cos = self.span / self.hanging.chord_w().norm();
         let catenary = &self.hanging.catenary;
@@ -151,7 +151,7 @@ impl CableAtPose {
     }
 
     /// The greatest tension anywhere in the cable.
-    pub(super) fn greatest(&self) -> TensionByTau {
+    pub(super) fn max_tension(&self) -> TensionByTau {
         self.ends()[1]
     }
 

@@ -7,7 +7,7 @@ use super::null_space::Solutions;
 /// Directions of the balance from which on the search is made in the space of the cables. With few the null space has
 /// shorter vectors and nothing to solve; with hundreds the space of the cables takes a small part of the time. Both ways
 /// end at the same point, so that the number between matters to the time alone.
-pub(super) const MANY: usize = 34;
+pub(super) const MIN_DIRECTIONS_IN_CABLE_SPACE: usize = 34;
 
 /// Bounds of tensions (scaled, σ) that satisfy the balance, and of a height if there is one.
 pub(super) struct FeasibleSet<'a> {
@@ -78,14 +78,14 @@ impl<'a> FeasibleSet<'a> {
         height: f64,
         end: impl FnOnce(&mut Constraints, &mut [f64]) -> Option<Vec<Active>>,
     ) -> Option<FeasiblePoint> {
-        let few = matches!(self.constraints, Constraints::InNullSpace(_));
-        let mut point = if few { self.solutions.along(start) } else { self.solutions.projected(start) };
+        let in_null_space = matches!(self.constraints, Constraints::InNullSpace(_));
+        let mut point = if in_null_space { self.solutions.along(start) } else { self.solutions.projected(start) };
         if self.lifted {
             point.push(height);
         }
         let held = end(&mut self.constraints, &mut point)?;
         let height = if self.lifted { point.pop()? } else { 0.0 };
-        let sigma = if few { self.solutions.at(&point) } else { point };
+        let sigma = if in_null_space { self.solutions.at(&point) } else { point };
         Some(FeasiblePoint { sigma, height, held })
     }
 }

@@ -147,7 +147,7 @@ pub(super) struct Verdict {
     /// No tensions within the limits balance the platform.
     pub proved: bool,
     /// The tensions with the greatest shares in the first direction [N].
-    pub farthest: Vec<f64>,
+    pub max_shares: Vec<f64>,
 }
 
 /// A load that cables are to balance, within their reaches; in the platform's coordinates, scaled.
@@ -163,16 +163,16 @@ impl Infeasibility<'_> {
     /// Every direction that proves nothing has a set of tensions within the limits on the wrong side of its plane. The
     /// next direction has all of these sets on the right side, with the widest least angle (cutting planes). There is
     /// none if the load lies in the convex hull of what these tensions balance; then no direction is a proof.
-    pub(super) fn refuted(&self, first: &Vec6) -> Verdict {
+    pub(super) fn prove(&self, first: &Vec6) -> Verdict {
         let n = self.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
-        let mut verdict = Verdict { proved: false, farthest: Vec::new() };
+        let mut verdict = Verdict { proved: false, max_shares: Vec::new() };
 
         for _ in 0..=MAX_CUTS {
-            let (proved, farthest) = self.examine(&y);
+            let (proved, max_shares) = self.test_direction(&y);
             if seen.is_empty() {
-                verdict.farthest = farthest.iter().map(|point| point.tau).collect();
+                verdict.max_shares = max_shares.iter().map(|point| point.tau).collect();
             }
             if proved {
                 verdict.proved = true;
@@ -180,7 +180,7 @@ impl Infeasibility<'_> {
             }
 
             // The cut of this direction.
-            let wrench = farthest.iter().fold(self.load, |sum, point| sum + point.wrench);
+            let wrench = max_shares.iter().fold(self.load, |sum, point| sum + point.wrench);
             let Some(unit) = wrench.try_normalize(0.0) else { break };
             seen.push(std::array::from_fn(|k| unit[k]));
 
@@ -203,7 +203,7 @@ impl Infeasibility<'_> {
     }
 
     /// Whether one direction proves it, and the points of the cables with the greatest shares in it.
-    fn examine(&self, y: &Vec6) -> (bool, Vec<SharePoint>) {
+    fn test_direction(&self, y: &Vec6) -> (bool, Vec<SharePoint>) {
         let mut parts: Vec<TauInterval> = Vec::with_capacity(self.reaches.len());
         let seen: Vec<DirectionalShare> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
         for (cable, reach) in self.reaches.iter().enumerate() {

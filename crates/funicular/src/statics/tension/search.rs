@@ -2,7 +2,7 @@
 
 use super::active_set::Active;
 use super::cable_at_pose::{CableAtPose, TensionByTau};
-use super::feasible_set::{FeasiblePoint, FeasibleSet, MANY};
+use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
 use super::proof::{Infeasibility, Reach};
 use crate::math::Vec6;
@@ -193,11 +193,11 @@ impl<'a> TensionSearch<'a> {
             right += column * cable.tau();
         }
         let limits = self.cables.iter().map(|cable| {
-            let [least, greatest] = [cable.least(), cable.greatest()]
+            let [min, max] = [cable.min_tension(), cable.max_tension()]
                 .map(|tension| TensionByTau { slope: tension.slope.max(MIN_SLOPE), ..tension });
-            let lower = cable.tau() + (cable.range.minimum - least.value) / least.slope;
-            let upper = cable.tau() + (cable.range.maximum - greatest.value) / greatest.slope;
-            [TauBound { at: lower, rate: 1.0 / least.slope }, TauBound { at: upper, rate: 1.0 / greatest.slope }]
+            let lower = cable.tau() + (cable.range.minimum - min.value) / min.slope;
+            let upper = cable.tau() + (cable.range.maximum - max.value) / max.slope;
+            [TauBound { at: lower, rate: 1.0 / min.slope }, TauBound { at: upper, rate: 1.0 / max.slope }]
         });
         Linear { limits: limits.collect(), columns, right, residual }
     }
@@ -216,8 +216,8 @@ impl<'a> TensionSearch<'a> {
     /// The same for [`FeasibleSet`], which can do without directions where they are many.
     fn solutions_for_feasible_set(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let dof = self.robot.platform.motion.count();
-        let few = self.cables.len() < MANY + dof;
-        Solutions::of(&linear.columns, scales, &linear.right, dof, few).ok_or(StaticsError::Singular)
+        let in_null_space = self.cables.len() < MIN_DIRECTIONS_IN_CABLE_SPACE + dof;
+        Solutions::of(&linear.columns, scales, &linear.right, dof, in_null_space).ok_or(StaticsError::Singular)
     }
 
     /// Violation of inequalities that is rounding.
@@ -410,16 +410,16 @@ impl<'a> TensionSearch<'a> {
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
         let claim = Infeasibility { reaches: &reaches, load, motion };
-        let verdict = claim.refuted(&optimum.multipliers);
+        let verdict = claim.prove(&optimum.multipliers);
         if verdict.proved {
             return Err(StaticsError::BeyondLimits(self.miss(&optimum)));
         }
 
-        // Other starts: where the cables reach farthest in that direction, and all over between the limits.
+        // Other starts: where the cables reach max_shares in that direction, and all over between the limits.
         let mut starts = 1;
         for k in 0..MAX_STARTS {
             starts += 1;
-            let start = if k == 0 { verdict.farthest.clone() } else { self.spread(&reaches, k) };
+            let start = if k == 0 { verdict.max_shares.clone() } else { self.spread(&reaches, k) };
             self.set(&start);
             let Ok(found) = self.min_violation_above(&slackest) else { continue };
             if found.distance >= -VIOLATION * self.size {

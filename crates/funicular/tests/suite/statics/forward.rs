@@ -64,7 +64,7 @@ fn too_few_cables_and_lengths_that_do_not_fit_are_refused_with_numbers() {
     let text = |r: Result<_, StaticsError>| r.map(|_: statics::Equilibrium| ()).unwrap_err().to_string();
     assert_eq!(
         text(statics::forward(&robot, &lengths[..7], StaticModel::Catenary, None)),
-        "7 unstrained lengths for 8 cables: give one a cable, in file order"
+        "7 unstrained lengths given for 8 cables: give one length per cable, in the order of the file"
     );
     assert!(text(statics::forward(&robot, &lengths, StaticModel::Ideal, None)).contains("exactly 6"));
     let pose = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);

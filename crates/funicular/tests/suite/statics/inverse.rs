@@ -162,7 +162,7 @@ fn what_is_not_found_for_sagging_cables_is_not_said_to_be_impossible() {
     assert!(!searched.is_empty());
     for text in searched {
         assert!(text.contains("sagging, a search from "), "{text}");
-        assert!(text.contains("left a scaled residual of") || text.contains("out of all proportion"), "{text}");
+        assert!(text.contains("left a scaled residual of") || text.contains("excessive tensions"), "{text}");
     }
 
     // Without weight straight cables decide.

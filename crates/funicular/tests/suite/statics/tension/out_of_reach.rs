@@ -200,7 +200,7 @@ fn a_miss_always_says_which_limits_are_in_the_way() {
     for far in [[100.0, 2.0, 1.0], [1000.0, 2.0, 1.0], [10.0, 2.0, 1.0], [0.0, 0.0, 50.0], [-30.0, 0.0, 1.0]] {
         let error = statics::inverse(&robot, &Pose::new(far, [0.0; 3]), StaticModel::Catenary).unwrap_err();
         let text = error.to_string();
-        assert!(text.contains("held by the m") && !text.contains("held by ;"), "{far:?}: {text}");
+        assert!(text.contains("because of the m") && !text.contains("because of ;"), "{far:?}: {text}");
     }
     let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new() };
     assert_eq!(silent.to_string(), "by 1.0000 N");

@@ -122,16 +122,23 @@ fn what_a_rule_lacks_and_limits_that_exclude_each_other_are_errors_with_numbers(
         |robot: &Robot, model, rule| statics::distribute_tensions(robot, &pose, model, &rule).unwrap_err().to_string();
     let catenary = StaticModel::Catenary;
     let robot = cogiro(0.064, 30.0, 900.0);
-    assert!(text(&robot, catenary, TensionRule::Closest(vec![1.0, 2.0])).contains("2 wanted tensions for 8 cables"));
+    assert!(
+        text(&robot, catenary, TensionRule::Closest(vec![1.0, 2.0])).contains("2 target tensions given for 8 cables")
+    );
     assert!(text(&robot, catenary, TensionRule::Closest(vec![-1.0])).contains("is -1 N"));
     assert!(text(&robot, StaticModel::Ideal, TensionRule::Stiffest).contains("rigid"));
     let open = cogiro(0.064, 30.0, f64::INFINITY);
     assert!(text(&open, catenary, TensionRule::Middle).contains("cable \"1\" has none"));
     let narrow = cogiro(0.064, 900.0, 900.0);
-    assert!(text(&narrow, catenary, TensionRule::Lowest).contains("from 900 N to 900 N, which is nothing"));
+    assert!(
+        text(&narrow, catenary, TensionRule::Lowest).contains("minimum tension 900 N is not below its maximum 900 N")
+    );
     let weak = cogiro(0.064, 30.0, 100.0);
     let message = text(&weak, catenary, TensionRule::Lowest);
-    assert!(message.contains("the nearest miss the limits by ") && message.contains("maximum of cable"), "{message}");
+    assert!(
+        message.contains("the best tensions violate the limits by ") && message.contains("maximum of cable"),
+        "{message}"
+    );
     let above = Pose::new([0.0, 0.0, 9.0], [0.0; 3]);
     let miss = statics::distribute_tensions(&robot, &above, catenary, &TensionRule::Lowest).unwrap_err();
     assert!(matches!(miss, StaticsError::BeyondLimits(_)), "{miss}");
