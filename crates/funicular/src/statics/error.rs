@@ -17,8 +17,8 @@ pub enum StaticsError {
     NoState,
     /// Tension rule for a robot without redundant cables.
     #[error(
-        "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions at a \
-         pose; leave out the tension rule and the target tensions"
+        "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions \
+         at a pose; leave out the tension rule and the target tensions"
     )]
     NothingToChoose {
         /// Cables of the robot.
@@ -64,8 +64,8 @@ pub enum StaticsError {
     },
     /// Fewer cables than degrees of freedom cannot hold a given pose.
     #[error(
-        "{} for {dof} degrees of freedom cannot hold a given pose: with `spring` and `catenary` cables there is a nearest pose \
-         that they can hold, with `ideal` cables there is none",
+        "{} for {dof} degrees of freedom cannot hold a given pose: with `spring` and `catenary` cables there is a \
+         nearest pose that they can hold, with `ideal` cables there is none",
         crate::counted(*cables, "cable")
     )]
     InverseCableCount {
@@ -136,16 +136,16 @@ pub enum StaticsError {
     },
     /// It is proved that no tensions within the limits hold the pose.
     #[error(
-        "no tensions within their limits hold this pose: the best tensions violate the limits {0}; choose another pose, mass or \
-         centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
+        "no tensions within their limits hold this pose: the best tensions violate the limits {0}; choose another \
+         pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     BeyondLimits(LimitViolation),
     /// No tensions within the limits were found, and there is no proof that there are none: the balance of sagging
     /// cables is not linear.
     #[error(
-        "no tensions within their limits that hold this pose were found in a search from {starts} starts: the best tensions violate \
-         the limits {miss}; choose another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, \
-         `maximum_tension_n`)"
+        "no tensions within their limits that hold this pose were found in a search from {starts} starts: the best \
+         tensions violate the limits {miss}; choose another pose, mass or centre of mass, or widen the limits \
+         (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     NotFoundWithinLimits {
         /// Violation of the limits by the best tensions found.
@@ -179,7 +179,8 @@ pub enum StaticsError {
     },
     /// The number of target tensions is neither one nor the number of cables.
     #[error(
-        "{given} target tensions given for {cables} cables: give one for all cables, or one per cable in the order of the file"
+        "{given} target tensions given for {cables} cables: give one for all cables, or one per cable in the order of \
+         the file"
     )]
     TargetCount {
         /// Tensions given.
@@ -195,13 +196,14 @@ pub enum StaticsError {
     },
     /// Ideal cables are rigid at any tension.
     #[error(
-        "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
+        "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` \
+         or `catenary`"
     )]
     StiffestNeedsElastic,
     /// More cables than the rule `stiffest` allows.
     #[error(
-        "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the cube \
-         of their number; choose the rule `middle`, `lowest` or `closest`"
+        "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the \
+         cube of their number; choose the rule `middle`, `lowest` or `closest`"
     )]
     TooManyToStiffen {
         /// Cables of the robot.
@@ -214,8 +216,9 @@ pub enum StaticsError {
     NeedsElasticCables,
     /// The search for the nearest pose did not converge.
     #[error(
-        "no nearest pose found in {iterations} iterations: the last pose, at position ({x:.4}, {y:.4}, {z:.4}) m, could come \
-         nearer by {residual:.1e} of the robot's size (limit {limit:.0e}); request a pose nearer to one that hangs freely"
+        "no nearest pose found in {iterations} iterations: the last pose, at position ({x:.4}, {y:.4}, {z:.4}) m, \
+         could come nearer by {residual:.1e} of the robot's size (limit {limit:.0e}); request a pose nearer to one \
+         that hangs freely"
     )]
     NotNearest {
         /// Iterations of forward statics taken.
@@ -233,8 +236,8 @@ pub enum StaticsError {
     },
     /// The tensions of a redundantly constrained robot did not converge.
     #[error(
-        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual is \
-         {residual:.3e}; raise the minimum tensions (`minimum_tension_n` in the robot file)",
+        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual \
+         is {residual:.3e}; raise the minimum tensions (`minimum_tension_n` in the robot file)",
         unrest(*change, *limit)
     )]
     TensionsNotConverged {
@@ -256,16 +259,16 @@ pub enum StaticsError {
     /// The loads are so small that rounding of the cables' elastic forces hides them.
     #[error(
         "no equilibrium found in {iterations} iterations: the loads are too small for cables as stiff as these, whose \
-         elastic forces are rounded by up to {rounding:.1e} N in all; at position ({x:.4}, {y:.4}, {z:.4}) m that leaves \
-         a scaled residual of {residual:.1e} (limit {limit:.0e}); give the platform more mass or load, the cables less \
-         stiffness, or no load at all"
+         elastic forces are rounded by up to {rounding:.1e} N in all; at position ({x:.4}, {y:.4}, {z:.4}) m that \
+         leaves a scaled residual of {residual:.1e} (limit {limit:.0e}); give the platform more mass or load, the \
+         cables less stiffness, or no load at all"
     )]
     LostInRounding {
         /// Iterations taken.
         iterations: usize,
         /// Scaled residual reached.
         residual: f64,
-        /// Scaled residual asked.
+        /// Limit of the scaled residual.
         limit: f64,
         /// Force that rounding may leave [N].
         rounding: f64,
@@ -278,7 +281,8 @@ pub enum StaticsError {
     },
     /// The search did not reach the tolerance.
     #[error(
-        "no equilibrium found in {iterations} iterations: {} (limit {limit:.0e}) at position ({x:.4}, {y:.4}, {z:.4}) m",
+        "no equilibrium found in {iterations} iterations: {} (limit {limit:.0e}) at position \
+         ({x:.4}, {y:.4}, {z:.4}) m",
         remainder(*residual)
     )]
     NotConverged {
@@ -286,7 +290,7 @@ pub enum StaticsError {
         iterations: usize,
         /// Scaled residual reached.
         residual: f64,
-        /// Scaled residual asked.
+        /// Limit of the scaled residual.
         limit: f64,
         /// Position reached [m].
         x: f64,

@@ -27,9 +27,9 @@ const MAX_ITERATIONS: usize = 5000;
 /// closing.
 ///
 /// # Errors
-/// [`StaticsError`]: lengths that do not fit the robot; ideal cables whose number differs from the degrees of freedom or
-/// that would need negative tension; a start out of a planar platform's plane; no equilibrium within [`RESIDUAL_LIMIT`],
-/// or, where rounding of stiff cables leaves more, within [`MAX_RESIDUAL_OF_ROUNDING`].
+/// [`StaticsError`]: lengths that do not fit the robot; ideal cables whose number differs from the degrees of freedom
+/// or that would need negative tension; a start out of a planar platform's plane; no equilibrium within
+/// [`RESIDUAL_LIMIT`], or, where rounding of stiff cables leaves more, within [`MAX_RESIDUAL_OF_ROUNDING`].
 ///
 /// # Example
 /// ```
@@ -377,8 +377,8 @@ impl<'a, 's> Descent<'a, 's> {
         ControlFlow::Continue(())
     }
 
-    /// If the pose is a saddle, continues from a pose of lower energy along its weakest direction, in which the energy
-    /// falls both ways; otherwise ends.
+    /// Leaves a saddle: continues from a pose of lower energy along its weakest direction, in which the energy falls
+    /// both ways. Ends if the pose is not a saddle.
     fn leave_saddle(&mut self, stiffness: &Mat6, exit: Exit) -> ControlFlow<Exit> {
         if self.escapes < MAX_ESCAPES
             && symmetric::negative_eigenvalues(stiffness, self.search.coordinates.count()) > 0

@@ -86,7 +86,7 @@ const REACH_ROUNDING: f64 = 1e-9;
 const MAX_ITERATIONS: usize = 100;
 
 /// Scaled residual that counts as zero. Rounding of six forces leaves 1e-15 and more. A lower limit would cost further
-/// steps until one does not gain; a much higher one would lose digits that the last step brings for nothing.
+/// steps until one does not gain; a much higher one would lose digits that the last step gives at no extra cost.
 const BALANCED: f64 = 1e-14;
 
 /// Fraction of Newton's step: its factors after a step that gains and one that does not, and the fraction at which the

@@ -1,6 +1,6 @@
 //! Models of how a cable carries its static load.
 
-/// How a cable carries its static load.
+/// Static model of a cable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StaticModel {
     /// Straight, massless, rigid in length. Its tension follows from equilibrium; there is no equilibrium if the

@@ -97,8 +97,8 @@ pub fn solve_at(
 ///
 /// # Errors
 /// [`StaticsError`]: fewer cables than degrees of freedom ([`nearest_equilibrium`] finds a pose that they can hold),
-/// tensions beyond their limits if there is a choice, a singular pose, a straight cable that would need negative tension,
-/// no tensions found for sagging cables, coinciding ends, or no convergence.
+/// tensions beyond their limits if there is a choice, a singular pose, a straight cable that would need negative
+/// tension, no tensions found for sagging cables, coinciding ends, or no convergence.
 ///
 /// # Example
 /// ```

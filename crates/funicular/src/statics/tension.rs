@@ -66,8 +66,8 @@ impl TensionRule {
 /// cables sag).
 ///
 /// # Errors
-/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, a minimum not below its maximum, missing data for
-/// the rule, no tensions within the limits, or no convergence.
+/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, a minimum not below its maximum, missing data
+/// for the rule, no tensions within the limits, or no convergence.
 ///
 /// # Example
 /// ```

@@ -8,7 +8,7 @@ use crate::robot::Robot;
 /// Largest tension needed per unit wrench [N/N]: 1/σ_min of the scaled unit wrenches (moments divided by ℓ), the norm
 /// of the smallest tensions that balance the worst wrench of size one. Grows without bound towards a singular pose.
 ///
-/// Slack cables balance nothing. `None` if fewer cables than degrees of freedom are taut, infinite at a singular pose.
+/// Slack cables do not count. `None` if fewer cables than degrees of freedom are taut, infinite at a singular pose.
 pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
     let n = robot.platform.motion.count();
     let (values, _) = symmetric::eigen(&wrench_gram(robot, equilibrium)?, n);

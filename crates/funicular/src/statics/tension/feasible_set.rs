@@ -1,12 +1,12 @@
-//! The tensions that satisfy the linearised balance within linear bounds, whichever way they are searched.
+//! Tensions that satisfy the linearised balance within linear bounds, in one of two representations.
 
 use super::active_set::{self, Active, Polyhedron};
 use super::bounds::Bounds;
 use super::null_space::Solutions;
 
-/// Directions of the balance from which on the search is made in the space of the cables. With few the null space has
-/// shorter vectors and nothing to solve; with hundreds the space of the cables takes a small part of the time. Both ways
-/// end at the same point, so that the number between matters to the time alone.
+/// Number of null-space directions from which on the search is made in the space of the cables. With few directions the
+/// null space has shorter vectors and no system to solve; with hundreds the space of the cables takes a small fraction
+/// of the time. Both ways end at the same point, so the value affects only the time.
 pub(super) const MIN_DIRECTIONS_IN_CABLE_SPACE: usize = 34;
 
 /// Bounds of tensions (scaled, σ) that satisfy the balance, and of a height if there is one.
@@ -21,16 +21,16 @@ enum Constraints {
     InCableSpace(Bounds),
 }
 
-/// Where a search has ended.
+/// Result of a search.
 pub(super) struct FeasiblePoint {
     pub sigma: Vec<f64>,
-    /// Zero without a height.
+    /// Height; zero if there is none.
     pub height: f64,
     pub held: Vec<Active>,
 }
 
 impl<'a> FeasibleSet<'a> {
-    /// Without bounds as yet.
+    /// Feasible set without bounds yet.
     pub(super) fn new(solutions: &'a Solutions, lifted: bool) -> Self {
         let constraints = if solutions.has_directions() {
             Constraints::InNullSpace(Polyhedron::new(solutions.redundancy() + usize::from(lifted)))
@@ -40,7 +40,7 @@ impl<'a> FeasibleSet<'a> {
         Self { solutions, lifted, constraints }
     }
 
-    /// Adds `sign σ_i + lift t ≥ level`; without a cable `lift t ≥ level`.
+    /// Adds `sign σ_i + lift t ≥ level`, or without a cable `lift t ≥ level`.
     pub(super) fn add(&mut self, cable: Option<usize>, sign: f64, lift: f64, level: f64) {
         match &mut self.constraints {
             Constraints::InCableSpace(bounds) => bounds.add(cable, sign, lift, level),
@@ -56,7 +56,7 @@ impl<'a> FeasibleSet<'a> {
         }
     }
 
-    /// The tensions nearest to `start` that satisfy balance and bounds, see [`active_set::nearest`].
+    /// Feasible tensions nearest to `start`, see [`active_set::nearest`].
     pub(super) fn nearest(self, start: impl Fn(usize) -> f64, height: f64, tolerance: f64) -> Option<FeasiblePoint> {
         self.search(start, height, |constraints, x| match constraints {
             Constraints::InNullSpace(set) => set.nearest(x, tolerance),
@@ -64,7 +64,7 @@ impl<'a> FeasibleSet<'a> {
         })
     }
 
-    /// The tensions of the greatest height, see [`active_set::highest`].
+    /// Feasible tensions with the maximum height, see [`active_set::highest`].
     pub(super) fn highest(self, start: impl Fn(usize) -> f64, tolerance: f64) -> Option<FeasiblePoint> {
         self.search(start, 0.0, |constraints, x| match constraints {
             Constraints::InNullSpace(set) => set.highest(x, tolerance),

@@ -1,4 +1,5 @@
-//! The iteration: linearise the balance and the limits, solve the linear problem exactly, repeat.
+//! Iteration of the tension distribution: linearise the balance and the limits, solve the linear problem exactly,
+//! repeat.
 
 use super::active_set::Active;
 use super::cable_at_pose::{CableAtPose, TensionByTau};
@@ -12,89 +13,91 @@ use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::residual::scaled_residual;
 
-/// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
+/// Maximum number of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more
+/// up to 20.
 const MAX_ITERATIONS: usize = 100;
 
 /// Change of the tensions, over their size, at which the iteration ends.
 const STILL: f64 = 1e-10;
 
-/// Scaled residual at which it may end; one more step squares it.
+/// Scaled residual at which the iteration may end; one more step squares it.
 const BALANCED: f64 = 1e-12;
 
-/// Violation of a limit, over the size of the tensions, that is rounding.
+/// Violation of a limit, over the size of the tensions, that counts as rounding.
 const VIOLATION: f64 = 1e-9;
 
-/// Least slope of a tension by τ. At the slackest (v up to 1.2) the greatest tension of a optimum cable is about at its
-/// minimum (v = 1.1997), its slope next to zero or below, and a limit by it would be on the wrong side.
+/// Minimum derivative of a tension with respect to τ. At the slackest (v up to 1.2) the maximum tension of a level
+/// cable is about at its minimum (v = 1.1997). Its derivative is near zero or negative there, and a limit computed from
+/// it would be on the wrong side.
 const MIN_SLOPE: f64 = 1e-3;
 
-/// Limit of further starts where neither tensions within the limits nor a proof that there are none is found.
+/// Maximum number of further starts if neither tensions within the limits nor a proof of their absence is found.
 const MAX_STARTS: usize = 12;
 
-/// Tensions at a pose, on their way to the best.
+/// Search for the best tensions at a pose.
 pub(super) struct TensionSearch<'a> {
     robot: &'a Robot,
     pose: &'a Pose,
     cables: Vec<CableAtPose>,
-    /// What tensions are compared with [N].
+    /// Reference size of the tensions [N].
     size: f64,
     iterations: usize,
-    /// Tensions within the limits that a search from other starts has found.
+    /// Tensions within the limits found by a search from other starts.
     rescued: Option<Vec<f64>>,
 }
 
-/// The problem linearised about the present tensions.
+/// Problem linearised about the present tensions.
 pub(super) struct Linear {
-    /// Derivatives of the wrench by the tensions, scaled, in the platform's coordinates.
+    /// Derivatives of the wrench with respect to the tensions, scaled, in the platform's coordinates.
     pub columns: Vec<Vec6>,
-    /// `columns · τ` of balanced tensions.
+    /// Value of `columns · τ` for balanced tensions.
     pub right: Vec6,
-    /// Scaled size of the wrench that is left now.
+    /// Scaled size of the remaining wrench.
     pub residual: f64,
-    /// The limits in τ.
+    /// Limits in τ.
     pub limits: Vec<[TauBound; 2]>,
 }
 
-/// A limit of τ [N].
+/// Limit of τ [N].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TauBound {
-    /// Where it is.
+    /// Value.
     pub at: f64,
-    /// How far it moves when the tension that is limited may change by 1 N.
+    /// Change of this limit per newton of change of the limited tension.
     pub rate: f64,
 }
 
-/// Tensions proposed, and what holds them there.
+/// Proposed tensions, with the multipliers of the balance.
 struct TensionStep {
     tau: Vec<f64>,
     /// Multipliers of the balance.
     multipliers: Vec6,
 }
 
-/// Tensions whose least distance from the limits is greatest.
+/// Tensions with the maximum of the smallest distance from the limits.
 struct MarginOptimum {
     tau: Vec<f64>,
-    /// That distance, in units of the widths, …
+    /// This distance, in units of the widths, …
     distance: f64,
-    /// … and in those of tensions [N].
+    /// … and in newtons.
     height: f64,
     held_by: Vec<(usize, Limit)>,
-    /// Multipliers of the balance; zero where the distance is in units of the widths.
+    /// Multipliers of the balance; zero if the distance is in units of the widths.
     multipliers: Vec6,
 }
 
-/// A limited growth of the least distance from the limits [N].
+/// Limited growth of the smallest distance from the limits [N].
 #[derive(Debug, Clone, Copy)]
 struct ProximalStep {
     from: f64,
     by: f64,
 }
 
-/// How far the tensions may move in one step towards the largest distance.
+/// Step control of the search for the maximum distance.
 ///
-/// Where the optimum is no corner of the linear problem, the corners on both sides take turns. Then the steps are made
-/// smaller: the distance may climb by a limited amount only, which the least move of the tensions provides (a proximal
-/// step). Its fixed points are the same.
+/// If the optimum is not a corner of the linear problem, the corners on both sides take turns. Then the steps are made
+/// smaller: the distance may grow by a limited amount only, with the smallest possible move of the tensions (a proximal
+/// step). The fixed points are the same.
 #[derive(Debug)]
 struct Stride {
     climb: Option<ProximalStep>,
@@ -161,7 +164,7 @@ impl<'a> TensionSearch<'a> {
         self.size
     }
 
-    /// The present tensions.
+    /// Present tensions.
     pub(super) fn tensions(&self) -> Vec<f64> {
         self.cables.iter().map(CableAtPose::tau).collect()
     }
@@ -173,7 +176,7 @@ impl<'a> TensionSearch<'a> {
         }
     }
 
-    /// The largest change to other tensions, over their size.
+    /// Largest change to other tensions, over their size.
     fn change(&self, tau: &[f64]) -> f64 {
         let change = self.cables.iter().zip(tau).fold(0.0, |most: f64, (cable, tau)| {
             let change = (tau.max(cable.slackest) - cable.tau()).abs();
@@ -202,7 +205,7 @@ impl<'a> TensionSearch<'a> {
         Linear { limits: limits.collect(), columns, right, residual }
     }
 
-    /// The lower limit of cable `i`, or its slackest τ if that is above.
+    /// Lower limit of cable `i`, or its slackest τ if that is higher.
     fn floor(&self, i: usize, lower: TauBound) -> TauBound {
         let slackest = self.cables[i].slackest;
         if lower.at < slackest { TauBound { at: slackest, rate: 1.0 } } else { lower }
@@ -213,27 +216,27 @@ impl<'a> TensionSearch<'a> {
         Solutions::of(&linear.columns, scales, &linear.right, dof, true).ok_or(StaticsError::Singular)
     }
 
-    /// The same for [`FeasibleSet`], which can do without directions where they are many.
+    /// Solutions for [`FeasibleSet`], which needs no directions if they are many.
     fn solutions_for_feasible_set(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let dof = self.robot.platform.motion.count();
         let in_null_space = self.cables.len() < MIN_DIRECTIONS_IN_CABLE_SPACE + dof;
         Solutions::of(&linear.columns, scales, &linear.right, dof, in_null_space).ok_or(StaticsError::Singular)
     }
 
-    /// Violation of inequalities that is rounding.
+    /// Violation of inequalities that counts as rounding.
     pub(super) fn tolerance(&self, solutions: &Solutions) -> f64 {
         1e-13 * solutions.particular.iter().fold(self.size, |most, p| most.max(p.abs()))
     }
 
-    /// Tensions within the limits nearest to `target` in least squares.
+    /// Moves to the tensions within the limits nearest to `target` in least squares.
     ///
-    /// The curvature of the balance enters the second derivative, cable by cable, by the change of its slope in the last
-    /// step; it matters where cables sag deeply.
+    /// The curvature of the balance enters the second derivative, cable by cable, by the change of its slope in the
+    /// last step. It matters if cables sag deeply.
     pub(super) fn nearest_to(&mut self, target: &[f64]) -> Result<(), StaticsError> {
         let count = self.cables.len();
         let mut scales = vec![1.0; count];
         let mut last: Option<(Vec<f64>, Vec<Vec6>, Vec6)> = None;
-        // Deeply sagging cables that overstep go on by shorter steps, until the last setback is well behind.
+        // If deeply sagging cables overstep, steps are shortened until the last setback is well behind.
         let (mut part, mut last_change, mut setback) = (1.0_f64, f64::INFINITY, f64::INFINITY);
 
         for _ in 0..MAX_ITERATIONS {
@@ -241,7 +244,7 @@ impl<'a> TensionSearch<'a> {
 
             let linear = self.linearise();
 
-            // Bend of each cable, from the last step.
+            // Curvature of each cable, from the last step.
             if let Some((tau, columns, multipliers)) = &last {
                 for (i, cable) in self.cables.iter().enumerate() {
                     let moved = cable.tau() - tau[i];
@@ -252,24 +255,24 @@ impl<'a> TensionSearch<'a> {
                 }
             }
 
-            // The linear problem.
+            // Solve the linear problem.
             let Some(step) = self.step(&linear, target, &scales)? else {
                 self.min_violation()?;
                 last = None;
                 if self.rescued.is_some() {
-                    // From where another start has led, shorter steps.
+                    // From the result of another start, with shorter steps.
                     part = (0.5 * part).max(0.05);
                 }
                 continue;
             };
 
-            // The end.
+            // End if nothing changes.
             let change = self.change(&step.tau);
             if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
             }
 
-            // How much of the step is taken.
+            // Choose the fraction of the step.
             if change > 0.9 * last_change {
                 (part, setback) = ((0.5 * part).max(0.05), change);
             } else if change < 0.3 * setback {
@@ -287,7 +290,7 @@ impl<'a> TensionSearch<'a> {
 
     fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<TensionStep>, StaticsError> {
         let solutions = self.solutions_for_feasible_set(linear, scales)?;
-        // The least of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
+        // The minimum of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
         let aim = |i: usize| {
             let tau = self.cables[i].tau();
             scales[i] * (tau - (tau - target[i]) / (scales[i] * scales[i]))
@@ -306,7 +309,7 @@ impl<'a> TensionSearch<'a> {
             }
         }
 
-        // The nearest point within them, and the multipliers of the balance.
+        // Nearest point within them, and the multipliers of the balance.
         let found = feasible.nearest(aim, 0.0, self.tolerance(&solutions));
         let Some(FeasiblePoint { sigma, held: active, .. }) = found else { return Ok(None) };
         let mut pressed = vec![0.0; scales.len()];
@@ -321,7 +324,7 @@ impl<'a> TensionSearch<'a> {
         }))
     }
 
-    /// Tensions as far from the limits as possible, in parts of the distance between them.
+    /// Moves to the tensions as far from the limits as possible, relative to the distance between the limits.
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
         let mut stride = Stride::default();
@@ -336,7 +339,7 @@ impl<'a> TensionSearch<'a> {
                 self.min_violation()?;
                 stride = Stride::default();
                 if self.rescued.is_some() {
-                    // From where another start has led, next to the limits, shorter steps each time.
+                    // From the result of another start, next to the limits, with shorter steps each time.
                     reach *= 0.3;
                     stride.climb = Some(ProximalStep { from: 0.0, by: reach * self.size });
                 }
@@ -353,7 +356,7 @@ impl<'a> TensionSearch<'a> {
         Err(self.not_converged(stride.last_change, STILL))
     }
 
-    /// Puts tensions that nearly hold the platform within the limits right; whether it succeeds.
+    /// Corrects tensions that nearly hold the platform within the limits; true if it succeeds.
     pub(super) fn settle(&mut self) -> bool {
         let linear = self.linearise();
         let slack = VIOLATION * self.size;
@@ -364,7 +367,7 @@ impl<'a> TensionSearch<'a> {
         settled || self.nearest_to(&self.tensions()).is_ok()
     }
 
-    /// Tensions within the limits, somewhere in the middle of them, that nearly hold the platform.
+    /// Moves to tensions within the limits, near their middle, that nearly hold the platform.
     pub(super) fn near_middle(&mut self) -> Result<(), StaticsError> {
         self.count();
         let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
@@ -376,14 +379,14 @@ impl<'a> TensionSearch<'a> {
         Ok(())
     }
 
-    /// Moves to tensions that violate the limits least; an error if they do violate them.
+    /// Moves to the tensions with the minimum violation of the limits; an error if they do violate them.
     ///
-    /// A cable below its minimum is continued by its tangent there, so that one that would have to push has a violation
-    /// as well, and the forces no kink on which linearisations could disagree. If no cable has to push after all, the
-    /// violation is found once more with the cables as they hang.
+    /// Below its minimum a cable is continued by its tangent there. So a cable that would need negative tension has a
+    /// violation as well, and the forces have no kink on which linearisations could disagree. If no tension is negative
+    /// after all, the violation is computed once more with the cables as they hang.
     ///
-    /// What violates the limits least may be a local optimum where cables sag. The pose is refused for good only if a
-    /// direction proves it, see [`Infeasibility`]; else the search begins again elsewhere.
+    /// The minimum violation may be a local one if cables sag. The pose is refused for good only if a direction proves
+    /// it, see [`Infeasibility`]; otherwise the search begins again elsewhere.
     fn min_violation(&mut self) -> Result<(), StaticsError> {
         if let Some(tau) = self.rescued.clone() {
             self.set(&tau);
@@ -393,7 +396,7 @@ impl<'a> TensionSearch<'a> {
         let minima: Vec<f64> = self.cables.iter_mut().map(CableAtPose::at_minimum).collect();
         let mut optimum = self.min_violation_above(&minima)?;
         if optimum.distance >= -VIOLATION * self.size {
-            // There are such tensions; the next linear problem knows.
+            // Such tensions exist; the next linear problem will find them.
             return Ok(());
         }
 
@@ -405,7 +408,7 @@ impl<'a> TensionSearch<'a> {
             optimum = hung;
         }
 
-        // The direction of the limits' multipliers proves it nearly always.
+        // The direction of the limits' multipliers is nearly always a proof.
         let reaches: Vec<Reach> = self.cables.iter().zip(&minima).map(|(cable, tau)| Reach::of(cable, *tau)).collect();
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
@@ -415,7 +418,7 @@ impl<'a> TensionSearch<'a> {
             return Err(StaticsError::BeyondLimits(self.miss(&optimum)));
         }
 
-        // Other starts: where the cables reach max_shares in that direction, and all over between the limits.
+        // Other starts: the tensions with the maximum contributions in that direction, and others between the limits.
         let mut starts = 1;
         for k in 0..MAX_STARTS {
             starts += 1;
@@ -434,12 +437,12 @@ impl<'a> TensionSearch<'a> {
         Err(StaticsError::NotFoundWithinLimits { miss: self.miss(&optimum), starts })
     }
 
-    /// The `k`-th of tensions that spread over what the limits allow, even in their logarithms.
+    /// Start number `k` of tensions that spread over the range between the limits, evenly in their logarithms.
     fn spread(&self, reaches: &[Reach], k: usize) -> Vec<f64> {
         let cables = reaches.iter().zip(&self.cables).enumerate();
         let tensions = cables.map(|(i, (reach, cable))| {
             let [low, high] = reach.limits();
-            // Without a maximum the reach is no tension that a start should have.
+            // Without a maximum, the upper end of the range is too high for a start.
             let high = if cable.range.maximum.is_infinite() { high.min(self.size.max(2.0 * low)) } else { high };
             let low = low.max(f64::MIN_POSITIVE);
             // Multiples of irrational numbers have no pattern (Weyl).
@@ -449,7 +452,7 @@ impl<'a> TensionSearch<'a> {
         tensions.collect()
     }
 
-    /// The least violation when cables are continued by their tangents below these tensions.
+    /// Minimum violation if cables are continued by their tangents below these tensions.
     fn min_violation_above(&mut self, floors: &[f64]) -> Result<MarginOptimum, StaticsError> {
         let mut here = self.tensions();
         let mut stride = Stride::default();
@@ -460,7 +463,7 @@ impl<'a> TensionSearch<'a> {
             let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
             self.set(&hung);
 
-            // The linear problem, from where cables hang at all.
+            // Linear problem about tensions at which the cables can hang.
             let linear = self.linearise();
             let optimum = self.margin_optimum(&linear, None, &here, stride.climb)?;
 
@@ -477,14 +480,15 @@ impl<'a> TensionSearch<'a> {
                 mildest = Some(optimum);
             }
         }
-        // Very heavy and soft ropes may wander without end. If every linear problem has been impossible, so is the pose;
-        // the mildest of them says by how much, roughly.
+        // Very heavy and soft ropes may wander without end. If every linear problem has been infeasible, so is the
+        // pose; the smallest violation among them is an estimate.
         mildest
             .filter(|optimum| optimum.distance < -VIOLATION * self.size)
             .ok_or_else(|| self.not_converged(stride.last_change, VIOLATION))
     }
 
-    /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
+    /// Maximum of the smallest distance from the limits: over their `widths`, or, without widths, in N and at most
+    /// zero.
     ///
     /// With a `climb` the distance grows by a limited amount instead, and the tensions `here` move little.
     fn margin_optimum(
@@ -495,7 +499,7 @@ impl<'a> TensionSearch<'a> {
         climb: Option<ProximalStep>,
     ) -> Result<MarginOptimum, StaticsError> {
         let solutions = self.solutions_for_feasible_set(linear, &vec![1.0; self.cables.len()])?;
-        // The height is in N either way.
+        // The height is in N in both cases.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
 
         // The limits.
@@ -520,7 +524,7 @@ impl<'a> TensionSearch<'a> {
             rows.push(None);
         }
 
-        // The highest point.
+        // Highest point.
         let tolerance = self.tolerance(&solutions);
         let found = match (climb, widths) {
             (Some(climb), _) => feasible.nearest(|i| here[i], climb.from + climb.by, tolerance),
@@ -529,14 +533,14 @@ impl<'a> TensionSearch<'a> {
         };
 
         let Some(FeasiblePoint { sigma: tau, height, held }) = found else {
-            // Only the slackest cables can be in the way here: they bind harder than the limits.
+            // Only the slackest cables can prevent a solution here: they bind more strictly than the limits.
             return match widths {
                 Some(_) => self.margin_optimum(linear, None, here, None),
                 None => Err(self.not_converged(f64::INFINITY, STILL)),
             };
         };
 
-        // Which limits hold it.
+        // Limits that hold it.
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
@@ -557,7 +561,7 @@ impl<'a> TensionSearch<'a> {
     fn miss(&mut self, optimum: &MarginOptimum) -> LimitViolation {
         let mut held_by = optimum.held_by.clone();
         if held_by.is_empty() {
-            // The last step was a short one, which no limit has stopped: those that bind there are asked for again.
+            // The last step was a short one that no limit has stopped: compute the binding limits again.
             self.set(&optimum.tau);
             if let Ok(there) = self.margin_optimum(&self.linearise(), None, &optimum.tau, None) {
                 held_by = there.held_by;

@@ -1,7 +1,8 @@
-//! The stiffest tensions: the largest least eigenvalue of the scaled stiffness.
+//! Stiffest tensions: maximum of the minimum eigenvalue of the scaled stiffness.
 //!
-//! The least eigenvalue has a second-order model that costs the eigenvectors of one 6×6 matrix, see [`model`]; so the
-//! optimum is found by Newton's method, one small program a step. Where that does not arrive, cutting planes do.
+//! The minimum eigenvalue has a second-order model that costs the eigenvectors of one 6×6 matrix, see [`model`]. So the
+//! optimum is found by Newton's method, with one small optimisation problem per step. If that does not converge,
+//! cutting planes are used.
 
 mod cutting_planes;
 mod model;
@@ -13,24 +14,24 @@ use crate::statics::error::StaticsError;
 use crate::statics::stiffness::assembled;
 use model::{Model, StiffeningStep};
 
-/// Gain of stiffness, relative, that is not worth a step.
+/// Relative gain of stiffness that is not worth a step.
 const GAIN: f64 = 3e-8;
 
-/// Most steps of Newton's method, which takes a handful, more where eigenvalues meet.
+/// Maximum number of Newton steps; a handful is usual, more if eigenvalues meet.
 const MAX_STEPS: usize = 40;
 
-/// Least part of a step that is tried.
+/// Minimum fraction of a step that is tried.
 const MIN_STEP: f64 = 1e-3;
 
-/// Tensions within the limits that make the robot stiffest.
+/// Moves to the tensions within the limits with the maximum stiffness.
 pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     search.near_middle()?;
     survey(search)?;
     if climb(search) { Ok(()) } else { cutting_planes::search(search) }
 }
 
-/// Moves to the stiffest of a few tensions: the present ones and those half-way from them to the limits, forth and back
-/// along every direction. Where ropes sag there are several optima; this begins near a high one.
+/// Moves to the stiffest of a few tensions: the present ones and those half-way from them to the limits, both ways
+/// along every direction. With sagging ropes there are several optima; this starts near a high one.
 fn survey(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     let linear = search.linearise();
     let middle = search.tensions();
@@ -56,7 +57,7 @@ fn survey(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     Ok(())
 }
 
-/// Where a step began.
+/// Start of a step.
 struct Start {
     tau: Vec<f64>,
     value: f64,
@@ -64,7 +65,7 @@ struct Start {
 }
 
 impl Start {
-    /// Restores the balance and makes this part of the rest of the step.
+    /// Restores the balance and adds this fraction of the stiffening part of the step.
     fn go(&self, search: &mut TensionSearch<'_>, part: f64) {
         let step = self.step.restoring.iter().zip(&self.step.stiffening);
         let tau: Vec<f64> = self.tau.iter().zip(step).map(|(from, (to, on))| from + to + part * on).collect();
@@ -72,7 +73,7 @@ impl Start {
     }
 }
 
-/// Newton's method from the present tensions; whether it arrives.
+/// Newton's method from the present tensions; true if it converges.
 fn climb(search: &mut TensionSearch<'_>) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut last: Option<Start> = None;
@@ -81,7 +82,7 @@ fn climb(search: &mut TensionSearch<'_>) -> bool {
         search.count();
         let stiffness = present(search);
         let eigen = symmetric::eigen(&stiffness, dof);
-        // A loss this large is not the balance's, which is still off by a little: the model need not be made.
+        // A loss this large does not come from the small imbalance: the model need not be made.
         let lost = last.as_ref().is_some_and(|last| eigen.0[0] < last.value - last.step.gain);
         let here = if lost { None } else { Model::here(search, &stiffness, eigen) };
         let enough = |last: &Start, value: f64| value >= last.value + 0.1 * part * last.step.gain;
@@ -96,7 +97,7 @@ fn climb(search: &mut TensionSearch<'_>) -> bool {
         let arrived = step.gain <= GAIN * here.value.abs() + here.rounding;
         let start = Start { tau: search.tensions(), value: here.value, step };
         part = 1.0;
-        // Where the step's own rounding is all that it changes, only the balance is restored.
+        // If the step's change is only rounding, restore the balance alone.
         start.go(search, if start.step.gain > 0.0 { part } else { 0.0 });
         if arrived {
             return search.settle();
@@ -106,7 +107,7 @@ fn climb(search: &mut TensionSearch<'_>) -> bool {
     false
 }
 
-/// The scaled stiffness of the robot at the present tensions, in the platform's coordinates.
+/// Scaled stiffness of the robot at the present tensions, in the platform's coordinates.
 fn present(search: &TensionSearch<'_>) -> Mat6 {
     let cables = search.cables().iter().map(|cable| {
         let (force, lever) = cable.force();
@@ -120,7 +121,7 @@ fn min_eigenvalue(search: &TensionSearch<'_>) -> f64 {
     symmetric::eigenvalues(&present(search), search.robot().platform.motion.count())[0]
 }
 
-/// Whether the least eigenvalue is above a value; in a fraction of its time.
+/// True if the minimum eigenvalue is above a value; takes a fraction of its time.
 fn is_above(search: &TensionSearch<'_>, value: f64) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut above = present(search);
@@ -141,7 +142,7 @@ mod tests {
     const CAROCA: &str = funicular_robots::CAROCA;
     const POINT: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
-    /// The robots with other ropes, masses per length [kg/m] and stiffnesses [N], and poses without pattern.
+    /// Robots with other ropes, masses per length [kg/m] and stiffnesses [N], and poses without pattern.
     fn cases(ropes: [(f64, f64); 3]) -> impl Iterator<Item = (Robot, Pose)> {
         let boxes = [
             (COGIRO, [50.0, 1500.0], [0.0, 0.0, 2.0], [6.0, 4.0, 1.5], 10.0),
@@ -173,7 +174,7 @@ mod tests {
         Some(search)
     }
 
-    /// Straight cables have one optimum; soft ones, of rubber, where eigenvalues meet.
+    /// Straight cables have one optimum; with soft ones, of rubber, eigenvalues meet there.
     #[test]
     fn newtons_method_finds_what_cutting_planes_find() {
         let (mut tried, mut meeting) = (0, 0);
@@ -191,7 +192,7 @@ mod tests {
         assert!(tried > 300 && meeting > 10, "{tried} {meeting}");
     }
 
-    /// Sagging ones may have several optima, and either method may end in the lower one.
+    /// Sagging cables may have several optima, and either method may end in the lower one.
     #[test]
     fn with_sagging_ropes_newtons_method_arrives_no_lower_than_cutting_planes_on_the_whole() {
         let (mut tried, mut ratios) = (0, 0.0);

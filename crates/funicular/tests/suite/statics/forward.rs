@@ -1,4 +1,4 @@
-//! Unstrained lengths to a pose: no start needed, slack cables, refusals.
+//! Unstrained lengths to a pose: no start needed, slack cables, refused input.
 
 use super::{COGIRO, YUAN_4MM, YUAN_8MM, load};
 use crate::library::independent_robots;
@@ -87,11 +87,11 @@ proptest! {
         for model in [StaticModel::Spring, StaticModel::Catenary] {
             let rest = statics::forward(&robot, &lengths, model, None);
             let rest = rest.map_err(|e| TestCaseError::fail(format!("{model:?}: {e}")))?;
-            // Rounding of a chord, in the stiffest rope, under all forces: what no search gets below.
+            // Rounding of a chord in the stiffest rope, over all forces: no search can get below it.
             let forces: f64 = rest.cables.iter().map(|c| c.tension_platform).sum::<f64>() + 9.81 * robot.platform.mass;
             let stiffness: f64 = robot.cables.iter().map(|c| c.material.axial_stiffness).sum();
             prop_assert!(rest.residual <= 1e-10f64.max(2e-15 * stiffness / forces));
-            // Springs may leave a direction free where cables are slack; catenaries never do.
+            // Springs may leave a direction free if cables are slack; catenaries never do.
             if model == StaticModel::Catenary {
                 prop_assert!(matches!(rest.stability, Stability::Stable { .. }), "{:?}", rest.stability);
             }

@@ -1,4 +1,4 @@
-//! The nearest pose that fewer cables than degrees of freedom can hold.
+//! Nearest pose that fewer cables than degrees of freedom can hold.
 
 use super::crane;
 use funicular::cable::CableModel;
@@ -20,9 +20,9 @@ fn the_nearest_pose_is_found_from_lengths_and_leads_back_to_them() {
         assert!(found.equilibrium.residual <= 1e-10);
         let lengths: Vec<f64> = found.equilibrium.cables.iter().map(|c| c.unstrained_length).collect();
         let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&asked)).unwrap();
-        // On one cable the platform may turn, and from another start it does.
+        // On one cable the platform can turn freely, and from another start it does.
         assert!(cables == 1 || statics::pose_distance(&robot, &back.pose, &found.equilibrium.pose) < 1e-6, "{cables}");
-        // No neighbour by its lengths is nearer.
+        // No neighbouring equilibrium is nearer.
         for i in 0..cables {
             for step in [-3e-3, 3e-3] {
                 let mut other = lengths.clone();
@@ -55,7 +55,7 @@ fn of_a_body_on_one_cable_the_nearest_pose_keeps_the_asked_turn_about_it() {
     let robot = crane(1, 0.0);
     let asked = Pose::new([3.3, 2.8, 1.5], [0.0, 0.0, 40.0]);
     let found = statics::nearest_equilibrium(&robot, &asked, StaticModel::Spring).unwrap();
-    // Free directions take no force: the pose turned about the cable by anything is an equilibrium and further away.
+    // Free directions need no force: the pose turned about the cable by any angle is an equilibrium, but further away.
     let pose = found.equilibrium.pose;
     let anchor = robot.cables[0].anchor.reference_w();
     for angle in [-0.02, 0.02f64] {
@@ -84,7 +84,7 @@ fn a_pose_that_only_ropes_of_no_length_come_near_is_singular() {
 }
 
 proptest! {
-    // Always the same poses: of some hundred random ones the search stops short at one, and says so (`NotNearest`), as at
+    // Fixed poses: of some hundred random ones the search stops short at one and reports it (`NotNearest`), as at
     // (-0.42587, 0.33305, 2.06175) m with a roll of -9.84337°, no yaw and 0.09354 kg/m.
     #![proptest_config(ProptestConfig {
         cases: 60, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..Default::default()

@@ -1,11 +1,11 @@
-//! Loads that rounding hides, and none at all.
+//! Loads that rounding hides, and no loads at all.
 
 use super::{YUAN_4MM, YUAN_8MM, load};
 use funicular::math::Vec3;
 use funicular::statics::{self, StaticModel, StaticsError};
 
-/// A load below the rounding of the cables' elastic forces has no equilibrium that floating point can tell, and it is
-/// not given as one.
+/// A load below the rounding of the cables' elastic forces has no equilibrium that floating point can resolve, and none
+/// is reported.
 #[test]
 fn a_load_that_rounding_hides_is_refused() {
     let (mut robot, lengths) = load(YUAN_4MM);
@@ -23,8 +23,8 @@ fn a_load_that_rounding_hides_is_refused() {
     }
 }
 
-/// As the load falls, each answer is either an equilibrium as good as promised or none. Independent of the residual:
-/// the tensions are those of the full load in proportion, up to the bend that stretch makes of it.
+/// As the load falls, each result is either an equilibrium of the promised accuracy or an error. Check independent of
+/// the residual: the tensions are proportional to those of the full load, up to the curvature caused by stretch.
 #[test]
 fn equilibria_of_small_loads_are_right_or_refused() {
     let (robot, lengths) = load(YUAN_4MM);
@@ -48,7 +48,7 @@ fn equilibria_of_small_loads_are_right_or_refused() {
     assert!(held >= 4 && refused >= 3, "{held} {refused}");
 }
 
-/// Nothing over nothing is no residual of one.
+/// Zero over zero is not a residual of one.
 #[test]
 fn without_load_and_tension_there_is_nothing_to_balance() {
     for text in [YUAN_4MM, YUAN_8MM] {

@@ -1,9 +1,11 @@
-//! The stiffest tensions by cutting planes: slow and sure, for where Newton's method does not arrive, and its oracle.
+//! Stiffest tensions by cutting planes: slow and reliable, for cases in which Newton's method does not converge, and as
+//! its oracle.
 //!
-//! The stiffness of straight cables is affine in the tensions (EA/L0 = (EA + T)/l along a cable, T/l across it), its least
-//! eigenvalue therefore concave, and the optimum over the tensions within the limits is a convex problem in any number
-//! of dimensions. It is solved by cutting planes: every eigenvector q bounds the eigenvalue from above by the affine
-//! qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not stiffen is shortened.
+//! The stiffness of straight cables is affine in the tensions (EA/L0 = (EA + T)/l along a cable, T/l across it). Its
+//! minimum eigenvalue is therefore concave, and the optimum over the tensions within the limits is a convex problem in
+//! any number of dimensions. It is solved by cutting planes: every eigenvector q bounds the eigenvalue from above by
+//! the affine qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not increase the
+//! stiffness is shortened.
 
 use super::super::active_set::Polyhedron;
 use super::super::search::{Linear, TensionSearch};
@@ -11,16 +13,17 @@ use super::{GAIN, min_eigenvalue, present};
 use crate::math::{Mat6, Vec6, symmetric, symmetric_part};
 use crate::statics::error::StaticsError;
 
-/// Most linearisations; straight cables need two, sagging ones many more.
+/// Maximum number of linearisations; straight cables need two, sagging ones many more.
 const MAX_LINEARISATIONS: usize = 60;
 
-/// Most rounds of cuts a linearisation.
+/// Maximum number of rounds of cuts per linearisation.
 const MAX_ROUNDS: usize = 100;
 
-/// Eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the optimum.
+/// Number of eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the
+/// optimum.
 const CUTS: usize = 3;
 
-/// Tensions within the limits that make the robot stiffest.
+/// Moves to the tensions within the limits with the maximum stiffness.
 pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     search.middle()?;
     let mut best = search.tensions();
@@ -34,7 +37,7 @@ pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError>
             break;
         }
 
-        // Taken if stiffer, else nearer next time.
+        // Take the step if it is stiffer; otherwise shorten the next one.
         let step = next.iter().zip(&best).fold(0.0, |m: f64, (to, from)| m.max((to - from).abs()));
 
         let reached = match search.nearest_to(&next) {
@@ -56,8 +59,8 @@ pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError>
     Ok(())
 }
 
-/// The stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and how
-/// stiff it then is.
+/// Stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and its stiffness
+/// there.
 fn stiffest_of_linear(
     search: &TensionSearch<'_>,
     linear: &Linear,
@@ -75,10 +78,10 @@ fn stiffest_of_linear(
             search.robot().platform.motion.reduced_matrix(&(symmetric_part(&rate)))
         })
         .collect();
-    // The height in the unit of tensions.
+    // Height in the unit of tensions.
     let unit = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.amax())).max(f64::MIN_POSITIVE);
 
-    // The limits, and how far.
+    // Limits, and the reach.
     let mut set = Polyhedron::new(solutions.redundancy() + 1);
     for (i, [lower, upper]) in linear.limits.iter().enumerate() {
         let particular = solutions.particular[i];
@@ -88,7 +91,7 @@ fn stiffest_of_linear(
         set.add(solutions.part(i), -1.0, Some(0.0), particular - most);
     }
 
-    // Cuts, each round those of the lowest eigenvectors.
+    // Cuts: in each round those of the lowest eigenvectors.
     let mut z = solutions.along(|i| here[i]);
     let mut best = (here.clone(), f64::NEG_INFINITY);
 
@@ -113,7 +116,7 @@ fn stiffest_of_linear(
             set.add(normal.iter(), 1.0, Some(-1.0), -level);
         }
 
-        // The highest point under all cuts.
+        // Highest point under all cuts.
         let height = best.1 / unit;
         let mut point = z.clone();
         point.push(height);
