@@ -258,6 +258,7 @@ mod tests {
             let vectors = DMat::from_fn(n, 3, |i, j| columns[i * 3 + j]);
             let rows: Vec<f64> = (0..n * 3).map(|at| columns[at]).collect();
             let (values, products) = pencil(k.as_slice().to_vec(), m.as_slice().to_vec(), rows, 3).unwrap();
+
             // Σ μ_k^p (φ_kᵀ a)(φ_kᵀ b) = aᵀ K⁻¹ (M K⁻¹)^p b: no eigenvector needed to compare.
             let inverse = k.clone().try_inverse().unwrap();
             let mut power = inverse.clone();
@@ -272,6 +273,7 @@ mod tests {
                 }
                 power = &power * &m * &inverse;
             }
+
             let l = k.cholesky().unwrap().l();
             let solved = l.solve_lower_triangular(&m).unwrap();
             let standard = l.solve_lower_triangular(&solved.transpose()).unwrap();

@@ -91,6 +91,7 @@ impl Robot {
         robot.load.force_w += change.force_w * step;
         robot.load.moment_w += change.moment_w * step;
         robot.load.point_p += change.point_p * step;
+
         for (cable, change) in robot.cables.iter_mut().zip(&change.cables) {
             let Anchor::Fixed { point_w } = &mut cable.anchor;
             *point_w += change.anchor_w * step;
@@ -99,6 +100,7 @@ impl Robot {
             cable.material.mass_per_length += change.mass_per_length * step;
             cable.load_per_length_w += change.load_per_length_w * step;
         }
+
         if let State::Lengths(lengths) = &mut robot.state {
             for (length, change) in lengths.iter_mut().zip(&change.cables) {
                 *length += change.unstrained_length * step;

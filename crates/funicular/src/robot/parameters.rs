@@ -279,12 +279,14 @@ impl Parameters {
         let parameter = self.list.get(index)?;
         let robot = &self.robot;
         let mut change = RobotChange::none(robot.cables.len());
+
         let unit = || -> Option<Vec3> {
             let axis = ["x", "y", "z"].iter().position(|name| Some(*name) == parameter.component)?;
             let mut unit = Vec3::zeros();
             unit[axis] = 1.0;
             Some(unit)
         };
+
         match (parameter.part, parameter.key) {
             (RobotPart::Robot, "gravity_m_s2") => change.gravity_w = unit()?,
             (RobotPart::Platform, "mass_kg") => change.mass = 1.0,
@@ -318,6 +320,7 @@ impl Parameters {
             (RobotPart::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
             _ => return None,
         }
+
         Some(change)
     }
 
@@ -331,6 +334,7 @@ impl Parameters {
     ) -> Option<()> {
         let name = parameter.keys.get(1)?;
         let in_wind = self.robot.wind.velocity_w != Vec3::zeros();
+
         for (i, (cable, change)) in self.robot.cables.iter().zip(&mut change.cables).enumerate() {
             let material = &cable.material;
             if material.name != *name {
@@ -495,6 +499,7 @@ fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> V
     if let Some(number) = parsed(value) {
         return vec![(None, number, vec![span.start])];
     }
+
     let DeValue::Array(rows) = value else { return Vec::new() };
     let element = |row: usize, column: Option<usize>| {
         let value = rows.get(row)?;
@@ -506,6 +511,7 @@ fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> V
         };
         Some((parsed(value.get_ref())?, value.span().start))
     };
+
     let components = shape.components().iter();
     components
         .filter_map(|(name, component)| match *component {

@@ -224,6 +224,7 @@ pub(super) fn from_tree(text: &str, root: &DeTable, numbers: Numbers) -> Result<
 /// Reads the complete file. `None`, here and at every early end, means that an issue has been reported.
 fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let root = reader.open(TOP, 0..0, table, ROOT);
+
     let name = reader.required(&root, "name").and_then(|value| reader.name("name", value));
     let source = match root.get("source") {
         Some(value) => reader.prose("source", value),
@@ -233,6 +234,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         Some(value) => reader.vector(&root, "gravity_m_s2", value),
         None => Some(DEFAULT_GRAVITY),
     };
+
     let motion = platform::motion(reader, &root);
     let platform = platform::read(reader, &root, motion);
     let load = read_load(reader, &root, motion);
@@ -240,6 +242,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let materials = materials::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), motion);
     let state = read_state(reader, &root, cables.as_deref(), motion);
+
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
     Some(Robot {
         name: name?,
@@ -258,6 +261,7 @@ fn read_load(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>
     let Some(value) = root.get("loads") else { return Some(Load::default()) };
     let table = reader.table("loads", "[loads]", value)?;
     let section = reader.open("[loads]", value.span(), table, LOADS);
+
     let mut vector = |key: &str| match section.get(key) {
         Some(value) => {
             let vector = reader.vector(&section, key, value)?;
@@ -274,6 +278,7 @@ fn read_load(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>
         }
         None => Some(Vec3::zeros()),
     };
+
     let (force, moment, point) = (vector("force_n"), vector("moment_n_m"), vector("point_m"));
     Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
 }
@@ -283,6 +288,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     let Some(value) = root.get("wind") else { return Some(Wind::default()) };
     let table = reader.table("wind", "[wind]", value)?;
     let section = reader.open("[wind]", value.span(), table, WIND);
+
     let velocity = reader.required(&section, "velocity_m_s").and_then(|v| reader.vector(&section, "velocity_m_s", v));
     if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
         let speed = Vec3::from(velocity).norm();
@@ -296,6 +302,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
             return None;
         }
     }
+
     let air_density = match section.get("air_density_kg_m3") {
         Some(value) => reader.number_of(&section, "air_density_kg_m3", value),
         None => Some(Wind::AIR_DENSITY),
@@ -311,6 +318,7 @@ fn read_state(
     motion: Option<PlatformMotion>,
 ) -> Option<State> {
     let lengths = cables.map(|cables| cables::lengths(reader, cables));
+
     let Some(value) = root.get("state") else {
         let lengths = lengths??;
         if !lengths.is_empty() {
@@ -318,6 +326,7 @@ fn read_state(
         }
         return Some(if lengths.is_empty() { State::Unknown } else { State::Lengths(lengths) });
     };
+
     let table = reader.table("state", "[state]", value)?;
     let section = reader.open("[state]", value.span(), table, STATE);
     let position = reader.required(&section, "position_m").and_then(|v| reader.vector(&section, "position_m", v));
@@ -333,6 +342,7 @@ fn read_state(
         }
         None => Some([0.0; 3]),
     };
+
     if let Some(with_length) = cables.into_iter().flatten().find_map(|c| c.length_span.clone()) {
         reader
             .issue(value.span(), "the file gives both a pose and unstrained lengths, each fixes the other")
@@ -340,6 +350,7 @@ fn read_state(
             .help("remove [state], or remove every `unstrained_length_m`");
         return None;
     }
+
     let pose = Pose::new(position?, angles?);
     if let Some(Err(out)) = motion.map(|motion| motion.check(&pose)) {
         reader.issue(value.span(), format!("this pose is not in the plane: {out}"));

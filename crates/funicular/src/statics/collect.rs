@@ -31,6 +31,7 @@ pub(super) fn collect(
             hanging: Some(cable),
         })
         .collect();
+
     let residual = residual_of(robot, &pose, &cables);
     let mut equilibrium = Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid };
     if let Some(stiffness) = tangent_with_drag(robot, &equilibrium) {

@@ -117,10 +117,12 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
     }
+
     let coordinates = Coordinates::of(robot);
     let right = -coordinates.reduce(load);
     let columns = unit_wrenches(robot, pose, &coordinates);
     let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
+
     // Frobenius norms bound the condition number from above and cost a tenth of the singular values.
     let bound = columns.norm() * inverse.norm();
     if bound.is_nan() || bound > MAX_BOUND {
@@ -129,6 +131,7 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
             return Err(StaticsError::Singular);
         }
     }
+
     let tensions = columns.lu().solve(&right).ok_or(StaticsError::Singular)?;
     Ok(tensions.iter().copied().take(robot.cables.len()).collect())
 }
@@ -154,6 +157,7 @@ pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: u
             }
         })
         .collect();
+
     let residual = residual_of(robot, &pose, &cables);
     Equilibrium { pose, model: StaticModel::Ideal, cables, residual, iterations, stability: Stability::Rigid }
 }

@@ -88,6 +88,7 @@ pub(super) fn read(
         reader.issue(value.span(), "there is no cable").help("begin every cable with [[cables]]");
         return None;
     }
+
     let mut names: BTreeMap<String, Range<usize>> = BTreeMap::new();
     let mut entries = Vec::with_capacity(array.len());
     for (i, value) in array.iter().enumerate() {
@@ -105,6 +106,7 @@ pub(super) fn read(
         let section = reader.open(label, value.span(), table, KEYS);
         entries.push(read_one(reader, &section, materials, motion, &mut names));
     }
+
     (entries.len() == array.len()).then_some(entries)
 }
 
@@ -127,6 +129,7 @@ fn read_one(
         names.insert(name.clone(), value.span());
         Some(name)
     });
+
     let material = reader.required(section, "material").and_then(|value| {
         let material = reader.text("material", value)?;
         // Without [materials] every cable would repeat an issue that has been reported once.
@@ -137,17 +140,21 @@ fn read_one(
         };
         known.clone()
     });
+
     let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector(section, "anchor_m", value));
     let attachment = attachment(reader, section, motion);
+
     let own_limits = limits::read(reader, section);
     if let (Some(own), Some(material)) = (own_limits, &material) {
         // Together with the rope's limits: each may be valid alone and both together not.
         limits::check(reader, section, own.or(material.tension_limits), material.breaking_load);
     }
+
     let own_load = section.get("load_n_per_m").map(|value| reader.vector(section, "load_n_per_m", value));
     let length_value = section.get("unstrained_length_m");
     let length = length_value.and_then(|value| reader.number_of(section, "unstrained_length_m", value));
     let load = own_load.map_or_else(|| material.as_ref().map(|m| m.load_per_length_w), |own| own.map(Vec3::from));
+
     let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits.zip(load)).map(
         |(((name, material), (anchor, attachment)), (tension_limits, load_per_length_w))| Cable {
             load_per_length_w,
@@ -158,6 +165,7 @@ fn read_one(
             tension_limits,
         },
     );
+
     CableEntry {
         cable,
         label: section.label().to_owned(),

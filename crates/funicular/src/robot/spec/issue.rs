@@ -102,6 +102,7 @@ impl SpecError {
             let start = boundary(shown_text, span.start.saturating_sub(mark));
             start..boundary(shown_text, span.end.saturating_sub(mark)).max(start)
         };
+
         let mut shown: Vec<String> = Vec::new();
         for issue in self.issues.iter().take(SHOWN) {
             let mut snippet = Snippet::source(shown_text)
@@ -116,6 +117,7 @@ impl SpecError {
             }
             shown.push(renderer.render(&[group]));
         }
+
         if let Some(more) = self.issues.len().checked_sub(SHOWN).filter(|more| *more > 0) {
             shown.push(format!("and {more} more"));
         }

@@ -29,6 +29,7 @@ fn optional(reader: &mut Reader, section: &Section, key: &str) -> Option<Option<
 pub(super) fn check(reader: &mut Reader, section: &Section, limits: TensionLimits, breaking_load: Option<f64>) {
     let span_of = |key: &str| section.get(key).map(toml::Spanned::span);
     let (minimum_span, maximum_span) = (span_of("minimum_tension_n"), span_of("maximum_tension_n"));
+
     if let (Some(minimum), Some(maximum)) = (limits.minimum, limits.maximum)
         && minimum >= maximum
     {
@@ -40,6 +41,7 @@ pub(super) fn check(reader: &mut Reader, section: &Section, limits: TensionLimit
         }
         return;
     }
+
     let Some(breaking_load) = breaking_load else { return };
     let limits =
         [("minimum_tension_n", limits.minimum, minimum_span), ("maximum_tension_n", limits.maximum, maximum_span)];

@@ -101,6 +101,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
             .help("add a table [materials.NAME] for every rope, NAME of your choice");
         return None;
     }
+
     let mut materials = Materials::new();
     for (key, value) in table {
         let name: &str = key.get_ref();
@@ -120,16 +121,19 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     let mass_per_length =
         reader.required(section, "mass_kg_per_m").and_then(|value| reader.number_of(section, "mass_kg_per_m", value));
     let damping = damping(reader, section);
+
     let breaking_load = limits::breaking_load(reader, section);
     let tension_limits = limits::read(reader, section);
     if let Some(limits) = tension_limits {
         limits::check(reader, section, limits, breaking_load.flatten());
     }
+
     let drag_width = drag_width(reader, section, stiffness.diameter());
     let load_per_length = match section.get("load_n_per_m") {
         Some(value) => reader.vector(section, "load_n_per_m", value),
         None => Some([0.0; 3]),
     };
+
     Some(Material {
         name: name.to_owned(),
         axial_stiffness: axial_stiffness?,
@@ -149,6 +153,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
     // An issue of the rope's own diameter has been reported together with its stiffness.
     let of_rope = section.get("diameter_m").map(|_| rope_diameter);
     let diameter = own.map(|value| reader.number_of(section, "drag_diameter_m", value)).or(of_rope);
+
     let Some(value) = section.get("drag_coefficient") else {
         if let Some(own) = own {
             reader
@@ -158,6 +163,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
         }
         return Some(None);
     };
+
     let coefficient = reader.number_of(section, "drag_coefficient", value);
     let Some(diameter) = diameter else {
         reader
@@ -199,6 +205,7 @@ impl StiffnessKeys {
         let Self { numbers, wrong } = *self;
         let keys = Self::NAMES;
         let values = keys.map(|key| section.get(key));
+
         if let Some(stiffness) = values[0] {
             let mut others = keys.into_iter().zip(values).skip(1);
             if let Some((other, value)) = others.find_map(|(key, value)| Some((key, value?))) {
@@ -210,6 +217,7 @@ impl StiffnessKeys {
             }
             return numbers[0];
         }
+
         if let (Some(diameter), Some(area)) = (values[2], values[3]) {
             let mut both = [("diameter_m", diameter.span()), ("area_m2", area.span())];
             both.sort_by_key(|(_, span)| span.start);
@@ -220,9 +228,11 @@ impl StiffnessKeys {
                 .help(TWO_WAYS);
             return None;
         }
+
         if wrong {
             return None;
         }
+
         let label = section.label();
         let missing = match (numbers[1], numbers[2], numbers[3]) {
             (None, None, None) => format!("{label} has no axial stiffness"),

@@ -84,17 +84,20 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
     let Some(DeValue::Table(table)) = root.get("platform").map(toml::Spanned::get_ref) else {
         return Some(PlatformMotion::default());
     };
+
     let (normal, offset) = (table.get("plane_normal"), table.get("plane_offset_m"));
     let word = match table.get("motion") {
         Some(value) => known_word(reader, value)?,
         None => "rigid",
     };
+
     let axis = match word {
         "planar-xy" => Some(Vec3::z()),
         "planar-xz" => Some(Vec3::y()),
         "planar-yz" => Some(Vec3::x()),
         _ => None,
     };
+
     if word != "planar"
         && let Some(value) = normal
     {
@@ -102,6 +105,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
         reader.issue(value.span(), format!("`plane_normal` goes with `motion = \"planar\"`, not {word}")).help(help);
         return None;
     }
+
     if axis.is_none() && word != "planar" {
         if let Some(value) = offset {
             reader
@@ -111,6 +115,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
         }
         return Some(if word == "rigid" { PlatformMotion::Rigid } else { PlatformMotion::PointMass });
     }
+
     let normal_w = match (axis, normal) {
         (Some(axis), _) => axis,
         (None, Some(value)) => {
@@ -131,6 +136,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
             return None;
         }
     };
+
     let offset = match offset {
         Some(value) => reader.number_as(known(KEYS, "plane_offset_m"), value)?,
         None => 0.0,
@@ -156,7 +162,9 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
     let value = reader.required(root, "platform")?;
     let table = reader.table("platform", "[platform]", value)?;
     let section = reader.open("[platform]", value.span(), table, KEYS);
+
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
+
     let inertia = match motion {
         Some(PlatformMotion::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
         Some(PlatformMotion::Planar(plane)) => {
@@ -172,6 +180,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         }
         None => None,
     };
+
     let center_of_mass = match section.get("center_of_mass_m") {
         Some(value) => {
             let center = reader.vector(&section, "center_of_mass_m", value);
@@ -184,10 +193,12 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         }
         None => Some([0.0; 3]),
     };
+
     let drag_area = match section.get("drag_area_m2") {
         Some(value) => reader.number_of(&section, "drag_area_m2", value),
         None => Some(0.0),
     };
+
     let translational = damping(reader, &section, "translational_damping_n_s_m");
     let rotational = damping(reader, &section, "rotational_damping_n_m_s");
     if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| motion == Some(PlatformMotion::PointMass)) {
@@ -195,6 +206,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
             .issue(value.span(), "a point mass does not turn, `rotational_damping_n_m_s` must be absent")
             .help("remove the line, or set `motion = \"rigid\"`");
     }
+
     Some(Platform {
         translational_damping_p: translational?,
         rotational_damping_p: rotational?,
@@ -229,6 +241,7 @@ fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
     let label = "`inertia_kg_m2`";
     let rows = reader.three(label, "three numbers or three rows of three, in kg m²", value)?;
     let full = rows.iter().any(|row| matches!(row.get_ref(), DeValue::Array(_)));
+
     let tensor = if full {
         let mut tensor = Mat3::zeros();
         let mut elements = [[value; 3]; 3];
@@ -252,6 +265,7 @@ fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
     } else {
         Mat3::from_diagonal(&Vec3::from(reader.three_numbers(label, Range::Positive, rows)?))
     };
+
     possible(reader, &tensor, value)?;
     Some(tensor)
 }
@@ -283,6 +297,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     moments.sort_by(f64::total_cmp);
     let [least, middle, largest] = moments;
     let shown = format!("its principal moments are {}, {} and {} kg m²", short(least), short(middle), short(largest));
+
     // Below 1e-12 of the largest moment, the sign of the smallest is rounding.
     if least < MIN_NUMBER * largest.max(1.0) {
         reader
@@ -290,6 +305,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
             .help("give the tensor about the centre of mass in platform axes; its off-diagonal entries are −∫xy dm");
         return None;
     }
+
     if largest > (least + middle) * (1.0 + FLAT) {
         reader
             .issue(

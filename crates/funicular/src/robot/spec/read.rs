@@ -252,6 +252,7 @@ impl<'t> Reader<'t> {
     ) -> Section<'v> {
         let label = label.into();
         let mut mistyped = Vec::new();
+
         for key in table.keys() {
             let name: &str = key.get_ref();
             if keys.iter().any(|known| known.name == name) {
@@ -270,6 +271,7 @@ impl<'t> Reader<'t> {
             };
             self.issue(key.span(), message).help(help);
         }
+
         Section { label, span, table, keys, mistyped }
     }
 
@@ -315,6 +317,7 @@ impl<'t> Reader<'t> {
                 return None;
             }
         };
+
         // Only digits beyond i128 fail to parse here.
         let number: f64 = number.unwrap_or(f64::INFINITY);
         let limit = if number.is_nan() || (number.is_infinite() && self.written(value.span()).contains("inf")) {
@@ -331,6 +334,7 @@ impl<'t> Reader<'t> {
         } else {
             None
         };
+
         if let Some(limit) = limit {
             let written = self.written(value.span());
             self.issue(value.span(), format!("{label} is {written}, {limit}"));

@@ -430,6 +430,7 @@ impl Basis {
         self.along.clear();
         self.along.resize(count, 0.0);
         let size = dot(normal, normal).sqrt();
+
         // Twice: the second pass removes the rounding of the first.
         for _ in 0..2 {
             for (k, vector) in self.vectors.chunks_exact(self.dimension).enumerate() {
@@ -438,6 +439,7 @@ impl Basis {
                 self.rest.iter_mut().zip(vector).for_each(|(rest, v)| *rest -= part * v);
             }
         }
+
         self.shares.clear();
         self.shares.extend_from_slice(&self.along);
         for k in (0..count).rev() {
@@ -447,6 +449,7 @@ impl Basis {
                 self.shares[j] -= share * self.triangle[k][j];
             }
         }
+
         let outside = dot(&self.rest, &self.rest).sqrt() > DEPENDENT * size && count < self.dimension;
         if !outside {
             self.rest.fill(0.0);

@@ -37,6 +37,7 @@ fn survey(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     let middle = search.tensions();
     let solutions = search.solutions(&linear, &vec![1.0; middle.len()])?;
     let mut best = (min_eigenvalue(search), middle.clone());
+
     for k in 0..solutions.redundancy() {
         for sign in [1.0, -1.0] {
             let direction: Vec<f64> = solutions.direction(k).iter().map(|n| sign * n).collect();
@@ -53,6 +54,7 @@ fn survey(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
             }
         }
     }
+
     search.set(&best.1);
     Ok(())
 }
@@ -78,13 +80,16 @@ fn climb(search: &mut TensionSearch<'_>) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut last: Option<Start> = None;
     let mut part = 1.0;
+
     for _ in 0..MAX_STEPS {
         search.count();
         let stiffness = present(search);
         let eigen = symmetric::eigen(&stiffness, dof);
+
         // A loss this large does not come from the small imbalance: the model need not be made.
         let lost = last.as_ref().is_some_and(|last| eigen.0[0] < last.value - last.step.gain);
         let here = if lost { None } else { Model::here(search, &stiffness, eigen) };
+
         let enough = |last: &Start, value: f64| value >= last.value + 0.1 * part * last.step.gain;
         let Some(here) = here.filter(|here| last.as_ref().is_none_or(|last| enough(last, here.value))) else {
             part *= 0.3;
@@ -92,9 +97,11 @@ fn climb(search: &mut TensionSearch<'_>) -> bool {
             last.go(search, part);
             continue;
         };
+
         let weights = here.weights(last.as_ref().map(|last| &last.step.weights));
         let Some(step) = here.step(search, &weights) else { return false };
         let arrived = step.gain <= GAIN * here.value.abs() + here.rounding;
+
         let start = Start { tau: search.tensions(), value: here.value, step };
         part = 1.0;
         // If the step's change is only rounding, restore the balance alone.

@@ -180,7 +180,7 @@ fn cables_in_the_plane_vibrate_across_it_with_the_platform_at_rest() {
     for (ours, string) in resting.iter().zip(&strings) {
         assert!((ours / string - 1.0).abs() < 2e-3, "{ours} {string}");
     }
-    // These modes are out of the plane and do not exist here.
+    // These modes are out of the plane; restricted to the plane they do not exist.
     let only = Linearisation { in_plane_only: true, ..linearisation };
     let found = modes::below(&Dynamics::about(&robot, &held, only, 30.0).unwrap(), 30.0);
     assert!(found.certified && moving(&found.modes).len() == found.modes.len());
