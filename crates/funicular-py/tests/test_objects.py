@@ -124,7 +124,7 @@ def test_the_hanging_cable_is_a_catenary() -> None:
         ("modes", (0,), {}, "positive"),
         ("modes", (1e9,), {"cable_model": "shallow-dynamic"}, "lower the limit"),
         ("modes", (5,), {"cable_model": "catenary-dynamik"}, "did you mean `catenary-dynamic`"),
-        ("modes", (5,), {"assembly": "whole"}, "`consistent`, `paper`"),
+        ("modes", (5,), {"assembly": "whole"}, "`consistent`, `without-geometric-stiffness`"),
         ("frf", ([1, 2], "fz", "fz"), {}, "not an output"),
         ("frf", ([1, 2], "z", "z"), {}, "not an input"),
         ("frf", ([1, 2], "cable:9@0.5:fz", "z"), {}, 'no cable "9"'),

@@ -37,7 +37,8 @@ fn requests() -> Vec<Value> {
     let tensions = json!({
         "tension_rule": "closest", "target_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
     });
-    let model = json!({ "cable_model": "shallow-static", "assembly": "paper", "in_plane_only": true });
+    let model =
+        json!({ "cable_model": "shallow-static", "assembly": "without-geometric-stiffness", "in_plane_only": true });
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });

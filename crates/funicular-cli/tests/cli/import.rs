@@ -335,7 +335,7 @@ fn a_platform_that_moves_in_a_plane_is_planar_in_the_plane_of_its_pose() {
         &[("SPATIAL_EULER_XYZ\" q_initial=\"0.1 -0.05 1.5 0.02 -0.03 0.05\"", "PLANAR_XZ\" q_initial=\"0.1 1.5 0\"")],
     );
     let robot = json("check", &caspr.imported(&ROPES), &[]);
-    assert_eq!((&robot["motion"], &robot["platform"]["motion"]), (&3.into(), &"planar-xz".into()));
+    assert_eq!((&robot["degrees_of_freedom"], &robot["platform"]["motion"]), (&3.into(), &"planar-xz".into()));
     let wirex = Changed::of(&["tripod.wcrfx"], &[("3R3T", "1R2T")]);
     let robot = json("check", &wirex.imported(&["--pose", "0.1,0,1.5,0,0,3"]), &[]);
     assert_eq!(
@@ -354,7 +354,7 @@ fn a_platform_that_only_translates_is_a_point_mass_with_moved_anchors() {
     );
     let text = caspr.imported(&ROPES);
     let robot = json("check", &text, &[]);
-    assert_eq!(robot["motion"], 3);
+    assert_eq!(robot["degrees_of_freedom"], 3);
     let first = numbers(&robot["cables"][0]["anchor_m"]);
     assert_close(&first, &[0.15 - 0.6928, 4.0 - 0.4, 5.0 - 0.1], 1e-15, "anchor");
     assert!(

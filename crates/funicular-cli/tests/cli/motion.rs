@@ -41,7 +41,7 @@ fn two_cables() -> String {
 #[test]
 fn every_analysis_of_a_planar_robot_gives_six_components_with_zeros_out_of_the_plane() {
     let checked = json_of(&["check", "-"], PLATE);
-    assert_eq!((&checked["motion"], &checked["platform"]["motion"]), (&3.into(), &"planar-xz".into()));
+    assert_eq!((&checked["degrees_of_freedom"], &checked["platform"]["motion"]), (&3.into(), &"planar-xz".into()));
     assert!(checked["warnings"].as_array().unwrap().is_empty());
     let modes = json_of(&["modes", "-", "--below-hz", "12"], PLATE);
     let found = modes["modes"].as_array().unwrap();

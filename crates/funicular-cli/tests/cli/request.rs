@@ -28,7 +28,7 @@ fn command_lines() -> Vec<Vec<String>> {
             "--output",
             "x",
         ],
-        &["compare", &cogiro, "--below-hz", "3", "--assembly", "paper"],
+        &["compare", &cogiro, "--below-hz", "3", "--assembly", "without-geometric-stiffness"],
         &["pose-error", "ROBOT", "--mass-kg", "10.55:86.35:4", "--tolerance-mm", "5"],
         &["cable", "ROBOT", "--name", "1", "--from-hz", "0.1", "--to-hz", "5", "--points", "9"],
         &[

@@ -248,11 +248,11 @@ impl CatenaryDynamic {
     ///
     /// # Example
     /// ```
-    /// use funicular::cable::catenary_dynamic::Exact;
+    /// use funicular::cable::catenary_dynamic::CatenaryDynamic;
     /// use funicular::catenary::{Catenary, Rope};
     /// let rope = Rope { unstrained_length: 6.9, weight_per_length: 0.657, axial_stiffness: 251_327.0 };
     /// let cable = Catenary::between(5.54, 4.025, rope)?;
-    /// let exact = Exact::new(&cable, 0.067, 60.0)?;
+    /// let exact = CatenaryDynamic::new(&cable, 0.067, 60.0)?;
     /// assert!(exact.error < 1e-9);
     /// // At rest it is the catenary's own stiffness.
     /// assert_eq!(exact.undamped(0.0).axial, cable.tangent()[0][0]);

@@ -40,7 +40,7 @@ pub(crate) fn mac_of_motions(a: &[f64], b: &[f64]) -> f64 {
 ///
 /// # Example
 /// ```
-/// # use funicular::modes::tracking::{Tracked, branches};
+/// # use funicular::modes::tracking::{Tracked, track};
 /// let mode = |frequency_hz, motion: [f64; 2]| Tracked { frequency_hz, motion: motion.to_vec() };
 /// let before = vec![mode(1.0, [1.0, 0.1]), mode(1.2, [-0.1, 1.0])];
 /// let after = vec![mode(1.1, [0.1, -1.0]), mode(1.3, [1.0, 0.1])];

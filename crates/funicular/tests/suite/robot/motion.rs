@@ -91,7 +91,7 @@ fn a_planar_platform_has_a_plane_and_one_moment_of_inertia() {
     assert!(Robot::from_toml(&file.replace("m2 = 0.3", "m2 = [0.3, 0.4, 0.5]")).is_ok());
     for (from, to, said, line) in [
         ("\"planar-xz\"", "\"planar\"", "needs the normal of its plane", 3),
-        ("\"planar-xz\"", "\"planar-xz\"\nplane_normal = [0, 1, 0]", "`plane_normal` goes with `degrees of freedom", 4),
+        ("\"planar-xz\"", "\"planar-xz\"\nplane_normal = [0, 1, 0]", "`plane_normal` goes with `motion", 4),
         ("\"planar-xz\"", "\"planar\"\nplane_normal = [0, 0, 0]", "has no direction", 4),
         ("\"planar-xz\"", "\"rigid\"\nplane_offset_m = 1", "`plane_offset_m` is for a planar platform only", 4),
         ("\"planar-xz\"", "\"planar-zx\"", "`motion` is \"planar-zx\", which is unknown", 3),

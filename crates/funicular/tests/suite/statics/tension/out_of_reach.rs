@@ -66,7 +66,7 @@ fn a_load_that_tensions_within_the_limits_hold_is_not_refused() {
     // Just beyond the limit, neither tensions nor a proof; further beyond, a proof.
     let open = at(1.0015).unwrap_err();
     assert!(matches!(open, StaticsError::NotFoundWithinLimits { .. }), "{open}");
-    assert!(open.to_string().contains("limits found that hold this pose, in a search from 13 starts"), "{open}");
+    assert!(open.to_string().contains("that hold this pose were found in a search from 13 starts"), "{open}");
     assert_eq!(open.code(), "not-found");
     let proved = at(1.05).unwrap_err();
     assert!(matches!(proved, StaticsError::BeyondLimits(_)), "{proved}");
