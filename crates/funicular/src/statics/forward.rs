@@ -186,8 +186,8 @@ pub(super) fn descend_to_equilibrium(
     let (mut here, mut iterations) = search.minimise(start);
 
     if robot.wind_turns_with_cables() {
-        // Equilibrium under the drag of one pose is none under the drag of the next; the two approach each other, in
-        // each round by the ratio of the drag's turn to the stiffness.
+        // Each equilibrium is found with the drag of the previous pose. Pose and drag converge: each round reduces the
+        // difference by the ratio of the drag's turn to the stiffness.
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
             search = EnergySearch::new(robot, lengths, model, &here.pose);
@@ -213,8 +213,8 @@ const REACH: f64 = 0.2;
 
 /// … and of the mean distance to the anchors, which counts if the platform is so far away that it gives more. With
 /// steps limited by the lengths alone, a platform kilometres away on cables of metres took hundreds of steps. This
-/// limit counts only if cables are twice as long as unstrained, so it changes no search of a robot near its
-/// equilibrium.
+/// limit counts only if the mean distance is above twice the mean unstrained length, so it changes no search of a robot
+/// near its equilibrium.
 const FAR_REACH: f64 = 0.1;
 
 /// Maximum rotation per step [rad]; larger turns are made in several steps. At one radian a rotation differs from its
