@@ -295,7 +295,7 @@ impl Parameters {
             (RobotPart::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.motion) {
                 // A single number is the moment about the normal.
                 (None, PlatformMotion::Planar(plane)) => {
-                    change.inertia_p = plane.normal_w() * plane.normal_w().transpose()
+                    change.inertia_p = plane.normal_w() * plane.normal_w().transpose();
                 }
                 (component, _) => {
                     let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;

@@ -75,7 +75,7 @@ fn a_load_that_tensions_within_the_limits_hold_is_not_refused() {
 /// Unstrained length at which the tensions of cable `i` are a given fraction of the way between its limits.
 fn length_between(robot: &Robot, i: usize, pose: &Pose, limits: [f64; 2], part: f64) -> Option<f64> {
     let cable = &robot.cables[i];
-    let chord_w = cable.chord_w(&pose);
+    let chord_w = cable.chord_w(pose);
     let (chord, weight_per_length) = (chord_w.norm(), 9.81 * cable.material.mass_per_length);
     let hang = |unstrained_length: f64| {
         let rope = Rope { unstrained_length, weight_per_length, axial_stiffness: cable.material.axial_stiffness };
