@@ -88,8 +88,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 /// Motion of a cable whose start moves and whose end is held.
 pub(crate) struct InternalMotion {
     /// Motions of both ends in plane (horizontal, up) and out of plane.
-    ends_in_plane: [Complex; 4],
-    ends_out_of_plane: [Complex; 2],
+    in_plane_ends: [Complex; 4],
+    out_of_plane_ends: [Complex; 2],
     /// Amplitudes of the clamped modes [m √kg].
     pub(crate) in_plane: Vec<Complex>,
     pub(crate) out_of_plane: Vec<Complex>,
@@ -100,18 +100,18 @@ impl InternalMotion {
     /// [rad²/s²].
     pub(crate) fn new(cable: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> Self {
         let held = Complex::new(0.0, 0.0);
-        let (ends_in_plane, ends_out_of_plane) = ([start[0], start[1], held, held], [start[2], held]);
-        let in_plane = cable.in_plane.amplitudes(&ends_in_plane, square);
-        let out_of_plane = cable.out_of_plane.amplitudes(&ends_out_of_plane, square);
-        Self { ends_in_plane, ends_out_of_plane, in_plane, out_of_plane }
+        let (in_plane_ends, out_of_plane_ends) = ([start[0], start[1], held, held], [start[2], held]);
+        let in_plane = cable.in_plane.amplitudes(&in_plane_ends, square);
+        let out_of_plane = cable.out_of_plane.amplitudes(&out_of_plane_ends, square);
+        Self { in_plane_ends, out_of_plane_ends, in_plane, out_of_plane }
     }
 }
 
 impl Stations {
     /// Displacement (horizontal, up, out of plane) of station `at`.
     pub(crate) fn displacement(&self, at: usize, motion: &InternalMotion) -> [Complex; 3] {
-        let [horizontal, up] = self.in_plane.at(at, &motion.ends_in_plane, &motion.in_plane);
-        let [out_of_plane] = self.out_of_plane.at(at, &motion.ends_out_of_plane, &motion.out_of_plane);
+        let [horizontal, up] = self.in_plane.at(at, &motion.in_plane_ends, &motion.in_plane);
+        let [out_of_plane] = self.out_of_plane.at(at, &motion.out_of_plane_ends, &motion.out_of_plane);
         [horizontal, up, out_of_plane]
     }
 
