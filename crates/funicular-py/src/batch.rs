@@ -107,11 +107,13 @@ impl StateNumbers {
         let (p, rot_wp) = (&equilibrium.pose.position_w, &equilibrium.pose.rot_wp);
         let [w, i, j, k] = rotation::quaternion_wxyz(rot_wp);
         let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&pose::PyPose::of(&equilibrium.pose).0.rot_wp);
+
         let cables = equilibrium.cables.iter().enumerate().map(|(at, cable)| {
             let sag = Sag::of(robot, at, cable);
             let ratio = if sag.tension > 0.0 { sag.ratio() } else { f64::NAN };
             [cable.unstrained_length, cable.tension_platform, cable.tension_anchor, ratio]
         });
+
         Self {
             pose: [p.x, p.y, p.z, w, i, j, k, roll, pitch, yaw],
             cables: cables.collect(),
@@ -162,10 +164,12 @@ pub(crate) fn equilibria(
         anyhow::Ok((robot, at_rest::rule(tensions)?))
     };
     let (robot, rule) = prepared().map_err(|error| errors::study(&error))?;
+
     let model = state.static_model;
     let mut columns = Columns::new(robot.cables.len(), states.count());
     let solver = StateSolver { robot: &robot, states: &states, model, rule };
     let blocks = 0..states.count().div_ceil(BLOCK);
+
     let put = |(rows, found)| {
         columns.put(rows, found);
         Ok(())
@@ -215,10 +219,12 @@ impl Columns {
                         let width = places.len();
                         column[row * width..(row + 1) * width].copy_from_slice(&found.pose[places]);
                     }
+
                     for (i, column) in self.of_cables.iter_mut().enumerate() {
                         let here = &mut column[row * self.cables..(row + 1) * self.cables];
                         here.iter_mut().zip(&found.cables).for_each(|(to, from)| *to = from[i]);
                     }
+
                     self.residual[row] = found.residual;
                     self.stable[row] = found.stable;
                     self.min_stiffness[row] = found.min_stiffness;
@@ -233,15 +239,18 @@ impl Columns {
         let numpy = py.import("numpy")?;
         fields.set_item("status", numpy.call_method1("array", (self.status, "U18"))?)?;
         fields.set_item("reason", pyo3::types::PyTuple::new(py, self.reason)?)?;
+
         let [position, quaternion, angles] = self.pose;
         fields.set_item("position_m", Matrix::of_rows(position, 3))?;
         fields.set_item("quaternion_wxyz", Matrix::of_rows(quaternion, 4))?;
         fields.set_item("roll_pitch_yaw_deg", Matrix::of_rows(angles, 3))?;
+
         let [unstrained_length, tension_platform, tension_anchor, sag_ratio] = self.of_cables;
         fields.set_item("unstrained_length_m", Matrix::of_rows(unstrained_length, self.cables))?;
         fields.set_item("tension_platform_n", Matrix::of_rows(tension_platform, self.cables))?;
         fields.set_item("tension_anchor_n", Matrix::of_rows(tension_anchor, self.cables))?;
         fields.set_item("sag_ratio", Matrix::of_rows(sag_ratio, self.cables))?;
+
         fields.set_item("residual", Vector::<f64>::from_iter(self.residual))?;
         fields.set_item("stable", Vector::<bool>::from_iter(self.stable))?;
         fields.set_item("stiffness_min_n_per_m", Vector::<f64>::from_iter(self.min_stiffness))?;

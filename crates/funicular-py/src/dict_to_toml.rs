@@ -100,6 +100,7 @@ fn json_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Json>
         let refused = || errors::change(format!("`{path}` is {}: it must be finite", value.value()));
         return number.map(Json::Number).ok_or_else(refused);
     }
+
     if value.cast::<PyList>().is_ok() || value.cast::<PyTuple>().is_ok() {
         return value
             .try_iter()?

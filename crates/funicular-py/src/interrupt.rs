@@ -31,6 +31,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
             // The receiver is gone after Ctrl-C.
             let _ = sender.send(work());
         })?;
+
         loop {
             match receiver.recv_timeout(INTERVAL) {
                 Ok(result) => return Ok(result),
@@ -91,6 +92,7 @@ fn hand_over<T>(
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
             Err(RecvTimeoutError::Timeout) => {}
         }
+
         if checked.elapsed() < INTERVAL {
             continue;
         }

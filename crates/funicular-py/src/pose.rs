@@ -46,6 +46,7 @@ impl PyPose {
             }
             (None, None) => {}
         }
+
         let pose = of_row(&row).map_err(errors::input)?.to_robot().map_err(|error| errors::study(&error))?;
         Ok(Self(Pose { rot_wp: signed(pose.rot_wp), ..pose }))
     }

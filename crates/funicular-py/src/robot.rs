@@ -436,11 +436,13 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
+
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
+
         let plan = PyPlan::of(py, request, part)?;
         RunKeywords { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }
@@ -505,9 +507,11 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
+
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
+
         let plan = PyPlan::of(py, request, part)?;
         RunKeywords { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
     }

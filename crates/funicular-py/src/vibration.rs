@@ -125,6 +125,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         state: of.state.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
+
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::modes::about(&at_rest, &request))?;
     let found = answers::plain(py, &found.map_err(|error| errors::study(&error))?)?;
@@ -266,6 +267,7 @@ pub(crate) fn peaks(
     if frequencies.windows(2).any(|pair| pair[1] <= pair[0]) {
         return Err(errors::input("`hz` does not ascend: sort the frequencies and give each of them once".to_owned()));
     }
+
     let found = funicular::response::peaks(&frequencies, &values, prominence_db);
     Ok((
         found.iter().map(|peak| peak.frequency_hz).collect(),

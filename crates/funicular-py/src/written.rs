@@ -148,10 +148,12 @@ pub(crate) fn report(
         state: of.state.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
+
     let state = joined(&[&serde_json::to_value(&of.state), &serde_json::to_value(&of.tensions)])?;
     let all = joined(&[&serde_json::to_value(&request)])?;
     let pages = py.import("funicular._pages")?;
     let call: String = pages.call_method1("report_call", (state, all))?.extract()?;
+
     let (at_rest, text) = (Arc::clone(&of.at_rest), of.of.get().text.clone());
     let page = interruptible(py, move || report::about(&at_rest, &request, &request.robot.name, &text, call))?;
     let page = page.map_err(|error| errors::study(&error))?;

@@ -1,17 +1,17 @@
-//! The elastic catenary: one uniform cable that hangs and stretches between two points, in its own plane.
+//! Elastic catenary: one uniform cable that hangs and stretches between two points, in its own plane.
 //!
-//! Irvine's two equations (theory, section 2) hold two unknowns, H and V. They reduce to one equation in one unknown.
-//! With the weight `W = w L0`, the sum of the two end tensions `S` and `v = atanh(W/S)`, the identity
-//! `asinh b − asinh a = 2 atanh((b − a)/(√(1+a²) + √(1+b²)))` turns them into
+//! Irvine's two equations (theory, section 2) contain two unknowns, H and V. They reduce to one equation in one
+//! unknown. With the weight `W = w L0`, the sum of the two end tensions `S` and `v = atanh(W/S)`, the identity `asinh b
+//! − asinh a = 2 atanh((b − a)/(√(1+a²) + √(1+b²)))` turns them into
 //!
 //! ```text
 //! H = w x / (2 (v + k)),   V_m = w z / (2 (tanh v + k)),   k = w L0 / (2 EA)
 //! F(v) = (x sinh v/(v + k))² + (z tanh v/(tanh v + k))² − L0² = 0
 //! ```
 //!
-//! V_m is the mean of the two vertical end forces. F grows strictly with v, so there is exactly one solution; v runs
-//! from 0 (taut) to ∞ (a loop that hangs straight down), and no term cancels on the way: a cable of any tautness,
-//! sag and inclination, vertical included, is one case. Derivation: docs/theory.md, equations (6) to (10).
+//! V_m is the mean of the two vertical end forces. F grows strictly with v, so there is exactly one solution. v runs
+//! from 0 (taut) to ∞ (a loop that hangs straight down), and no term cancels on the way. So one method covers every
+//! tautness, sag and inclination, vertical cables included. Derivation: docs/theory.md, equations (6) to (10).
 
 mod load;
 mod parallel;
@@ -19,36 +19,37 @@ pub mod space;
 
 use thiserror::Error;
 
-/// What is wrong with the input of [`Catenary::between`].
+/// Invalid input of [`Catenary::between`].
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CatenaryError {
-    /// A quantity is not a usable number.
+    /// Invalid value of a quantity.
     #[error("{quantity} is {value}: it must be {must}")]
     Input {
-        /// Which one, with unit.
+        /// Name of the quantity, with its unit.
         quantity: &'static str,
-        /// What was given.
+        /// Given value.
         value: f64,
-        /// What is allowed.
+        /// Allowed values.
         must: &'static str,
     },
 }
 
-/// The rope of one cable as the catenary sees it.
+/// Properties of one cable's rope in the catenary equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rope {
     /// Unstrained length L0 [m].
     pub unstrained_length: f64,
-    /// Weight per unstrained length w [N/m]; zero is a massless cable, straight and without force when slack.
+    /// Weight per unstrained length w [N/m]; zero for a massless cable, which is straight and carries no force when
+    /// slack.
     pub weight_per_length: f64,
     /// Axial stiffness EA [N].
     pub axial_stiffness: f64,
 }
 
-/// An elastic catenary in equilibrium, from its start (arc length 0) to its end (arc length L0).
+/// Elastic catenary in equilibrium, from its start (arc length 0) to its end (arc length L0).
 ///
-/// x is horizontal from start to end, z is up. Forces are those that hold the cable at its **end**; the same
-/// horizontal force acts at the start, reversed.
+/// x is horizontal from start to end, z is up. Forces are those that hold the cable at its **end**; the same horizontal
+/// force acts at the start in the opposite direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Catenary {
     rope: Rope,
@@ -59,12 +60,12 @@ pub struct Catenary {
     slope: Slope,
 }
 
-/// The quantities of the solved equation that tangent and length derivative share.
+/// Quantities of the solved equation that the tangent and the length derivatives share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Slope {
-    /// Weight and tension: the general case.
+    /// General case: weight and tension.
     Curved { v: f64, tanh_v: f64, sech2_v: f64, sinh_v: f64, v_cosh_minus_sinh: f64 },
-    /// Both ends on one vertical and longer than needed: a loop without horizontal force.
+    /// Both ends on one vertical line and the cable longer than needed: a loop without horizontal force.
     Loop,
     /// Massless and taut: a straight spring.
     Straight,
@@ -73,9 +74,9 @@ enum Slope {
 }
 
 impl Catenary {
-    /// The cable that hangs from the origin to `(span, rise)` [m].
+    /// Cable that hangs from the origin to `(span, rise)` [m].
     ///
-    /// About 0.2 µs. `span` must not be negative; `rise` may have either sign.
+    /// Takes about 0.2 µs. `span` must not be negative; `rise` may have either sign.
     ///
     /// # Errors
     /// [`CatenaryError::Input`] for a value that is not finite or not in its range. Every other input has a solution.
@@ -111,7 +112,7 @@ impl Catenary {
         Ok(Self::solve(span, rise, rope))
     }
 
-    /// As [`Catenary::between`] for numbers that a [`crate::robot::Robot`] has already checked.
+    /// Cable of [`Catenary::between`], without checks: for numbers that a [`crate::robot::Robot`] has already checked.
     #[inline]
     pub(crate) fn solve(span: f64, rise: f64, rope: Rope) -> Self {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = rope;
@@ -121,7 +122,8 @@ impl Catenary {
 
         let k = w * length / (2.0 * ea);
         let (x, z) = (span / length, rise / length);
-        // A span this far below the length is a vertical cable to every digit; squares of smaller ones underflow.
+        // With a span this far below the length the cable is vertical to every digit; squares of smaller spans
+        // underflow.
         const VERTICAL: f64 = 1e-140;
         if x < VERTICAL && z.abs() <= 1.0 + k {
             let vertical_mean = w * rise / (2.0 * (1.0 + k));
@@ -152,7 +154,7 @@ impl Catenary {
         }
     }
 
-    /// The rope it hangs by.
+    /// Rope of the cable, with its unstrained length.
     #[inline]
     pub fn rope(&self) -> Rope {
         self.rope
@@ -188,8 +190,8 @@ impl Catenary {
         self.vertical_mean + 0.5 * self.weight()
     }
 
-    /// Vertical component V_A of the internal force at the start [N], up along increasing arc length; what holds the
-    /// start is (−H, −V_A).
+    /// Vertical component V_A of the internal force at the start [N], positive up along increasing arc length; the
+    /// force that holds the start is (−H, −V_A).
     #[inline]
     pub fn vertical_force_at_start(&self) -> f64 {
         self.vertical_mean - 0.5 * self.weight()
@@ -207,7 +209,7 @@ impl Catenary {
         hypot(self.horizontal, self.vertical_force_at_end())
     }
 
-    /// Tension at arc length `s` of the unstrained cable [m] from the start [N].
+    /// Tension [N] at arc length `s` [m] of the unstrained cable from the start.
     pub fn tension_at(&self, s: f64) -> f64 {
         hypot(self.horizontal, self.vertical_force_at_start() + self.rope.weight_per_length * s)
     }
@@ -220,7 +222,7 @@ impl Catenary {
 
     /// Position (x, z) [m] of the point at unstrained arc length `s` [m] from the start.
     ///
-    /// A massless slack cable has no shape of its own; its points lie on the chord.
+    /// A massless slack cable has no defined shape; its points are placed on the chord.
     pub fn point_at(&self, s: f64) -> [f64; 2] {
         let h = self.horizontal;
         let va = self.vertical_force_at_start();
@@ -252,8 +254,8 @@ impl Catenary {
         [x, s * (va + v) * (0.5 * compliance + 1.0 / sum)]
     }
 
-    /// Stiffness of the end, start held: `[[∂H/∂x, ∂H/∂z], [∂V/∂x, ∂V/∂z]]` [N/m], symmetric. The stiffness of the
-    /// start, end held, is the same matrix.
+    /// Stiffness of the end with the start held: `[[∂H/∂x, ∂H/∂z], [∂V/∂x, ∂V/∂z]]` [N/m], symmetric. The stiffness of
+    /// the start with the end held is the same matrix.
     pub fn tangent(&self) -> [[f64; 2]; 2] {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
         let (x, z) = (self.span, self.rise);
@@ -281,7 +283,7 @@ impl Catenary {
         }
     }
 
-    /// Stiffness against motion out of the cable's plane, H/x exactly [N/m].
+    /// Stiffness against motion out of the cable's plane [N/m], exactly H/x.
     pub fn out_of_plane_stiffness(&self) -> f64 {
         let w = self.rope.weight_per_length;
         match self.slope {
@@ -291,18 +293,19 @@ impl Catenary {
         }
     }
 
-    /// τ = H/cos α, α the chord's inclination [N]: the tension parallel to the chord, also where the cable is vertical
-    /// (there H and cos α both vanish). It falls as the cable grows longer, to zero.
+    /// Parallel tension τ = H/cos α, α being the chord's inclination [N]: the tension parallel to the chord, also for a
+    /// vertical cable (for which H and cos α both vanish). It falls to zero as the cable gets longer.
     #[inline]
     pub fn parallel_tension(&self) -> f64 {
         self.out_of_plane_stiffness() * hypot(self.span, self.rise)
     }
 
-    /// Least parallel tension over weight (w times chord) at which both end tensions grow with it whatever the slope: a
-    /// level cable that sags further (the lowest end tension is at v = 1.1997) is heavier at its ends, not lighter.
+    /// Minimum ratio of parallel tension to weight (w times chord) above which both end tensions grow with it at any
+    /// slope. A level cable that sags further (its minimum end tension is at v = 1.1997) gets heavier at its ends, not
+    /// lighter.
     pub(crate) const SLACKEST: f64 = 1.0 / 2.4;
 
-    /// The least tension anywhere in the cable [N]: of its lowest point if that is between the ends, else of the lower
+    /// Minimum tension anywhere in the cable [N]: at its lowest point if that is between the ends, else at the lower
     /// end.
     pub fn min_tension(&self) -> f64 {
         if self.vertical_force_at_start() < 0.0 && self.vertical_force_at_end() > 0.0 {
@@ -312,12 +315,12 @@ impl Catenary {
         }
     }
 
-    /// The greatest tension anywhere in the cable [N]: of the upper end.
+    /// Maximum tension anywhere in the cable [N]: at the upper end.
     pub fn max_tension(&self) -> f64 {
         self.tension_at_start().max(self.tension_at_end())
     }
 
-    /// Derivative of [`Self::parallel_tension`] by the unstrained length [N/m].
+    /// Derivative of [`Self::parallel_tension`] with respect to the unstrained length [N/m].
     pub fn parallel_tension_by_length(&self) -> f64 {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
         let chord = hypot(self.span, self.rise);
@@ -332,7 +335,7 @@ impl Catenary {
         }
     }
 
-    /// How the force that holds the **start** is reversed, `(H, V_A)`, changes with the unstrained length [N/m].
+    /// Derivative of `(H, V_A)`, minus the force that holds the **start**, with respect to the unstrained length [N/m].
     pub fn start_force_by_length(&self) -> [f64; 2] {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
         match self.slope {
@@ -358,7 +361,8 @@ impl Catenary {
         }
     }
 
-    /// Potential energy [J] of stretch and weight, the start at height zero: its gradient by the end is (H, V_B).
+    /// Potential energy [J] of stretch and weight, with the start at height zero: its gradient with respect to the end
+    /// is (H, V_B).
     pub fn energy(&self) -> f64 {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
         let (h, vm) = (self.horizontal, self.vertical_mean);
@@ -384,7 +388,7 @@ impl Catenary {
         self.weight() / (2.0 * self.rope.axial_stiffness)
     }
 
-    /// (∂v/∂x, ∂v/∂z, ∂v/∂L0) [1/m] from F(v; x, z, L0) = 0, and ∂v/∂k at held x, z and L0.
+    /// Derivatives (∂v/∂x, ∂v/∂z, ∂v/∂L0) [1/m] from F(v; x, z, L0) = 0, and ∂v/∂k with x, z and L0 held.
     fn parameter_derivatives(&self) -> (f64, f64, f64, f64) {
         let Slope::Curved { v, tanh_v, sech2_v, sinh_v, v_cosh_minus_sinh } = self.slope else {
             return (0.0, 0.0, 0.0, 0.0);
@@ -405,7 +409,7 @@ impl Catenary {
     }
 }
 
-/// sinh, cosh and their differences without cancellation.
+/// Values of sinh, cosh and their differences without cancellation.
 #[derive(Debug, Clone, Copy)]
 struct Hyperbolic {
     sinh: f64,
@@ -420,7 +424,7 @@ impl Hyperbolic {
     #[inline]
     fn of(v: f64) -> Self {
         if v < 1.0 {
-            // Taylor of sinh v − v; at v = 1 the first term left out, v¹⁹/19!, is 8e-18.
+            // Taylor series of sinh v − v; at v = 1 the first omitted term, v¹⁹/19!, is 8e-18.
             const C: [f64; 8] = [
                 1.0 / 6.0,
                 1.0 / 120.0,
@@ -467,8 +471,8 @@ fn root(x: f64, z: f64, k: f64) -> Root {
     let mut v = start(x, z, k, chord, stretch);
     let (mut low, mut high) = (0.0, f64::INFINITY);
 
-    // Robots take 2 or 3 passes; of a million cables over eight decades of sag, slope and strain 99.5 % at most 4, the
-    // worst 14. The rest is a guard.
+    // Robots take 2 or 3 passes. Of a million cables over eight decades of sag, slope and strain, 99.5 % took at most 4
+    // and the worst 14. The limit is a guard.
     for _ in 0..80 {
         // F and its slope.
         let h = Hyperbolic::of(v);
@@ -478,7 +482,7 @@ fn root(x: f64, z: f64, k: f64) -> Root {
         let along = tanh + k;
         let b = tanh / along;
 
-        // F = (xa)² + (zb)² − 1, written by differences from 1 so that a taut cable keeps its digits.
+        // F = (xa)² + (zb)² − 1, written as differences from 1 so that a taut cable keeps its digits.
         let value = if a < 2.0 {
             let one_minus_a = (k - h.sinh_minus_v) / across;
             let one_minus_b = k / along;
@@ -499,7 +503,7 @@ fn root(x: f64, z: f64, k: f64) -> Root {
         }
         let rest = 1.0 - z2 * b * b;
 
-        // Deep sag: F grows like e^{2v}; its logarithm is nearly straight.
+        // Deep sag: F grows like e^{2v}, so its logarithm is nearly straight.
         let step = if v > 1.0 && rest > 0.0 && value.abs() > 0.01 * rest && value > -rest {
             let ratio = value / rest;
             ratio.ln_1p() * (rest + value) / (slope + 2.0 * z2 * b * b_by_v * ratio)
@@ -507,13 +511,13 @@ fn root(x: f64, z: f64, k: f64) -> Root {
             value / slope
         };
 
-        // Newton squares the error: a step below 1e-8 is the last that counts.
+        // Newton's method squares the error: after a step below 1e-8 no further step counts.
         if step.abs() <= 1e-8 * v {
             v -= step;
             break;
         }
 
-        // Inside the bracket.
+        // Keep the next value inside the bracket.
         let next = v - step;
         v = if next > low && next < high {
             next
@@ -529,14 +533,14 @@ fn root(x: f64, z: f64, k: f64) -> Root {
     Root { v, hyperbolic: Hyperbolic::of(v) }
 }
 
-/// Start for [`root`]: the flat cable's cubic where it is flat, the logarithm where it sags deeply.
+/// Start value for [`root`]: the cubic of the flat cable for small sag, the logarithm for deep sag.
 #[inline]
 fn start(x: f64, z: f64, k: f64, chord: f64, stretch: f64) -> f64 {
     // Flat: (x/c)² v³/6 + (c − 1) v − k = 0, which is exact for a taut massless cable of any strain.
     let scale = 6.0 * chord * chord / (x * x);
     let (p, q) = (scale * stretch, scale * k);
     let v = if x == 0.0 || !q.is_finite() || !p.is_finite() {
-        // On a vertical: tanh v = k/(c − 1).
+        // Vertical: tanh v = k/(c − 1).
         let tanh = k / stretch;
         return if tanh < 1.0 { tanh.atanh() } else { 1.0 };
     } else if p >= 0.0 {
@@ -566,19 +570,19 @@ fn start(x: f64, z: f64, k: f64, chord: f64, stretch: f64) -> f64 {
     }
 }
 
-/// √(a² + b²); lengths and forces of cables are far from overflow, so libm's careful `hypot` is not needed.
+/// Root √(a² + b²). Lengths and forces of cables are far from overflow, so libm's careful `hypot` is not needed.
 #[inline]
 fn hypot(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
 }
 
-/// T + V without cancellation, T = √(H² + V²).
+/// Sum T + V without cancellation, T = √(H² + V²).
 #[inline]
 fn plus_stable(h: f64, t: f64, v: f64) -> f64 {
     if v >= 0.0 { t + v } else { h * h / (t - v) }
 }
 
-/// atanh(u)/u for 0 ≤ u < 0.1; the first term left out is u¹⁶/17 < 1e-17.
+/// Quotient atanh(u)/u for 0 ≤ u < 0.1; the first omitted term is u¹⁶/17 < 1e-17.
 #[inline]
 fn atanh_over(u: f64) -> f64 {
     let u2 = u * u;

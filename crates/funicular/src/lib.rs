@@ -4,12 +4,12 @@
 //!
 //! Data flows one way: robot file → [`Robot`](robot::Robot) → [`Equilibrium`](statics::Equilibrium) →
 //! [`Dynamics`](dynamics::Dynamics) → [`Modes`](modes::Modes) or a [response]. Every step is a free function or a
-//! constructor, its result plain data; nothing is changed once it exists.
+//! constructor, and its result is plain data. Nothing changes after it has been built.
 //!
-//! SI units throughout, angles in rad (roll, pitch and yaw in degrees, as people write them), harmonic motion e^{+iωt}.
-//! World frame `w`, platform frame `p`: `exit_w` is a point in world coordinates, `attachment_p` one in platform
-//! coordinates, `rot_wp` turns the second kind into the first. Wrenches, small motions and the 6×6 matrices are about
-//! the origin of the platform frame, in world axes.
+//! SI units throughout; angles in rad, but roll, pitch and yaw in degrees, as people write them; harmonic motion
+//! e^{+iωt}. World frame `w`, platform frame `p`: `exit_w` is a point in world coordinates, `attachment_p` a point in
+//! platform coordinates, and `rot_wp` turns platform coordinates into world coordinates. Wrenches, small motions and
+//! the 6×6 matrices refer to the origin of the platform frame and to world axes.
 //!
 //! ```
 //! use funicular::cable::CableModel;
@@ -20,17 +20,17 @@
 //! use funicular::robot::{Robot, State};
 //! use funicular::statics::{self, Stability, StaticModel};
 //!
-//! // Six cables, unstrained lengths given.
+//! // Six cables with given unstrained lengths.
 //! let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 //! let State::Lengths(lengths) = &robot.state else { panic!("its file gives lengths") };
 //!
-//! // Where the platform rests; no start is needed.
+//! // Equilibrium pose of the platform; no start pose is needed.
 //! let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None)?;
 //! assert!((rest.pose.position_w - Vec3::new(0.020305, 0.010232, 0.455485)).norm() < 1e-6);
 //! assert!((rest.cables[0].tension_platform - 17.685).abs() < 1e-3); // N
 //! assert!(matches!(rest.stability, Stability::Stable { .. }));
 //!
-//! // Every natural frequency below 20 Hz, with cables of any sag: as many as the Wittrick–Williams count says.
+//! // All natural frequencies below 20 Hz, for any sag; the Wittrick–Williams count confirms their number.
 //! let exact = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
 //! let dynamics = Dynamics::about(&robot, &rest, exact, 20.0)?;
 //! let found = modes::below(&dynamics, 20.0);
@@ -44,7 +44,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The equations are in docs/theory.md, the comparisons with others' numbers in docs/validation.md.
+//! The equations are in docs/theory.md, the comparisons with published numbers in docs/validation.md.
 
 pub mod cable;
 pub mod cable_motion;
@@ -62,7 +62,7 @@ pub mod statics;
 pub mod suggest;
 pub mod warnings;
 
-/// As a text says it: "1 cable", "2 cables".
+/// Number with its noun in the singular or plural: "1 cable", "2 cables".
 pub(crate) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

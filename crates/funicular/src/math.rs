@@ -1,6 +1,6 @@
-//! Small linear algebra under names of the field, and the numerical helpers every room uses.
+//! Small linear algebra under names of the field, and numerical helpers shared by the crate.
 //!
-//! The types are nalgebra's under these names, and no other file of the crate names nalgebra.
+//! The types are those of nalgebra under these names; no other file of the crate names nalgebra.
 
 pub mod generalized_eigen;
 pub mod legendre;
@@ -11,7 +11,7 @@ pub mod symmetric;
 
 /// Complex number, `f64` real and imaginary part.
 pub type Complex = num_complex::Complex64;
-/// Vector in space; unit as the field says.
+/// Vector in space; the field that holds it gives the unit.
 pub type Vec3 = nalgebra::Vector3<f64>;
 /// Wrench (force N, moment N·m) or small motion (translation m, rotation vector rad).
 pub type Vec6 = nalgebra::Vector6<f64>;

@@ -1,5 +1,5 @@
-//! Mechanics of the platform as a rigid body, whatever cables hold it: coordinates, wrenches, mass, and the stiffness of
-//! forces and loads.
+//! Mechanics of the platform as a rigid body, independent of its cables: coordinates, wrenches, mass, and the stiffness
+//! of forces and loads.
 
 mod coordinates;
 mod mass;

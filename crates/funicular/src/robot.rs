@@ -1,7 +1,7 @@
-//! The robot: platform, cables, ropes and gravity; immutable, and valid once it exists.
+//! The robot: platform, cables, ropes and gravity. A robot never changes, and every robot that exists is valid.
 //!
-//! Frames: `w` world, `p` platform. `exit_w` is a point in world coordinates, `attachment_p` one in platform
-//! coordinates, `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
+//! Frames: `w` world, `p` platform. `exit_w` is a point in world coordinates, `attachment_p` a point in platform
+//! coordinates, and `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
 
 mod anchor;
 mod change;
@@ -21,21 +21,21 @@ use thiserror::Error;
 /// A cable-driven parallel robot, as read from a robot file. SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
-    /// What the robot is called.
+    /// Name of the robot.
     pub name: String,
-    /// Where its numbers come from.
+    /// Source of the numbers.
     pub source: String,
-    /// Acceleration of gravity in world axes [m/s²]; any direction, zero for none.
+    /// Acceleration of gravity in world axes [m/s²]; any direction, zero without gravity.
     pub gravity_w: Vec3,
     /// The moving platform.
     pub platform: Platform,
-    /// What acts on the platform besides its weight and the wind.
+    /// Load on the platform besides its weight and the wind.
     pub load: Load,
     /// Steady wind on cables and platform.
     pub wind: Wind,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
-    /// What the file says about the state: unstrained lengths or a pose.
+    /// State given by the file: unstrained lengths or a pose.
     pub state: State,
 }
 
@@ -44,14 +44,14 @@ pub struct Robot {
 pub struct Platform {
     /// Mass [kg], positive.
     pub mass: f64,
-    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass. Of a
-    /// planar platform only the moment about the normal counts.
+    /// Inertia tensor about the centre of mass, platform axes [kg m²]; zero for a point mass. For a planar platform
+    /// only the moment about the normal counts.
     pub inertia_p: Mat3,
-    /// Drag coefficient times area [m²]: what of it the wind pushes at, in its centre of mass.
+    /// Drag coefficient times area [m²]; the wind acts at the centre of mass.
     pub drag_area: f64,
     /// Centre of mass in the platform frame [m].
     pub center_of_mass_p: Vec3,
-    /// Which motions it has.
+    /// Motions that the platform can make.
     pub motion: PlatformMotion,
     /// Viscous damping of its translation along the platform's axes, at the platform origin [N s/m].
     pub translational_damping_p: Vec3,
@@ -59,30 +59,30 @@ pub struct Platform {
     pub rotational_damping_p: Vec3,
 }
 
-/// A dead load on the platform: it keeps its direction in the world whatever the platform does.
+/// Dead load on the platform: it keeps its direction in the world however the platform moves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Load {
     /// Force, world axes [N].
     pub force_w: Vec3,
     /// Moment, world axes [N m].
     pub moment_w: Vec3,
-    /// Where the force acts, platform frame [m].
+    /// Point at which the force acts, platform frame [m].
     pub point_p: Vec3,
 }
 
-/// A load that means nothing on a platform.
+/// Load that has no meaning on a platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum LoadError {
-    /// A moment on a point mass.
+    /// Moment on a point mass.
     #[error("a point mass does not turn: leave out the moment of the load")]
     MomentOnPointMass,
-    /// A point of a point mass.
+    /// Point of action on a point mass.
     #[error("a point mass has no points but its origin: leave out the point of the load")]
     PointOfPointMass,
 }
 
 impl Load {
-    /// Refuses what means nothing on a platform with these degrees of freedom.
+    /// Refuses load components that have no meaning for a platform with this motion.
     ///
     /// # Errors
     /// [`LoadError`].
@@ -95,7 +95,7 @@ impl Load {
     }
 }
 
-/// Material damping of a rope; enters the cable's frequency only (theory, section 4).
+/// Material damping of a rope; it enters only the frequency of the cable (theory, section 4).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Damping {
     /// Constant ratio ξ: `ω_c² = ω²(1 − 2iξ)`.
@@ -111,31 +111,31 @@ pub struct Material {
     pub name: String,
     /// Axial stiffness EA [N].
     pub axial_stiffness: f64,
-    /// Mass per unstrained length [kg/m]; zero is a massless cable.
+    /// Mass per unstrained length [kg/m]; zero for a massless cable.
     pub mass_per_length: f64,
     /// Damping.
     pub damping: Damping,
-    /// Limits of the tension of every cable of this rope.
+    /// Tension limits of every cable made of this rope.
     pub tension_limits: TensionLimits,
-    /// Tension at which it breaks [N].
+    /// Tension at which the rope breaks [N].
     pub breaking_load: Option<f64>,
-    /// Drag coefficient times diameter [m]; `None` where the file says nothing of the drag.
+    /// Drag coefficient times diameter [m]; `None` if the file gives no drag.
     pub drag_width: Option<f64>,
     /// Dead load per unstrained length besides its weight, world axes [N/m].
     pub load_per_length_w: Vec3,
 }
 
-/// Tensions between which a cable shall be kept [N]; `None` where the file says nothing.
+/// Tension limits of a cable [N]; `None` if the file gives none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TensionLimits {
-    /// Least tension, anywhere in the cable.
+    /// Minimum tension anywhere in the cable.
     pub minimum: Option<f64>,
-    /// Greatest tension, anywhere in the cable.
+    /// Maximum tension anywhere in the cable.
     pub maximum: Option<f64>,
 }
 
 impl TensionLimits {
-    /// These limits, and `other` where there is none.
+    /// These limits, completed by those of `other` where this one has none.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self { minimum: self.minimum.or(other.minimum), maximum: self.maximum.or(other.maximum) }
@@ -147,15 +147,15 @@ impl TensionLimits {
 pub struct Cable {
     /// Name in the robot file; unique.
     pub name: String,
-    /// Its rope.
+    /// Rope of the cable.
     pub material: Material,
-    /// The end that is not on the platform.
+    /// End of the cable that is not on the platform.
     pub anchor: Anchor,
     /// Attachment point in the platform frame [m].
     pub attachment_p: Vec3,
-    /// Limits of its tension, before those of its rope.
+    /// Tension limits of the cable; they take precedence over those of its rope.
     pub tension_limits: TensionLimits,
-    /// Dead load per unstrained length besides its weight and the wind, its own or that of its rope, world axes [N/m].
+    /// Dead load per unstrained length besides weight and wind, from the cable or else from its rope, world axes [N/m].
     pub load_per_length_w: Vec3,
 }
 
@@ -167,28 +167,29 @@ impl Cable {
         self.anchor.exit_w(&attachment_w) - attachment_w
     }
 
-    /// Unstrained length of the cable at a pose if it is straight and carries no tension [m]: the chord and what lies
+    /// Unstrained length of the cable at a pose if it is straight and carries no tension [m]: the chord plus the length
     /// beyond the exit point.
     #[inline]
     pub fn straight_length(&self, pose: &Pose) -> f64 {
         self.chord_w(pose).norm() + self.anchor.length_beyond(&pose.point_w(&self.attachment_p))
     }
 
-    /// The limits of its tension: its own, then those of its rope; nothing is above what the rope breaks at.
+    /// Tension limits: those of the cable, else those of its rope; the breaking load is the maximum if no other is
+    /// given.
     pub fn limits(&self) -> TensionLimits {
         let breaking = TensionLimits { minimum: None, maximum: self.material.breaking_load };
         self.tension_limits.or(self.material.tension_limits).or(breaking)
     }
 }
 
-/// What is known of the state before an analysis.
+/// State given before an analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum State {
-    /// Unstrained lengths, one a cable, file order [m]: forward statics gives the pose.
+    /// Unstrained lengths, one per cable in file order [m]: forward statics gives the pose.
     Lengths(Vec<f64>),
     /// Pose: inverse statics gives the lengths.
     Pose(Pose),
-    /// The file gives none; a command has to.
+    /// The file gives no state; the command has to give one.
     Unknown,
 }
 
@@ -202,7 +203,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// From position [m] and roll, pitch, yaw [degrees], `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    /// Pose from position [m] and roll, pitch, yaw [degrees], `R = Rz(yaw) Ry(pitch) Rx(roll)`.
     pub fn new(position_w: [f64; 3], roll_pitch_yaw_deg: [f64; 3]) -> Self {
         let [roll, pitch, yaw] = roll_pitch_yaw_deg;
         Self { position_w: Vec3::from(position_w), rot_wp: rotation::from_roll_pitch_yaw_deg(roll, pitch, yaw) }
@@ -214,14 +215,14 @@ impl Pose {
         Self { position_w: self.position_w + translation_w, rot_wp: rotation::turned(&self.rot_wp, turn_w) }
     }
 
-    /// A point of the platform in world coordinates [m].
+    /// Point of the platform in world coordinates [m].
     pub fn point_w(&self, point_p: &Vec3) -> Vec3 {
         self.position_w + self.rot_wp * point_p
     }
 }
 
 impl Robot {
-    /// Unit vector against gravity; z when there is none.
+    /// Unit vector against gravity; z without gravity.
     pub fn up_w(&self) -> Vec3 {
         let g = self.gravity_w.norm();
         if g > 0.0 { -self.gravity_w / g } else { Vec3::z() }
@@ -230,14 +231,14 @@ impl Robot {
     /// Length ℓ that makes rotations comparable with translations [m]: the mean distance of the attachments from the
     /// platform origin; 1 for a point mass.
     ///
-    /// Every norm, pivot count and tolerance on 6×6 matrices acts on `S K S`, `S = diag(1,1,1,1/ℓ,1/ℓ,1/ℓ)`.
+    /// Every norm, pivot count and tolerance on 6×6 matrices refers to `S K S`, `S = diag(1,1,1,1/ℓ,1/ℓ,1/ℓ)`.
     pub fn platform_length(&self) -> f64 {
         let n = self.cables.len() as f64;
         let mean = self.cables.iter().map(|c| c.attachment_p.norm()).sum::<f64>() / n;
         if mean > 0.0 { mean } else { 1.0 }
     }
 
-    /// This robot with limits of tension that hold for every cable, before those of its file.
+    /// This robot with tension limits for every cable, which take precedence over those of its file.
     #[must_use]
     pub fn with_tension_limits(&self, limits: TensionLimits) -> Self {
         let mut robot = self.clone();
@@ -263,7 +264,8 @@ impl Robot {
         robot
     }
 
-    /// This robot with a dead load per unstrained length on every cable, world axes [N/m], in place of those of its file.
+    /// This robot with a dead load per unstrained length on every cable, world axes [N/m], which replaces that of its
+    /// file.
     #[must_use]
     pub fn with_cable_load(&self, load_per_length_w: Vec3) -> Self {
         let mut robot = self.clone();

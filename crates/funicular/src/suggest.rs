@@ -1,14 +1,14 @@
-//! "Did you mean": the known name that is nearest to a mistyped one. One measure and one limit for every message.
+//! "Did you mean": the known name nearest to a mistyped one. All messages share one measure and one limit.
 
-/// Likeness (Jaro-Winkler, 0 to 1) from which a known name is suggested: `mas` for `mass_kg` has 0.87 and is meant,
-/// `mass_kg_per_m` for `name` has 0.66 and is not.
+/// Minimum likeness (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which is
+/// meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
 const MIN_LIKENESS: f64 = 0.8;
 
-/// Maximum length of a name [bytes]; longer text is none, and its comparison would take long.
+/// Maximum length of a name [bytes]. Longer text is no name, and its comparison would take long.
 const MAX_LENGTH: usize = 100;
 
-/// Names of earlier states of the program, with the names that they have now. A name that is gone is answered with the
-/// new one, also where no letters are alike.
+/// Names of earlier versions of the program with their present names. The present name is suggested for an earlier one
+/// even if their letters have nothing in common.
 const RENAMED: &[(&str, &str)] = &[
     ("exact", "catenary-dynamic"),
     ("closed-form", "shallow-dynamic"),
@@ -20,7 +20,7 @@ const RENAMED: &[(&str, &str)] = &[
     ("wanted-tension-n", "target-tension-n"),
 ];
 
-/// The name that an earlier name has now.
+/// Present name of an earlier name, if `word` is one.
 ///
 /// # Example
 /// ```
@@ -33,8 +33,8 @@ pub fn renamed(word: &str) -> Option<&'static str> {
     RENAMED.iter().find(|(old, _)| old.eq_ignore_ascii_case(word)).map(|(_, new)| *new)
 }
 
-/// The known name that was called `word` before, or else the one nearest to `word`, if one is near. Upper and lower
-/// case are one.
+/// Known name that an earlier version called `word`, or else the known name nearest to `word`, if one is near enough.
+/// Ignores upper and lower case.
 ///
 /// # Example
 /// ```
@@ -55,7 +55,7 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .filter(|name| word.len().max(name.len()) <= MAX_LENGTH)
         .map(|name| (strsim::jaro_winkler(&word, &name.to_lowercase()), name))
         .filter(|(likeness, _)| *likeness >= MIN_LIKENESS)
-        // The first of equals, so that the answer does not depend on the order of comparison.
+        // Of equal candidates the first one, so that the answer does not depend on the order of comparison.
         .fold(None, |best: Option<(f64, &str)>, (likeness, name)| match best {
             Some((most, _)) if most >= likeness => best,
             _ => Some((likeness, name)),
@@ -71,7 +71,7 @@ mod tests {
     fn an_earlier_name_is_answered_with_the_name_of_today() {
         assert_eq!(nearest("exact", ["spring", "catenary-dynamic"]), Some("catenary-dynamic"));
         assert_eq!(nearest("Freedoms", ["mass_kg", "motion"]), Some("motion"));
-        // Where the new name is none of the known ones, likeness decides.
+        // If the new name is not among the known ones, likeness decides.
         assert_eq!(nearest("exact", ["spring", "exact_length"]), Some("exact_length"));
         assert_eq!(nearest("exact", ["spring"]), None);
     }

@@ -64,7 +64,7 @@ pub enum Warning {
         translation: f64,
         /// Angle between the platform and the requested orientation [degrees].
         turn_deg: f64,
-        /// Distance from the requested pose, translation and rotation together [m], [`crate::statics::distance`].
+        /// Distance from the requested pose, translation and rotation together [m], [`crate::statics::pose_distance`].
         distance: f64,
     },
     /// Cables sag deeper than a shallow-sag model allows.

@@ -54,7 +54,7 @@ impl Printed for Statics {
             (Some(other), None) => other_text(other),
             (None, None) => String::new(),
         };
-        let balance = if self.carries_nothing {
+        let balance = if self.is_unloaded {
             "No load and no tension: no residual,".to_owned()
         } else {
             format!("Residual {:.1e}", self.residual)

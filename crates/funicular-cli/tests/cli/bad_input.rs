@@ -48,7 +48,7 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT --pose", "a value is required"),
         ("statics ROBOT --pose --mass-kg 3", "error:"),
         ("statics ROBOT --pose 5.352,-2.124,4.193", "coinciding ends"),
-        ("statics ROBOT --lengths-m 1,2,3", "3 unstrained lengths for 6 cables"),
+        ("statics ROBOT --lengths-m 1,2,3", "3 unstrained lengths given for 6 cables"),
         ("statics ROBOT --lengths-m 1,2,3,4,5,0", "0 is not positive"),
         ("statics ROBOT --lengths-m 1,2,3,4,5,-6", "-6 is not positive"),
         ("statics ROBOT --lengths-m 1,2,3,4,5,inf", "not a finite number"),
@@ -123,7 +123,7 @@ fn broken_command_lines_are_refused() {
         ("pose-error ROBOT --mass-kg 10:90:1", "not a number of masses"),
         ("pose-error ROBOT --mass-kg 0:90:5", "0 is not positive"),
         ("pose-error ROBOT --mass-kg 10:90:5 --tolerance-mm 0", "0 is not positive"),
-        ("pose-error ROBOT --mass-kg 10:90:5 --lengths-m 1,2", "2 unstrained lengths for 6 cables"),
+        ("pose-error ROBOT --mass-kg 10:90:5 --lengths-m 1,2", "2 unstrained lengths given for 6 cables"),
         ("cable ROBOT --name 9 --from-hz 1 --to-hz 2 --points 9", "no cable \"9\"; there are `1`"),
         ("cable ROBOT --name 1 --from-hz 1 --to-hz 1e9 --points 9", "lower the limit"),
         ("cable ROBOT --name 1 --cable-model shallow-dynamic --from-hz 1 --to-hz 1e9 --points 9", "lower --to-hz"),
@@ -296,8 +296,8 @@ fn tensions_that_no_choice_provides_are_no_solution_and_what_binds_is_named() {
             expected,
         );
     };
-    refused(&["--max-tension-n", "200"], 1, "the nearest miss the limits by ");
-    refused(&["--max-tension-n", "200"], 1, "held by the maximum of cables ");
-    refused(&["--target-tension-n", "1,2"], 2, "2 wanted tensions for 8 cables");
+    refused(&["--max-tension-n", "200"], 1, "the best tensions violate the limits by ");
+    refused(&["--max-tension-n", "200"], 1, "because of the maximum of cables ");
+    refused(&["--target-tension-n", "1,2"], 2, "2 target tensions given for 8 cables");
     refused(&["--tension-rule", "stiffest", "--static-model", "ideal"], 2, "ideal cables, which are rigid");
 }

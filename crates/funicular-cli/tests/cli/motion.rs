@@ -118,6 +118,6 @@ fn of_a_pose_that_two_cables_cannot_hold_the_nearest_is_given_and_said() {
     let ideal = run_with(&["statics", "-", "--static-model", "ideal"], &file);
     assert!(
         ideal.status.code() == Some(2)
-            && stderr(&ideal).contains("2 cables for 3 degrees of freedom can hold no given pose")
+            && stderr(&ideal).contains("2 cables for 3 degrees of freedom cannot hold a given pose")
     );
 }

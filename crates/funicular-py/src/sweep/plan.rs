@@ -134,6 +134,7 @@ impl PyPlan {
             (false, true) => Begin::Discard,
             (false, false) => Begin::Anew,
         };
+
         let data = Arc::clone(&self.data);
         let Some(path) = file else {
             if resume || discard {
@@ -144,6 +145,7 @@ impl PyPlan {
             }
             return Ok(Some(PyWork::in_memory(data)));
         };
+
         let opened =
             py.detach(|| Job::open(&path, data.record.clone(), begin)).map_err(|error| errors::files(&error))?;
         Ok(match opened {

@@ -111,8 +111,10 @@ impl PyWork {
         let threads = Threads::of(threads);
         let data = Arc::clone(&self.data);
         let store = self.open()?;
+
         let chunks = store.next()..data.record.range().end;
         let done = AtomicUsize::new(chunks.start);
+
         let mut reported = Instant::now();
         let report = || match &progress {
             None => Ok(()),
@@ -120,6 +122,7 @@ impl PyWork {
                 progress.call1(py, (data.done(done.load(Ordering::Relaxed)), data.rows())).map(drop)
             }),
         };
+
         py.detach(|| {
             let report = &report;
             let take = |chunk: funicular_study::sweep::Chunk| {
@@ -127,6 +130,7 @@ impl PyWork {
                 done.store(chunk.index + 1, Ordering::Relaxed);
                 Ok(())
             };
+
             let check = || {
                 crate::interrupt::check_signals()?;
                 if reported.elapsed() >= REPORT_INTERVAL {
@@ -145,6 +149,7 @@ impl PyWork {
         if self.open()?.next() < self.data.record.range().end {
             return Err(PyValueError::new_err("chunks are missing"));
         }
+
         let store = self.store.take().ok_or_else(ended)?;
         let data = Arc::clone(&self.data);
         py.detach(|| match store {

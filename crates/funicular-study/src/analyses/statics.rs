@@ -36,7 +36,7 @@ pub struct Statics {
     pub residual: f64,
     /// True if there are neither loads nor tensions; the residual then has no meaning.
     #[serde(skip)]
-    pub carries_nothing: bool,
+    pub is_unloaded: bool,
     pub iterations: usize,
     /// True for a stable equilibrium; absent for ideal cables, which are rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -223,7 +223,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
 
     if all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let found = statics::all(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
+        let found = statics::all_equilibria(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
         if let (true, Some(expected)) = (found.lacks_some(), found.expected_index_sum) {
             warnings.push(format!(
                 "the list of equilibria is not complete: the sum of (−1)^(falling directions) is {}, for all \
@@ -250,7 +250,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
         residual: equilibrium.residual,
-        carries_nothing: statics::carries_nothing(robot, equilibrium),
+        is_unloaded: statics::is_unloaded(robot, equilibrium),
         iterations: equilibrium.iterations,
         stable,
         stiffness_min_n_per_m,

@@ -1,14 +1,14 @@
-//! How the end force of a hanging cable follows its load: the derivative by the load per length, ends and length held.
+//! Derivative of a hanging cable's end force with respect to the load per length, with ends and length held.
 
 use super::space::HangingCable;
 use super::{Catenary, Slope};
 use crate::math::{Mat3, Vec3};
 
 impl Catenary {
-    /// Derivative of `(H, V_A)` by the weight per length w [m], of a cable that has weight.
+    /// Derivative of `(H, V_A)` with respect to the weight per length w [m], for a cable with weight.
     ///
-    /// `k` is proportional to w, so `w ∂v/∂w = k ∂v/∂k`, and the terms of the quotients (7) that cancel each other are
-    /// left out.
+    /// `k` is proportional to w, so `w ∂v/∂w = k ∂v/∂k`. Terms of the quotients (7) that cancel each other are left
+    /// out.
     fn start_force_by_weight(&self) -> [f64; 2] {
         let half_length = 0.5 * self.rope.unstrained_length;
         let k = self.half_strain_of_weight();
@@ -28,12 +28,13 @@ impl Catenary {
 }
 
 impl HangingCable {
-    /// Derivative of [`Self::force_on_start_w`] by the load per unstrained length as a vector, ends and length held; 3×3,
-    /// world axes, not symmetric [m].
+    /// Derivative of [`Self::force_on_start_w`] with respect to the vector of the load per unstrained length, with ends
+    /// and length held; 3×3, world axes, not symmetric [m].
     ///
-    /// A change of the load across its direction turns the load; a cable whose ends turn with the load keeps its shape, so
-    /// that the turn follows from [`Self::tangent_w`]. Of a cable without load that is taut it is half the length, in all
-    /// directions; one that is slack has no shape to start from and is given zero.
+    /// A load change normal to the load's direction turns the load. A cable whose ends turn with the load keeps its
+    /// shape, so the effect of the turn follows from [`Self::tangent_w`]. For a taut cable without load the derivative
+    /// is half the length in all directions. A slack cable without load has no shape to start from; its derivative is
+    /// set to zero.
     ///
     /// # References
     /// docs/theory.md, equation (49b).

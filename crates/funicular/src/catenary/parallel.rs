@@ -1,14 +1,15 @@
-//! The catenary of a given tension parallel to its chord; its unstrained length follows.
+//! Catenary with a given tension parallel to its chord; its unstrained length follows.
 
 use super::{Catenary, Hyperbolic, Rope, Slope};
 
 impl Catenary {
-    /// The cable from the origin to `(span, rise)` [m], not both zero, whose [`parallel_tension`](Self::parallel_tension)
-    /// is `tension` [N]. `rope` gives weight and stiffness; its length is where the search begins and does not matter.
+    /// Cable from the origin to `(span, rise)` [m], not both zero, whose [`parallel_tension`](Self::parallel_tension)
+    /// is `tension` [N]. `rope` gives weight and stiffness; its length is the start of the search and does not change
+    /// the result.
     ///
-    /// By (10a) the tension fixes v + k, so that (9) is an equation in the length alone, and a nearly linear one: one
-    /// or two steps from the length of the same cable at another tension. Meant for tensions above a hundredth of the
-    /// weight; a massless cable may have any that is not negative.
+    /// The tension fixes v + k by (10a), so that (9) becomes an equation in the length alone, and a nearly linear one:
+    /// one or two steps suffice from the length at another tension. Meant for tensions above a hundredth of the weight;
+    /// a massless cable may have any tension that is not negative.
     pub(crate) fn with_parallel_tension(span: f64, rise: f64, rope: Rope, tension: f64) -> Self {
         let Rope { unstrained_length, weight_per_length: w, axial_stiffness: ea } = rope;
         let chord = super::hypot(span, rise);
@@ -19,18 +20,19 @@ impl Catenary {
         // The range of lengths, and a start.
         let across = 0.5 * w * chord / tension;
         let k_by_length = 0.5 * w / ea;
-        // Here v = 0: a rope stretched so far that its weight does not count. The root is below, and so is the start.
+        // Here v = 0: the rope is stretched so far that its weight does not count. The root is below, and so is the
+        // start.
         let limit = across / k_by_length;
         let straight = chord / (1.0 + tension / ea);
         let mut length = if unstrained_length < limit { unstrained_length.max(straight) } else { straight };
 
-        // Nearly linear: 2 passes from a neighbour, 4 from afar. The rest is a guard.
+        // Nearly linear: 2 passes from a neighbouring tension, 4 from far away. The limit is a guard.
         for _ in 0..50 {
             let at = LengthOf::of(span, rise, across, k_by_length * length);
             let step = (at.length - length) / (1.0 - k_by_length * at.by_k);
             let next = length + step;
             length = if next < limit { next.max(0.5 * length) } else { 0.5 * (length + limit) };
-            // Newton squares the error: a step below 1e-9 is the last that counts.
+            // Newton's method squares the error: after a step below 1e-9 no further step counts.
             if step.abs() <= 1e-9 * length {
                 break;
             }
@@ -57,7 +59,7 @@ impl Catenary {
     }
 }
 
-/// The length by (9) for `across = v + k`, and its derivative by k.
+/// Length by (9) for `across = v + k`, and its derivative with respect to k.
 struct LengthOf {
     length: f64,
     by_k: f64,
@@ -85,9 +87,9 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..Default::default() })]
 
-        /// Tensions from a quarter of the weight up to a strain of one half, every slope, ropes from rubber to steel.
+        /// Tensions from a quarter of the weight up to a strain of one half, all slopes, ropes from rubber to steel.
         #[test]
-        fn the_length_found_has_the_tension_asked(
+        fn the_length_found_has_the_requested_tension(
             slope in -1.0f64..=1.0, size in -1.0f64..3.0, weight in -4.0f64..2.0, stiffness in 2.0f64..7.0, part in 0.0f64..=1.0,
         ) {
             let chord = 10f64.powf(size);
@@ -100,7 +102,7 @@ mod tests {
             let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
             prop_assert!((cable.parallel_tension() / tension - 1.0).abs() < 1e-12);
             let again = Catenary::solve(span, rise, cable.rope());
-            // Rounding of the length in a rope that hardly stretches; the more so, the longer the slack one.
+            // Rounding of the length in a rope that hardly stretches; it grows with the length of a slack cable.
             let tolerance = 1e-14 * (axial_stiffness / tension).max(100.0);
             let gap = (again.parallel_tension() / tension - 1.0).abs();
             prop_assert!(gap < tolerance, "τ {tension} N: {gap:e}, tolerance {tolerance:e}");
@@ -113,7 +115,7 @@ mod tests {
             }
         }
 
-        /// What tension limits rest on: above the tension of (37) everything grows with the parallel tension.
+        /// Basis of the tension limits: above the tension of (37) both end tensions grow with the parallel tension.
         #[test]
         fn end_tensions_grow_with_the_parallel_tension(
             slope in -1.0f64..=1.0, stiffness in 1.0f64..6.0, part in 0.0f64..=1.0,
@@ -126,7 +128,7 @@ mod tests {
             prop_assert!(more.min_tension() > less.min_tension());
         }
 
-        /// What proofs that no tensions exist rest on, (39b): what sag adds to the mean vertical force falls with the
+        /// Basis of the infeasibility proofs, (39b): the contribution of sag to the mean vertical force falls with the
         /// parallel tension, ever more slowly, and so does the length unless the cable is steep.
         #[test]
         fn bend_and_length_are_convex_functions_of_the_parallel_tension(
@@ -158,11 +160,12 @@ mod tests {
         }
     }
 
-    /// (36a): what is left of the vertical force beside its terms falls by the order of the first one left out when the
-    /// tension doubles, and what is left beside the straight line by the order of (36a)'s own.
+    /// Checks (36a) by orders: the vertical force minus the terms of (36a) falls with the order of the first omitted
+    /// term when the tension doubles, and the vertical force minus the straight line falls with the order of (36a)'s
+    /// own term.
     #[test]
     fn the_vertical_force_bends_with_the_first_power_of_weight_over_tension_in_inclined_cables() {
-        // So stiff that the strain, 3e-12 at most, is far below the last term looked at, 2e-8.
+        // So stiff that the strain, at most 3e-12, is far below the last term considered, 2e-8.
         let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 1e13 };
         for (sin, line_order, remainder_order) in [(0.6, 1, 3), (-0.8, 1, 3), (0.0, 2, 4)] {
             let cos2: f64 = 1.0 - sin * sin;
@@ -173,7 +176,7 @@ mod tests {
             };
             for tau in [6.0, 12.0] {
                 let ((line, rest), (line_2, rest_2)) = (left(tau), left(2.0 * tau));
-                // The next order adds some per cents to each at these tensions.
+                // The next order adds a few per cent to each at these tensions.
                 let order = |one: f64, two: f64| (one / two).log2();
                 assert!((order(line, line_2) - f64::from(line_order)).abs() < 0.1, "{sin} {tau}: {line} {line_2}");
                 let found = order(rest, rest_2);

@@ -1,28 +1,28 @@
-//! The catenary placed in space: end forces and stiffness in world axes.
+//! Catenary placed in space: end forces and stiffness in world axes.
 
 use super::{Catenary, CatenaryError, Rope};
 use crate::math::{Mat3, Vec3};
 
-/// A cable in static equilibrium between a platform point (its start) and an anchor (its end). World axes.
+/// Cable in static equilibrium between a platform point (its start) and an anchor (its end). World axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HangingCable {
-    /// The curve in its own plane.
+    /// Curve in its own plane.
     pub catenary: Catenary,
-    /// Where it starts: the attachment in the world [m].
+    /// Start point: the attachment in the world [m].
     pub start_w: Vec3,
-    /// Where it ends: the anchor [m].
+    /// End point: the anchor [m].
     pub end_w: Vec3,
-    /// Unit vector of its load reversed: up.
+    /// Unit vector against its load: up.
     up_w: Vec3,
-    /// Horizontal unit vector from start to end; any horizontal one for a vertical cable.
+    /// Horizontal unit vector from start to end; for a vertical cable any horizontal one.
     along_w: Vec3,
 }
 
 impl HangingCable {
-    /// The cable from `start_w` to `end_w` [m] whose load points against `up_w`.
+    /// Cable from `start_w` to `end_w` [m] whose load points against `up_w`.
     ///
     /// # Errors
-    /// As [`Catenary::between`], and for a direction `up_w` without length.
+    /// Errors of [`Catenary::between`], and an error for a direction `up_w` without length.
     pub fn new(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope) -> Result<Self, CatenaryError> {
         let up = up_w.norm();
         if !(up > 0.0 && up.is_finite()) {
@@ -34,26 +34,27 @@ impl HangingCable {
         Ok(Self::between(start_w, end_w, up_w / up, rope))
     }
 
-    /// As [`HangingCable::new`] for numbers that a [`crate::robot::Robot`] has already checked; `up_w` is a unit vector.
+    /// Cable of [`HangingCable::new`], without checks: for numbers that a [`crate::robot::Robot`] has already checked.
+    /// `up_w` is a unit vector.
     #[inline]
     pub(crate) fn between(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope) -> Self {
         let (span, rise, along_w) = plane(&start_w, &end_w, &up_w);
         Self { catenary: Catenary::solve(span, rise, rope), start_w, end_w, up_w, along_w }
     }
 
-    /// The same with a parallel tension [N] instead of a length: see [`Catenary::with_parallel_tension`].
+    /// Cable with a given parallel tension [N] instead of a length, see [`Catenary::with_parallel_tension`].
     pub(crate) fn with_parallel_tension(start_w: Vec3, end_w: Vec3, up_w: Vec3, rope: Rope, tension: f64) -> Self {
         let (span, rise, along_w) = plane(&start_w, &end_w, &up_w);
         Self { catenary: Catenary::with_parallel_tension(span, rise, rope, tension), start_w, end_w, up_w, along_w }
     }
 
-    /// The cable between the same points with another parallel tension [N].
+    /// Cable between the same points with another parallel tension [N].
     pub(crate) fn at_parallel_tension(&self, tension: f64) -> Self {
         let Catenary { span, rise, rope, .. } = self.catenary;
         Self { catenary: Catenary::with_parallel_tension(span, rise, rope, tension), ..*self }
     }
 
-    /// The cable between the same points with another unstrained length [m].
+    /// Cable between the same points with another unstrained length [m].
     pub(crate) fn at_length(&self, unstrained_length: f64) -> Self {
         let Catenary { span, rise, rope, .. } = self.catenary;
         Self { catenary: Catenary::solve(span, rise, Rope { unstrained_length, ..rope }), ..*self }
@@ -64,25 +65,25 @@ impl HangingCable {
         self.end_w - self.start_w
     }
 
-    /// The axes of its plane: the horizontal unit vector from start to end, and up.
+    /// Axes of the cable's plane: the horizontal unit vector from start to end, and up.
     pub fn axes_w(&self) -> (Vec3, Vec3) {
         (self.along_w, self.up_w)
     }
 
-    /// Force of the cable on what holds its start, the platform [N].
+    /// Force of the cable on the body that holds its start, the platform [N].
     #[inline]
     pub fn force_on_start_w(&self) -> Vec3 {
         self.along_w * self.catenary.horizontal_force() + self.up_w * self.catenary.vertical_force_at_start()
     }
 
-    /// Derivative of the force on the start by the unstrained length [N/m].
+    /// Derivative of the force on the start with respect to the unstrained length [N/m].
     pub fn force_by_length_w(&self) -> Vec3 {
         let [h, v] = self.catenary.start_force_by_length();
         self.along_w * h + self.up_w * v
     }
 
-    /// Static stiffness of the start, end held: minus the derivative of [`Self::force_on_start_w`] by the start's
-    /// position; 3×3, world axes, symmetric [N/m].
+    /// Static stiffness of the start with the end held: minus the derivative of [`Self::force_on_start_w`] with respect
+    /// to the start's position; 3×3, world axes, symmetric [N/m].
     pub fn tangent_w(&self) -> Mat3 {
         let [[hh, hv], [_, vv]] = self.catenary.tangent();
         let (h, v) = (&self.along_w, &self.up_w);
@@ -94,19 +95,19 @@ impl HangingCable {
             + out * out.transpose() * self.catenary.out_of_plane_stiffness()
     }
 
-    /// Potential energy [J]; its gradient by the start is minus [`Self::force_on_start_w`].
+    /// Potential energy [J]; its gradient with respect to the start is minus [`Self::force_on_start_w`].
     pub fn energy(&self) -> f64 {
         self.catenary.energy() + self.catenary.weight() * self.start_w.dot(&self.up_w)
     }
 
-    /// Position of the point at unstrained arc length `s` [m] from the start [m].
+    /// Position of the point at unstrained arc length `s` [m] from the start, world axes [m].
     pub fn point_w(&self, s: f64) -> Vec3 {
         let [x, z] = self.catenary.point_at(s);
         self.start_w + self.along_w * x + self.up_w * z
     }
 }
 
-/// A unit vector normal to the unit vector `v`.
+/// Unit vector normal to the unit vector `v`.
 pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
     let least = if v.x.abs() <= v.y.abs().min(v.z.abs()) {
         Vec3::x()
@@ -118,8 +119,8 @@ pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
     v.cross(&least).normalize()
 }
 
-/// Span over rise below which the horizontal direction of a chord is found twice; rounding of the first is 1e-16 of the
-/// rise, so that its error is below 1e-8 of the direction elsewhere.
+/// Span over rise below which the horizontal direction of a chord is computed twice. Rounding of the first result is
+/// 1e-16 of the rise, so elsewhere its error is below 1e-8 of the direction.
 const NEARLY_VERTICAL: f64 = 1e-8;
 
 /// Span, rise and horizontal direction from one point to another.
@@ -129,10 +130,11 @@ fn plane(start_w: &Vec3, end_w: &Vec3, up_w: &Vec3) -> (f64, f64, Vec3) {
     let rise = chord.dot(up_w);
     let mut across = chord - up_w * rise;
     let mut span = across.norm();
-    // Of a cable that is vertical to rounding, what is left across is rounding and may even point up: made horizontal again.
+    // For a cable that is vertical to rounding, the remaining horizontal part is rounding and may even point up: make
+    // it horizontal again.
     if span < NEARLY_VERTICAL * rise.abs() {
         across -= up_w * across.dot(up_w);
-        // Where most of it pointed up, all of it was rounding: the cable is vertical.
+        // If most of it pointed up, all of it was rounding: the cable is vertical.
         span = if across.norm() < 0.5 * span { 0.0 } else { across.norm() };
     }
     (span, rise, if span > 0.0 { across / span } else { any_normal(up_w) })

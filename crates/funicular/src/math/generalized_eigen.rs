@@ -1,8 +1,8 @@
-//! A symmetric-definite pencil `M φ = μ K φ`, and the components of a few vectors in its eigenvectors.
+//! Symmetric-definite pencil `M φ = μ K φ`, and the components of a few vectors along its eigenvectors.
 //!
-//! A cable needs only how its ends take part in each clamped mode: a few numbers a mode instead of a vector of all
-//! unknowns. Every transformation is applied to those few vectors, and no eigenvector is ever formed. K is factored
-//! and not M: the large μ = 1/ω² are the low frequencies, and those come out with all their digits.
+//! For a cable only the participation of its ends in each clamped mode is needed: a few numbers per mode instead of a
+//! vector of all unknowns. Every transformation is applied to these few vectors, and no eigenvector is ever formed. K
+//! is factored and not M: the large μ = 1/ω² are the low frequencies, and these keep all their digits.
 
 use super::simd::dot;
 
@@ -10,19 +10,19 @@ use super::simd::dot;
 /// `φ_kᵀ b` with every given vector b, φ_k normalised to `φᵀ K φ = 1`.
 ///
 /// `stiffness` and `mass` are n×n by columns, of which the lower triangle is read; `vectors` has n rows of `count`
-/// numbers. All are used up. `None` if K is not positive definite.
+/// numbers. All three are consumed. `None` if K is not positive definite.
 ///
-/// Cholesky factor, congruence, Householder's tridiagonal form, implicit QL.
+/// Steps: Cholesky factor, congruence, Householder's tridiagonal form, implicit QL.
 ///
 /// # References
 /// G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. 2013, sections 4.2, 8.3.1, 8.3.3 and 8.7.2.
 pub fn pencil(stiffness: Vec<f64>, mass: Vec<f64>, vectors: Vec<f64>, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
     let n = stiffness.len().isqrt();
     assert!(stiffness.len() == n * n && mass.len() == n * n && vectors.len() == n * count, "shapes agree");
-    pulp::Arch::new().dispatch(Pencil { n, count, k: stiffness, m: mass, vectors })
+    pulp::Arch::new().dispatch(PencilReduction { n, count, k: stiffness, m: mass, vectors })
 }
 
-struct Pencil {
+struct PencilReduction {
     n: usize,
     count: usize,
     k: Vec<f64>,
@@ -30,7 +30,7 @@ struct Pencil {
     vectors: Vec<f64>,
 }
 
-impl pulp::NullaryFnOnce for Pencil {
+impl pulp::NullaryFnOnce for PencilReduction {
     type Output = Option<(Vec<f64>, Vec<f64>)>;
 
     #[inline(always)]
@@ -48,7 +48,7 @@ impl pulp::NullaryFnOnce for Pencil {
     }
 }
 
-/// y += factor x.
+/// Adds `factor x` to y.
 #[inline(always)]
 fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {
@@ -56,7 +56,7 @@ fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
-/// Lower factor in place of the lower triangle; false if a pivot is not positive.
+/// Cholesky factorisation in place of the lower triangle; false if a pivot is not positive.
 #[inline(always)]
 fn cholesky(a: &mut [f64], n: usize) -> bool {
     for k in 0..n {
@@ -76,7 +76,7 @@ fn cholesky(a: &mut [f64], n: usize) -> bool {
     true
 }
 
-/// vectors ← L⁻¹ vectors, rows of `count`.
+/// Solves in place: vectors ← L⁻¹ vectors, rows of `count` numbers.
 #[inline(always)]
 fn solve_rows(l: &[f64], n: usize, vectors: &mut [f64], count: usize) {
     for j in 0..n {
@@ -91,7 +91,7 @@ fn solve_rows(l: &[f64], n: usize, vectors: &mut [f64], count: usize) {
     }
 }
 
-/// a ← L⁻¹ a L⁻ᵀ, lower triangle.
+/// Congruence in place: a ← L⁻¹ a L⁻ᵀ, lower triangle.
 #[inline(always)]
 fn congruence(l: &[f64], a: &mut [f64], n: usize) {
     for k in 0..n {
@@ -108,7 +108,7 @@ fn congruence(l: &[f64], a: &mut [f64], n: usize) {
         }
         add_scaled(column, half, factor);
 
-        // Rows and columns beyond, at once.
+        // Remaining rows and columns, in one pass.
         for (j, other) in right.chunks_exact_mut(n).enumerate() {
             let (c, f) = (column[j], factor[j]);
             for ((x, a), b) in other[k + 1 + j..].iter_mut().zip(&factor[j..]).zip(&column[j..]) {
@@ -125,7 +125,7 @@ fn congruence(l: &[f64], a: &mut [f64], n: usize) {
     }
 }
 
-/// Reflections to tridiagonal form, applied to the vectors as well.
+/// Householder reflections to tridiagonal form, applied to the vectors as well.
 #[inline(always)]
 fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, diagonal: &mut [f64], below: &mut [f64]) {
     let (mut v, mut w, mut sums) = (vec![0.0; n], vec![0.0; n], vec![0.0; count]);
@@ -187,14 +187,14 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
     }
 }
 
-/// Implicit QL with Wilkinson's shift; the rotations act on the rows of the vectors.
+/// Implicit QL with Wilkinson's shift; the rotations also act on the rows of the vectors.
 #[inline(always)]
 fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) {
     let n = d.len();
     for l in 0..n {
-        // Two or three passes a value; 60 is a guard that rounding alone could reach.
+        // Two or three passes per eigenvalue; 60 is a guard that only rounding could reach.
         for _ in 0..60 {
-            // Up to where the matrix falls apart.
+            // Find the end of the block that does not split.
             let split = (l..n - 1)
                 .find(|&m| e[m].abs() <= f64::EPSILON * (d[m].abs() * d[m + 1].abs()).sqrt())
                 .unwrap_or(n - 1);
@@ -258,6 +258,7 @@ mod tests {
             let vectors = DMat::from_fn(n, 3, |i, j| columns[i * 3 + j]);
             let rows: Vec<f64> = (0..n * 3).map(|at| columns[at]).collect();
             let (values, products) = pencil(k.as_slice().to_vec(), m.as_slice().to_vec(), rows, 3).unwrap();
+
             // Σ μ_k^p (φ_kᵀ a)(φ_kᵀ b) = aᵀ K⁻¹ (M K⁻¹)^p b: no eigenvector needed to compare.
             let inverse = k.clone().try_inverse().unwrap();
             let mut power = inverse.clone();
@@ -272,6 +273,7 @@ mod tests {
                 }
                 power = &power * &m * &inverse;
             }
+
             let l = k.cholesky().unwrap().l();
             let solved = l.solve_lower_triangular(&m).unwrap();
             let standard = l.solve_lower_triangular(&solved.transpose()).unwrap();

@@ -1,8 +1,8 @@
 //! Gauss-Legendre quadrature and orthonormal Legendre polynomials.
 
-/// Nodes and weights of the n-point Gauss rule on [−1, 1], exact to degree 2n − 1; ascending.
+/// Nodes and weights of the n-point Gauss rule on [−1, 1], exact to degree 2n − 1; in ascending order.
 ///
-/// Newton's method on P_n from Tricomi's estimate of the nodes; all digits for the few hundred points used here.
+/// Newton's method on P_n from Tricomi's estimate of the nodes; full precision for the few hundred points used here.
 ///
 /// # References
 /// F. G. Tricomi, Ann. Mat. Pura Appl. 31, 1950.

@@ -3,7 +3,8 @@
 /// Root of `f` in `[low, high]` whose end values have opposite signs (Brent 1973, chapter 4): bisection, secant and
 /// inverse quadratic interpolation, whichever is safe. Stops at four units in the last place of the root.
 ///
-/// An end value of zero is the root. Infinite values are handled as signs. Takes at most 200 evaluations.
+/// If an end value is zero, that end is the root. Infinite values count by their sign only. Takes at most 200
+/// evaluations.
 ///
 /// # References
 /// R. P. Brent, Algorithms for Minimization without Derivatives, Prentice-Hall 1973.
@@ -32,7 +33,7 @@ pub fn brent(low: f64, f_low: f64, high: f64, f_high: f64, mut f: impl FnMut(f64
             return b;
         }
 
-        // A secant or a parabola through the last points, or the middle.
+        // A secant or a parabola through the last points, or the midpoint.
         if before.abs() >= tolerance && fa.abs() > fb.abs() && fa.is_finite() {
             let s = fb / fa;
             let secant_only = (a - c).abs() <= 0.0;

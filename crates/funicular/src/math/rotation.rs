@@ -1,13 +1,13 @@
-//! Rotations: roll, pitch, yaw in degrees as users write them; rotation vectors as the solvers take steps.
+//! Rotations: roll, pitch, yaw in degrees as users write them; rotation vectors for the steps of the solvers.
 
 use super::{Rotation, Vec3};
 
-/// `R = Rz(yaw) Ry(pitch) Rx(roll)`, angles in degrees.
+/// Rotation `R = Rz(yaw) Ry(pitch) Rx(roll)`, angles in degrees.
 pub fn from_roll_pitch_yaw_deg(roll: f64, pitch: f64, yaw: f64) -> Rotation {
     Rotation::from_euler_angles(roll.to_radians(), pitch.to_radians(), yaw.to_radians())
 }
 
-/// The angles (roll, pitch, yaw) in degrees of `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+/// Angles (roll, pitch, yaw) in degrees of `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 pub fn to_roll_pitch_yaw_deg(rot_wp: &Rotation) -> [f64; 3] {
     let (roll, pitch, yaw) = rot_wp.euler_angles();
     [roll.to_degrees(), pitch.to_degrees(), yaw.to_degrees()]
@@ -20,7 +20,7 @@ pub fn turned(rot_wp: &Rotation, turn_w: &Vec3) -> Rotation {
     turned
 }
 
-/// Quaternion (w, x, y, z) with w ≥ 0, so that one rotation prints one way.
+/// Quaternion (w, x, y, z) with w ≥ 0, so that each rotation has one printed form.
 pub fn quaternion_wxyz(rot_wp: &Rotation) -> [f64; 4] {
     let q = rot_wp.quaternion();
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };

@@ -1,10 +1,10 @@
-//! Eight numbers side by side, which every vector kernel of the crate works on: one per frequency, cable or element.
+//! Eight numbers side by side, the unit of every vector kernel of the crate: one number per frequency, cable or
+//! element.
 //!
 //! There are two ways to work on them. A loop over the eight numbers of a [`Lane`] becomes vector instructions if it is
 //! inlined into a function that was dispatched to an instruction set; complex numbers ([`complex`]) and scalar products
-//! ([`dot`]) go this way. Where the compiler would vectorise across the wrong loop, [`Part`] names
-//! the registers. Every function here is `#[inline(always)]`, because vector instructions exist only inside the function
-//! that was dispatched to them.
+//! ([`dot`]) use this way. If the compiler would vectorise the wrong loop, [`Part`] names the registers. Every function
+//! here is `#[inline(always)]`, because vector instructions exist only inside the function that was dispatched to them.
 
 pub(crate) mod complex;
 
@@ -39,8 +39,8 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     lanes.iter().sum::<f64>() + rest
 }
 
-/// A [`Lane`] in memory that is worked on. It is aligned, because a register that straddles two lines of the cache is
-/// fetched twice. (A plain `Lane` is not, because aligned memory takes longer to get.)
+/// A [`Lane`] in memory for computation. It is aligned, because a register that straddles two cache lines is fetched
+/// twice. (A plain `Lane` is not, because aligned memory takes longer to allocate.)
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(crate) struct Line(pub(crate) Lane);
@@ -65,8 +65,8 @@ impl DerefMut for Line {
     }
 }
 
-/// Share of one register in every lane. It names the direction of vector code where the compiler might choose another
-/// one for a loop over lanes.
+/// Part of every lane that fits one register. It fixes the direction of vector code where the compiler might choose
+/// another one for a loop over lanes.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<S: Simd> {
     pub(crate) simd: S,
@@ -74,7 +74,7 @@ pub(crate) struct Part<S: Simd> {
 }
 
 impl<S: Simd> Part<S> {
-    /// All shares.
+    /// All parts of a lane.
     #[inline(always)]
     pub(crate) fn all(simd: S) -> impl Iterator<Item = Self> {
         (0..LANES / S::F64_LANES).map(move |at| Self { simd, at })
@@ -95,7 +95,7 @@ impl<S: Simd> Part<S> {
         self.simd.splat_f64s(value)
     }
 
-    /// a b + c, rounded once.
+    /// Product and sum a b + c, rounded once.
     #[inline(always)]
     pub(crate) fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
         self.simd.mul_add_f64s(a, b, c)
@@ -111,10 +111,10 @@ impl<S: Simd> Part<S> {
         self.simd.neg_f64s(a)
     }
 
-    /// `Σ a b`, lane by lane.
+    /// Scalar product `Σ a b`, lane by lane.
     #[inline(always)]
     pub(crate) fn dot(self, a: &[Line], b: &[Line]) -> S::f64s {
-        // Two sums, of which neither waits for the other.
+        // Two sums, so that neither waits for the other.
         let mut sums = [self.splat(0.0); 2];
         let (a_pairs, b_pairs) = (a.chunks_exact(2), b.chunks_exact(2));
         if let ([a], [b]) = (a_pairs.remainder(), b_pairs.remainder()) {
@@ -134,31 +134,31 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// Lanes in memory that the thread keeps for the next robot: given back to the system with each, they would come again
-/// as page faults.
+/// Lanes in memory that the thread keeps for the next robot. If they were returned to the system each time, they would
+/// come back as page faults.
 #[derive(Debug, Default)]
 pub(crate) struct Lanes(Vec<Line>);
 
 thread_local! {
-    /// By the logarithm of their room, or the small would end up in what the large need.
+    /// Sorted by the logarithm of their capacity; otherwise small pieces would be used where large ones are needed.
     static SPARE: RefCell<[Vec<Vec<Line>>; SIZES]> = const { RefCell::new([const { Vec::new() }; SIZES]) };
 }
 
-/// Up to 128 kB a piece.
+/// Number of capacity classes: up to 128 kB per piece.
 const SIZES: usize = 12;
 
-/// Most pieces of a size that a thread keeps.
+/// Maximum number of spare pieces per capacity class and thread.
 const MAX_SPARE: usize = 64;
 
 impl Lanes {
-    /// None, with room for so many.
+    /// Empty, with capacity for `count` lanes.
     pub(crate) fn with_room(count: usize) -> Self {
         let mut lanes = Self::any(count);
         lanes.clear();
         lanes
     }
 
-    /// Of any values: they are to be set.
+    /// Lanes with arbitrary values, which the caller has to set.
     pub(crate) fn any(count: usize) -> Self {
         let size = count.next_power_of_two().ilog2() as usize;
         let spare = SPARE.with_borrow_mut(|spare| spare.get_mut(size).and_then(Vec::pop));
@@ -172,7 +172,7 @@ impl Drop for Lanes {
     fn drop(&mut self) {
         let lanes = std::mem::take(&mut self.0);
         let Some(size) = lanes.capacity().checked_ilog2() else { return };
-        // At the end of a thread there is nobody to keep it.
+        // At the end of a thread its store is gone.
         let _ = SPARE.try_with(|spare| {
             let mut spare = spare.borrow_mut();
             if let Some(spare) = spare.get_mut(size as usize).filter(|spare| spare.len() < MAX_SPARE) {

@@ -1,4 +1,4 @@
-//! Signs of the eigenvalues of a real symmetric matrix, by congruence.
+//! Eigenvalues of real symmetric matrices, and their signs by congruence.
 
 use super::{Mat6, Vec6};
 
@@ -18,8 +18,8 @@ pub fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
 /// Number of negative eigenvalues of a symmetric `n`×`n` matrix, given by columns and overwritten.
 ///
 /// Symmetric indefinite factorisation with pivots of 1×1 and 2×2 (Bunch and Parlett 1971, complete pivoting): by
-/// Sylvester's law the pivots have the signs of the eigenvalues. Complete pivoting keeps small eigenvalues beside very
-/// large ones. A zero matrix counts as positive.
+/// Sylvester's law the pivots have the signs of the eigenvalues. Complete pivoting keeps small eigenvalues accurate
+/// beside very large ones. A zero matrix counts as positive.
 ///
 /// # References
 /// J. R. Bunch, B. N. Parlett, SIAM J. Numer. Anal. 8(4), 1971.
@@ -31,7 +31,7 @@ pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
     let mut negative = 0;
     let mut k = 0;
     while k < n {
-        // The largest entries on the diagonal and beside it.
+        // Largest entries on and off the diagonal.
         let (mut diagonal, mut at) = (-1.0, k);
         let (mut off, mut row, mut column) = (-1.0, k, k);
         for j in k..n {
@@ -47,7 +47,7 @@ pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
             }
         }
 
-        // One pivot, or a block of two.
+        // A 1×1 pivot, or a 2×2 block.
         if diagonal >= ALPHA * off {
             if diagonal <= 0.0 {
                 break;
@@ -65,7 +65,7 @@ pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
         } else {
             swap_both(a, n, k, column);
             swap_both(a, n, k + 1, row);
-            // The off-diagonal dominates: one eigenvalue of either sign.
+            // The off-diagonal entry dominates: one eigenvalue of either sign.
             negative += 1;
             let (p, q, r) = (a[k * n + k], a[k * n + k + 1], a[(k + 1) * n + k + 1]);
             let determinant = p * r - q * q;
@@ -82,7 +82,7 @@ pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
     negative
 }
 
-/// Exchanges rows and columns `i` ≤ `j` of a symmetric matrix of which only the lower triangle is kept up to date.
+/// Exchanges rows and columns `i` ≤ `j` of a symmetric matrix of which only the lower triangle is up to date.
 fn swap_both(a: &mut [f64], n: usize, i: usize, j: usize) {
     if i == j {
         return;
@@ -99,7 +99,7 @@ fn swap_both(a: &mut [f64], n: usize, i: usize, j: usize) {
     a.swap(i * n + i, j * n + j);
 }
 
-/// Eigenvalues, ascending, of the leading `n`×`n` block of a symmetric matrix.
+/// Eigenvalues, in ascending order, of the leading `n`×`n` block of a symmetric matrix.
 pub fn eigenvalues(matrix: &Mat6, n: usize) -> Vec<f64> {
     let mut values: Vec<f64> = if n == 6 {
         matrix.symmetric_eigenvalues().iter().copied().collect()
@@ -110,8 +110,8 @@ pub fn eigenvalues(matrix: &Mat6, n: usize) -> Vec<f64> {
     values
 }
 
-/// Eigenvalues (ascending) and eigenvectors (columns) of the leading `n`×`n` block of a symmetric matrix; the other
-/// entries of the vectors are zero.
+/// Eigenvalues (in ascending order) and eigenvectors (columns) of the leading `n`×`n` block of a symmetric matrix; the
+/// other entries of the vectors are zero.
 pub fn eigen(matrix: &Mat6, n: usize) -> (Vec<f64>, Vec<Vec6>) {
     let (values, vectors) = if n == 6 {
         let all = matrix.symmetric_eigen();

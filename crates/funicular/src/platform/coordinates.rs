@@ -1,13 +1,15 @@
-//! Coordinates of the platform: its degrees of freedom, and the length ℓ that gives translations and rotations one unit.
+//! Coordinates of the platform: its degrees of freedom, and the length ℓ that gives translations and rotations the same
+//! unit.
 
 use super::wrench::wrench_of;
 use crate::math::{Mat6, Vec3, Vec6, symmetric_part};
 use crate::robot::{PlatformMotion, Pose, Robot};
 
-/// Degrees of freedom of a platform and its length ℓ, [`Robot::platform_length`].
+/// Motion of a platform and its length ℓ, [`Robot::platform_length`].
 ///
-/// Scaled quantities have one unit throughout: moments are divided by ℓ, rotations multiplied. Reduced ones are scaled
-/// and in the coordinates of the platform's degrees of freedom, zero beyond their number ([`PlatformMotion::reduced`]).
+/// Scaled quantities have one unit throughout: moments are divided by ℓ, rotations multiplied by ℓ. Reduced quantities
+/// are scaled and given in the coordinates of the platform's degrees of freedom, zero beyond their number
+/// ([`PlatformMotion::reduced`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinates {
     motion: PlatformMotion,
@@ -20,7 +22,7 @@ impl Coordinates {
         Self { motion: robot.platform.motion, ell: robot.platform_length() }
     }
 
-    /// Degrees of freedom.
+    /// Motion of the platform.
     pub(crate) fn motion(&self) -> PlatformMotion {
         self.motion
     }
@@ -35,7 +37,7 @@ impl Coordinates {
         self.ell
     }
 
-    /// Larger of force and moment/ℓ of a wrench [N]; what the platform cannot do is not counted.
+    /// Larger of force and moment/ℓ of a wrench [N]; components that the platform cannot follow do not count.
     #[inline]
     pub(crate) fn wrench_size(&self, wrench: &Vec6) -> f64 {
         let wrench = self.motion.allowed(wrench);
@@ -55,7 +57,7 @@ impl Coordinates {
         self.motion.reduced(&wrench_of(force, &(lever / self.ell)))
     }
 
-    /// Scaled motion or wrench of six components that has these reduced ones.
+    /// Scaled motion or wrench of six components with these reduced coordinates.
     #[inline]
     pub(crate) fn expand(&self, reduced: &Vec6) -> Vec6 {
         self.motion.expanded(reduced)
@@ -80,7 +82,7 @@ impl Coordinates {
         self.reduce_matrix(&symmetric_part(matrix))
     }
 
-    /// Part of a matrix over motions, not scaled, that concerns motions which the platform has; zero for the others.
+    /// Projection of an unscaled matrix over motions on the motions that the platform has; zero for the others.
     pub(crate) fn allowed_matrix(&self, matrix: &Mat6) -> Mat6 {
         self.motion.expanded_matrix(&self.motion.reduced_matrix(matrix))
     }
@@ -106,8 +108,8 @@ mod tests {
     }
 
     proptest! {
-        /// Work is a number whatever coordinates it is computed in: the wrench by the motion in metres and radians, and
-        /// the reduced wrench by the step that made the motion.
+        /// Work does not depend on the coordinates in which it is computed: the wrench times the motion in metres and
+        /// radians, and the reduced wrench times the step that made the motion.
         #[test]
         fn reduced_wrenches_do_the_work_of_wrenches_along_a_move(
             wrench in prop::array::uniform6(-1.0_f64..1.0),
@@ -116,7 +118,8 @@ mod tests {
         ) {
             let (wrench, pose) = (Vec6::from(wrench), Pose::new([0.3, -0.2, 1.0], [10.0, 20.0, -30.0]));
             for coordinates in all(ell) {
-                // Small, so that the rotation vector between the poses is that of the step; only its coordinates.
+                // Small, so that the rotation vector between the poses is that of the step; restricted to its
+                // coordinates.
                 let step = coordinates.reduce(&(Vec6::from(step) * 1e-3));
                 let moved = coordinates.moved(&pose, &step);
                 let turn = (moved.rot_wp * pose.rot_wp.inverse()).scaled_axis();
@@ -128,7 +131,7 @@ mod tests {
             }
         }
 
-        /// A rank-one matrix is reduced as the wrench that it is made of.
+        /// A rank-one matrix is reduced like the wrench that it is made of.
         #[test]
         fn matrices_are_reduced_as_wrenches_are(wrench in prop::array::uniform6(-1.0_f64..1.0), ell in 0.1_f64..10.0) {
             let wrench = Vec6::from(wrench);

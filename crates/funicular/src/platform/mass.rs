@@ -17,8 +17,8 @@ pub(crate) fn mass_matrix(platform: &Platform, pose: &Pose) -> Mat6 {
     mass
 }
 
-/// Viscous damping of the platform about its origin at a pose, world axes [N s/m, N s, N m s]; it acts in the platform's
-/// axes.
+/// Viscous damping matrix of the platform about its origin at a pose, world axes [N s/m, N s, N m s]. The dampers act
+/// along the platform's axes.
 pub(crate) fn damping_matrix(platform: &Platform, pose: &Pose) -> Mat6 {
     let rot = pose.rot_wp.to_rotation_matrix();
     let mut damping = Mat6::zeros();

@@ -1,4 +1,4 @@
-//! The straight line of a cable at a pose.
+//! Straight line of a cable at a pose.
 
 use super::coordinates::Coordinates;
 use crate::math::{Vec3, Vec6};
@@ -9,7 +9,7 @@ use crate::robot::{Cable, Pose};
 pub(crate) struct StraightCable {
     /// Lever arm from the platform origin to the attachment.
     pub(crate) lever_w: Vec3,
-    /// Attachment to exit point. From the lever arm, so that it is rounded otherwise than [`Cable::chord_w`].
+    /// Attachment to exit point. Computed from the lever arm, so its rounding differs from [`Cable::chord_w`].
     pub(crate) chord_w: Vec3,
 }
 
@@ -22,7 +22,7 @@ impl StraightCable {
         Self { lever_w, chord_w: exit_w - pose.position_w - lever_w }
     }
 
-    /// Reduced wrench of a tension of one; the ends must not coincide.
+    /// Reduced wrench of a unit tension; the ends must not coincide.
     #[inline]
     pub(crate) fn unit_wrench(&self, coordinates: &Coordinates) -> Vec6 {
         coordinates.reduce_force(&self.chord_w.normalize(), &self.lever_w)

@@ -17,14 +17,14 @@ pub(crate) fn load_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
         + Vec6::new(0.0, 0.0, 0.0, moment_w.x, moment_w.y, moment_w.z)
 }
 
-/// The size of what acts on the platform [N]: weight, force, and moment over ℓ.
+/// Size of the load on the platform [N]: weight, force, and moment over ℓ.
 pub(crate) fn load_size(robot: &Robot) -> f64 {
     let Load { force_w, moment_w, .. } = &robot.load;
     robot.force_at_mass_centre_w().norm() + force_w.norm() + moment_w.norm() / robot.platform_length()
 }
 
-/// Sum of the platform's weight and load and of cable forces at their lever arms, as a wrench about the platform origin; and the
-/// sum of the sizes of all these forces [N], which residuals are measured by.
+/// Sum of the platform's weight and load and of cable forces at their lever arms, as a wrench about the platform
+/// origin; and the sum of the magnitudes of all these forces [N], the reference for residuals.
 pub(crate) fn balance(robot: &Robot, pose: &Pose, forces: impl Iterator<Item = (Vec3, Vec3)>) -> (Vec6, f64) {
     forces.fold((load_wrench(robot, pose), load_size(robot)), |(wrench, scale), (force, lever)| {
         (wrench + wrench_of(&force, &lever), scale + force.norm())
@@ -51,8 +51,8 @@ pub(crate) fn add_lever_term(total: &mut Mat6, force: &Vec3, lever: &Vec3) {
     view -= skew(force) * skew(lever);
 }
 
-/// Adds the stiffness of weight and load at a pose: those of dead forces, and half the moment, `½[m]×` in the rotation
-/// block, which makes the whole symmetric (theory, section 14).
+/// Adds the stiffness of weight and load at a pose: the stiffness of dead forces, and half of the moment's, `½[m]×` in
+/// the rotation block, which makes the sum symmetric (theory, section 14).
 pub(crate) fn add_load_terms(total: &mut Mat6, robot: &Robot, pose: &Pose) {
     let Load { force_w, moment_w, point_p } = &robot.load;
     add_lever_term(total, &robot.force_at_mass_centre_w(), &(pose.rot_wp * robot.platform.center_of_mass_p));

@@ -1,17 +1,18 @@
-//! The far end of a cable: where it leaves what carries it, and how much of it lies beyond that point.
+//! Anchor end of a cable: the point at which the cable leaves its carrier, and the cable length beyond that point.
 //!
-//! The analyses ask an anchor three questions and never which kind it is: where the cable leaves it towards the platform
-//! ([`Anchor::exit_w`]), how much of a straight cable lies beyond that point ([`Anchor::length_beyond`]), and which point
-//! of the world the robot file names ([`Anchor::reference_w`]). The first two depend on where the cable ends on the
-//! platform: a pulley turns towards it and is wrapped by the cable. A fixed point answers with constants.
+//! The analyses ask an anchor three questions and never which kind it is: where the cable leaves it towards the
+//! platform ([`Anchor::exit_w`]), how much of a straight cable lies beyond that point ([`Anchor::length_beyond`]), and
+//! which point of the world the robot file names ([`Anchor::reference_w`]). The first two depend on the cable's end at
+//! the platform: a pulley turns towards it, and the cable wraps around the pulley. A fixed point answers with
+//! constants.
 //!
-//! The length of a straight cable, [`Cable::straight_length`](super::Cable::straight_length), changes with the attachment
-//! by the unit vector along the free span. That holds for every anchor from which the cable leaves tangentially, so
-//! lever arms and unit wrenches follow from the chord alone.
+//! The length of a straight cable, [`Cable::straight_length`](super::Cable::straight_length), changes with the
+//! attachment by the unit vector along the free span. This holds for every anchor that the cable leaves tangentially,
+//! so lever arms and unit wrenches follow from the chord alone.
 
 use crate::math::Vec3;
 
-/// The far end of a cable. World axes, metres.
+/// Anchor end of a cable. World axes, metres.
 ///
 /// # Example
 /// ```
@@ -24,7 +25,7 @@ use crate::math::Vec3;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
-    /// A point that stays where it is, whatever the direction of the cable: an eye, or a pulley too small to matter.
+    /// Fixed point, whatever the direction of the cable: an eye, or a pulley of negligible size.
     Fixed {
         /// The point [m].
         point_w: Vec3,
@@ -40,7 +41,7 @@ impl Anchor {
         }
     }
 
-    /// Point at which the free span of the cable begins when the cable ends at `_attachment_w` on the platform [m].
+    /// Point at which the free span of the cable begins if the cable ends at `_attachment_w` on the platform [m].
     #[inline]
     pub fn exit_w(&self, _attachment_w: &Vec3) -> Vec3 {
         match self {
@@ -49,7 +50,7 @@ impl Anchor {
     }
 
     /// Length of a straight, unstrained cable between the exit point and the point from which unstrained lengths are
-    /// counted, when the cable ends at `_attachment_w` on the platform [m]. Zero at a fixed point.
+    /// counted, if the cable ends at `_attachment_w` on the platform [m]. Zero for a fixed point.
     #[inline]
     pub fn length_beyond(&self, _attachment_w: &Vec3) -> f64 {
         match self {

@@ -1,10 +1,11 @@
-//! A small change of a robot: which numbers change, and how fast.
+//! Direction of change of a robot: the rate of each of its numbers with respect to one parameter.
 
 use super::{Anchor, Robot, State};
 use crate::math::{Mat3, Vec3};
 
-/// Rates at which the numbers of a robot change with one parameter: a direction in the space of all robots with as many
-/// cables. Derivatives of results are taken along it. Units are those of the robot's fields over that of the parameter.
+/// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with the
+/// same number of cables. Derivatives of results are taken along this direction. The units are those of the robot's
+/// fields divided by the unit of the parameter.
 ///
 /// # Example
 /// ```
@@ -37,7 +38,7 @@ pub struct RobotChange {
     pub cables: Vec<CableChange>,
 }
 
-/// Rates at which the numbers of one cable change.
+/// Rates of change of the numbers of one cable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CableChange {
     /// Fixed point of the anchor, world axes.
@@ -55,7 +56,7 @@ pub struct CableChange {
 }
 
 impl RobotChange {
-    /// No change of a robot with this number of cables.
+    /// Zero change of a robot with this number of cables.
     pub fn none(cables: usize) -> Self {
         Self {
             gravity_w: Vec3::zeros(),
@@ -70,15 +71,15 @@ impl RobotChange {
         }
     }
 
-    /// Change with the mass of the platform; inertia tensor and centre of mass stay.
+    /// Unit change of the platform mass; inertia tensor and centre of mass stay.
     pub fn of_mass(robot: &Robot) -> Self {
         Self { mass: 1.0, ..Self::none(robot.cables.len()) }
     }
 }
 
 impl Robot {
-    /// This robot after `step` units of the parameter that makes the change. Unstrained lengths change where the robot's
-    /// state has them. Unchecked: a mass can become negative.
+    /// This robot after `step` units of the parameter. Unstrained lengths change if the robot's state gives them. The
+    /// result is not checked: a mass can become negative.
     #[must_use]
     pub fn changed(&self, change: &RobotChange, step: f64) -> Self {
         let mut robot = self.clone();
@@ -90,6 +91,7 @@ impl Robot {
         robot.load.force_w += change.force_w * step;
         robot.load.moment_w += change.moment_w * step;
         robot.load.point_p += change.point_p * step;
+
         for (cable, change) in robot.cables.iter_mut().zip(&change.cables) {
             let Anchor::Fixed { point_w } = &mut cable.anchor;
             *point_w += change.anchor_w * step;
@@ -98,6 +100,7 @@ impl Robot {
             cable.material.mass_per_length += change.mass_per_length * step;
             cable.load_per_length_w += change.load_per_length_w * step;
         }
+
         if let State::Lengths(lengths) = &mut robot.state {
             for (length, change) in lengths.iter_mut().zip(&change.cables) {
                 *length += change.unstrained_length * step;

@@ -1,10 +1,10 @@
-//! Which motions a platform has, and the coordinates that every analysis works in.
+//! Motions that a platform can make, and the coordinates in which every analysis works.
 
 use super::Pose;
 use crate::math::{Mat6, Vec3, Vec6};
 use thiserror::Error;
 
-/// Which motions the platform has.
+/// Motions that the platform can make.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum PlatformMotion {
     /// Three translations and three rotations.
@@ -12,7 +12,7 @@ pub enum PlatformMotion {
     Rigid,
     /// Translations only: all cables end in one point that carries the mass.
     PointMass,
-    /// Two translations in a plane and the rotation about its normal; a guide carries what acts across.
+    /// Two translations in a plane and the rotation about its normal; a guide carries the other forces and moments.
     Planar(Plane),
 }
 
@@ -25,10 +25,10 @@ pub struct Plane {
     offset: f64,
 }
 
-/// Why a planar platform cannot have a pose.
+/// Reason why a planar platform cannot have a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum OutOfPlane {
-    /// The origin beside the plane.
+    /// The origin is not in the plane.
     #[error(
         "the platform's origin is {distance} m off the plane in which it moves: give a position in the plane, or the \
          plane's `plane_offset_m` in [platform]"
@@ -37,24 +37,24 @@ pub enum OutOfPlane {
         /// Distance along the normal [m].
         distance: f64,
     },
-    /// Turned about another axis than the normal.
+    /// The platform is turned about another axis than the normal.
     #[error(
         "the platform is tilted out of its plane by {degrees}°: a planar platform turns about the normal of its plane \
          only (pitch in the xz plane, yaw in xy, roll in yz)"
     )]
     Tilted {
-        /// Angle between the normal and where the platform has turned it [degrees].
+        /// Angle between the normal before and after the platform's rotation [degrees].
         degrees: f64,
     },
 }
 
-/// Part of its distance from the origin, or angle [rad], up to which a pose is in the plane: far above the rounding of
-/// angles in degrees, far below what anyone means.
+/// Largest distance from the plane, relative to the distance from the origin, and largest angle [rad] at which a pose
+/// counts as in the plane: far above the rounding of angles in degrees, far below any intended deviation.
 const IN_PLANE: f64 = 1e-9;
 
 impl Plane {
-    /// The plane with this normal (of any length), at a distance [m] from the world's origin along it. `None` for a normal
-    /// without direction.
+    /// Plane with this normal (of any length), at a distance [m] from the world's origin along it. `None` if the normal
+    /// has no direction.
     pub fn new(normal_w: Vec3, offset: f64) -> Option<Self> {
         let length = normal_w.norm();
         (length > 0.0 && length.is_finite() && offset.is_finite()).then(|| Self { normal_w: normal_w / length, offset })
@@ -70,12 +70,12 @@ impl Plane {
         self.offset
     }
 
-    /// How far a point is off the plane [m].
+    /// Signed distance of a point from the plane, positive along the normal [m].
     pub fn distance(&self, point_w: &Vec3) -> f64 {
         self.normal_w.dot(point_w) - self.offset
     }
 
-    /// Two orthonormal directions in the plane: coordinate axes where the plane has them.
+    /// Two orthonormal directions in the plane: coordinate axes if the plane contains them.
     fn axes(&self) -> [Vec3; 2] {
         let n = &self.normal_w;
         let least = (0..3).fold(0, |least, i| if n[i].abs() < n[least].abs() { i } else { least });
@@ -95,12 +95,12 @@ impl PlatformMotion {
         }
     }
 
-    /// The platform can turn.
+    /// True if the platform can rotate.
     pub fn can_turn(&self) -> bool {
         *self != Self::PointMass
     }
 
-    /// Name in the robot file; of a plane that is none of the coordinates', `planar`.
+    /// Name in the robot file; `planar` if the plane is not a coordinate plane.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
@@ -113,8 +113,8 @@ impl PlatformMotion {
         }
     }
 
-    /// The unit motion (δp, δθ) of every coordinate, as columns; zero beyond [`Self::count`]. Orthonormal, and none
-    /// mixes translation and rotation, so that it is the same in scaled quantities.
+    /// Unit motion (δp, δθ) of every coordinate, as columns; zero beyond [`Self::count`]. The columns are orthonormal,
+    /// and none mixes translation and rotation, so that the matrix also holds for scaled quantities.
     fn motions(&self) -> Mat6 {
         match self {
             Self::Rigid => Mat6::identity(),
@@ -131,7 +131,8 @@ impl PlatformMotion {
         }
     }
 
-    /// Names of the coordinates: those of the world's axes; in another plane u and v, its two directions, and turn.
+    /// Names of the coordinates: world axes where possible; in another plane its two directions `u` and `v`, and
+    /// `turn`.
     pub fn coordinate_names(&self) -> &'static [&'static str] {
         match (self, self.name()) {
             (Self::Rigid, _) => &["x", "y", "z", "rx", "ry", "rz"],
@@ -148,7 +149,7 @@ impl PlatformMotion {
         (0..6).filter(|&i| self.reduced(&Vec6::ith(i, 1.0)).norm() > IN_PLANE).collect()
     }
 
-    /// Coordinate `k` is a rotation.
+    /// True if coordinate `k` is a rotation.
     pub fn is_rotation(&self, k: usize) -> bool {
         match self {
             Self::Rigid | Self::PointMass => k >= 3,
@@ -156,8 +157,8 @@ impl PlatformMotion {
         }
     }
 
-    /// Components of a motion or of a wrench (both with one unit throughout) in the platform's coordinates; zero beyond
-    /// [`Self::count`]. What the platform cannot do is left out.
+    /// Components of a motion or of a wrench (either with one unit throughout) in the platform's coordinates; zero
+    /// beyond [`Self::count`]. Drops the components that the platform cannot follow.
     #[inline]
     pub fn reduced(&self, vector: &Vec6) -> Vec6 {
         match self {
@@ -167,7 +168,7 @@ impl PlatformMotion {
         }
     }
 
-    /// The motion or wrench of six components that has these coordinates.
+    /// Motion or wrench of six components that has these coordinates.
     #[inline]
     pub fn expanded(&self, coordinates: &Vec6) -> Vec6 {
         match self {
@@ -177,7 +178,7 @@ impl PlatformMotion {
         }
     }
 
-    /// A 6×6 matrix over motions in the platform's coordinates; zero beyond [`Self::count`].
+    /// 6×6 matrix over motions, in the platform's coordinates; zero beyond [`Self::count`].
     #[inline]
     pub fn reduced_matrix(&self, matrix: &Mat6) -> Mat6 {
         match self {
@@ -189,7 +190,7 @@ impl PlatformMotion {
         }
     }
 
-    /// The matrix over motions of six components of one over the platform's coordinates.
+    /// Matrix over motions of six components that has this matrix in the platform's coordinates.
     pub fn expanded_matrix(&self, matrix: &Mat6) -> Mat6 {
         match self {
             Self::Rigid => *matrix,
@@ -200,7 +201,7 @@ impl PlatformMotion {
         }
     }
 
-    /// Which part of a wrench or motion concerns the platform; the rest is the guide's.
+    /// Projection of a wrench or motion on the platform's degrees of freedom; the guide carries the remainder.
     #[inline]
     pub fn allowed(&self, vector: &Vec6) -> Vec6 {
         match self {
@@ -209,7 +210,7 @@ impl PlatformMotion {
         }
     }
 
-    /// Whether the platform can have a pose.
+    /// Checks that the platform can have a pose.
     ///
     /// # Errors
     /// [`OutOfPlane`] for a pose off the plane of a planar platform.

@@ -1,8 +1,8 @@
-//! Every number of a robot file as a parameter: where it stands, its unit, its range, its meaning, its value; and the robot
-//! that has other values there.
+//! Every number of a robot file as a parameter, with its place, unit, range, meaning and value; and robots with other
+//! values of these parameters.
 //!
-//! The keys, units and ranges are the table that the reader of robot files checks by. A robot with other values is read
-//! from the same parsed file with numbers in place of those of the text, so every check of the reader holds, and no number
+//! Keys, units and ranges come from the table by which the reader checks robot files. A robot with other values is read
+//! from the same parsed file with the numbers of the text replaced. So every check of the reader applies, and no number
 //! passes through text.
 
 use super::spec::{Component, Key, Numbers, Numeric, Shape, SpecError, TABLES, TOP, from_tree, parsed};
@@ -14,12 +14,12 @@ use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeTable, DeValue};
 
-/// Maximum magnitude of any number of a robot file: products of four of them stay far inside `f64`.
+/// Maximum magnitude of any number of a robot file: products of four such numbers stay far inside the range of `f64`.
 pub(super) const MAX_NUMBER: f64 = 1e12;
-/// Minimum of a quantity that has to be positive, so that quotients stay inside `f64`, too.
+/// Minimum of a quantity that has to be positive, so that quotients stay inside the range of `f64`, too.
 pub(super) const MIN_NUMBER: f64 = 1e-12;
 
-/// Numbers that a parameter may be.
+/// Range of the values that a parameter may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {
     /// Any number, up to 1e12 in magnitude.
@@ -30,12 +30,12 @@ pub enum Range {
     Positive,
     /// Zero, or from 1e-12 to below a limit.
     Below(f64),
-    /// Components of a vector whose magnitude is at most this.
+    /// Component of a vector whose magnitude is at most this.
     Magnitude(f64),
 }
 
 impl Range {
-    /// Minimum; of a component of a vector whose magnitude is limited that of the component alone.
+    /// Minimum. For a component of a vector with limited magnitude: the minimum if the other components are zero.
     pub fn minimum(self) -> f64 {
         match self {
             Self::Any => -MAX_NUMBER,
@@ -45,7 +45,7 @@ impl Range {
         }
     }
 
-    /// Maximum, or the limit below which a number has to be.
+    /// Maximum, or the limit that a number has to stay below.
     pub fn maximum(self) -> f64 {
         match self {
             Self::Any | Self::NotNegative | Self::Positive => MAX_NUMBER,
@@ -53,12 +53,12 @@ impl Range {
         }
     }
 
-    /// Zero is the minimum.
+    /// True if zero is the minimum.
     pub(super) fn is_not_negative(self) -> bool {
         matches!(self, Self::NotNegative | Self::Below(_))
     }
 
-    /// Negative numbers are outside, and so are positive ones below 1e-12.
+    /// True if negative numbers, and positive numbers below 1e-12, are out of range.
     pub(super) fn is_one_sided(self) -> bool {
         self == Self::Positive || self.is_not_negative()
     }
@@ -78,14 +78,14 @@ impl fmt::Display for Range {
 
 /// Part of the robot that a parameter belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// The robot as a whole: gravity.
+pub enum RobotPart {
+    /// The robot itself: gravity.
     Robot,
     /// The platform.
     Platform,
     /// A rope; its name is the second key of the path.
     Material,
-    /// The cable at this place of the file, from 0.
+    /// The cable at this index in file order, from 0.
     Cable(usize),
     /// The load on the platform.
     Load,
@@ -100,28 +100,30 @@ pub enum Part {
 pub struct Parameter {
     /// Keys from the top of the file to the number, the name of the component last: `cables`, `3`, `anchor_m`, `z`.
     pub keys: Vec<String>,
-    /// Part of the robot.
-    pub part: Part,
-    /// Key in the table of that part.
+    /// Part of the robot that the parameter belongs to.
+    pub part: RobotPart,
+    /// Key in the table of this part.
     pub key: &'static str,
     /// Component of a vector or tensor: `x`, `y`, `z`; `roll`, `pitch`, `yaw`; `xx`, `yy`, `zz`, `xy`, `xz`, `yz`.
     pub component: Option<&'static str>,
     /// Value, in the unit of the file.
     pub value: f64,
-    /// Unit, SI but for degrees; `1` for a ratio.
+    /// Unit, SI apart from degrees; `1` for a ratio.
     pub unit: &'static str,
-    /// Numbers that it may be. Others may be refused beside the robot's other values, as a minimum above a maximum.
+    /// Range of the value. A value within it may still be refused together with the robot's other values, as a minimum
+    /// above a maximum.
     pub range: Range,
     /// Meaning.
     pub about: &'static str,
-    /// Whether the file gives it; else the value is the default.
+    /// True if the file gives the value; otherwise the value is the default.
     pub given: bool,
-    /// First byte of the number in the text, once per place where it stands.
+    /// First byte of the number in the text, for each place where it stands.
     places: Vec<usize>,
 }
 
 impl Parameter {
-    /// Path as changes of a robot file take it: keys with dots between them, in quotes where they hold more than letters, digits, _ and -.
+    /// Path by which a command changes the parameter: keys separated by dots, quoted if they contain other characters
+    /// than letters, digits, _ and -.
     pub fn path(&self) -> String {
         let bare =
             |key: &str| !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
@@ -134,34 +136,34 @@ impl Parameter {
     }
 }
 
-/// Why a robot cannot have other values.
+/// Reason why a robot cannot have other values.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ParameterError {
-    /// A place beyond the list of parameters.
+    /// Index beyond the end of the list of parameters.
     #[error("there is no parameter number {index}, the robot has {count}")]
     Unknown {
-        /// Place that was asked for.
+        /// Requested index.
         index: usize,
         /// Number of parameters.
         count: usize,
     },
-    /// The value is a default, the file has no place for another.
+    /// The value is a default: the file has no place for another one.
     #[error("the robot file does not give {path}: write it there first")]
     NotGiven {
         /// Path of the parameter.
         path: String,
     },
-    /// The reader refuses the robot that results.
+    /// The reader refuses the resulting robot.
     #[error("with {}: {}", changes.join(" and "), first_message(reason))]
     Refused {
         /// Each change, as `path=value`.
         changes: Vec<String>,
-        /// Issues. They point into the text that was read, at the values that were replaced.
+        /// Issues found by the reader. They point into the original text, at the values that were replaced.
         reason: SpecError,
     },
 }
 
-/// First issue without its line, since the text there holds another value.
+/// First issue without its line, because the text there holds another value.
 fn first_message(reason: &SpecError) -> String {
     reason.issues().first().map_or_else(String::new, |issue| match &issue.help {
         Some(help) => format!("{}; {help}", issue.message),
@@ -169,7 +171,7 @@ fn first_message(reason: &SpecError) -> String {
     })
 }
 
-/// Numbers of a robot file, and robots that differ in them.
+/// Numbers of a robot file, and robots with other values of these numbers.
 ///
 /// # Example
 /// ```
@@ -188,9 +190,9 @@ fn first_message(reason: &SpecError) -> String {
 #[derive(Debug, Clone)]
 pub struct Parameters {
     text: String,
-    /// Values of the file by key, with their places in the text; its numbers are placeholders.
+    /// Values of the file by key, with their places in the text. The numbers in this tree are placeholders.
     root: DeTable<'static>,
-    /// First byte of every number in the text, ascending, and the number.
+    /// First byte of every number in the text, in ascending order, with the number.
     numbers: Vec<(usize, f64)>,
     robot: Robot,
     list: Vec<Parameter>,
@@ -203,7 +205,7 @@ impl Parameters {
     /// [`SpecError`], as [`Robot::from_toml`].
     pub fn from_toml(text: &str) -> Result<Self, SpecError> {
         let robot = Robot::from_toml(text)?;
-        // It was parsed a moment ago.
+        // `Robot::from_toml` has just parsed the same text.
         let borrowed = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
         let list = list_of(&borrowed, &robot);
 
@@ -213,26 +215,25 @@ impl Parameters {
         Ok(Self { text: text.to_owned(), root, numbers, robot, list })
     }
 
-    /// The robot as the file has it.
+    /// Robot with the values of the file.
     pub fn robot(&self) -> &Robot {
         &self.robot
     }
 
-    /// All numbers: those of the robot as a whole, its platform, its ropes by name, its cables in file order, load, wind,
-    /// pose.
+    /// All numbers, in this order: gravity, platform, ropes by name, cables in file order, load, wind, pose.
     pub fn list(&self) -> &[Parameter] {
         &self.list
     }
 
-    /// Place in the list of the parameter with these keys.
+    /// Index in the list of the parameter with these keys.
     pub fn find<K: AsRef<str>>(&self, keys: &[K]) -> Option<usize> {
         self.list.iter().position(|parameter| {
             parameter.keys.len() == keys.len() && parameter.keys.iter().zip(keys).all(|(own, key)| own == key.as_ref())
         })
     }
 
-    /// The robot with other values: pairs of the place in [`Self::list`] and the number, in the unit of the file. It is
-    /// the one that [`Robot::from_toml`] reads from the text with these numbers written in it.
+    /// Robot with other values, given as pairs of the index in [`Self::list`] and the number in the unit of the file.
+    /// The result is the robot that [`Robot::from_toml`] would read from the text with these numbers written in it.
     ///
     /// # Errors
     /// [`ParameterError`].
@@ -261,9 +262,9 @@ impl Parameters {
 }
 
 impl Parameters {
-    /// Change of the robot per unit of a parameter, in the unit of the file: what derivatives of results by the parameter
-    /// are taken along. A value of a rope changes all its cables. `None` for numbers that derivatives do not know: those
-    /// of the pose, the wind, the plane, damping and limits.
+    /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
+    /// with respect to the parameter. A value of a rope changes all its cables. `None` for numbers without derivatives:
+    /// pose, wind, plane, damping and limits.
     ///
     /// # Example
     /// ```
@@ -278,19 +279,21 @@ impl Parameters {
         let parameter = self.list.get(index)?;
         let robot = &self.robot;
         let mut change = RobotChange::none(robot.cables.len());
+
         let unit = || -> Option<Vec3> {
             let axis = ["x", "y", "z"].iter().position(|name| Some(*name) == parameter.component)?;
             let mut unit = Vec3::zeros();
             unit[axis] = 1.0;
             Some(unit)
         };
+
         match (parameter.part, parameter.key) {
-            (Part::Robot, "gravity_m_s2") => change.gravity_w = unit()?,
-            (Part::Platform, "mass_kg") => change.mass = 1.0,
-            (Part::Platform, "center_of_mass_m") => change.center_of_mass_p = unit()?,
-            (Part::Platform, "drag_area_m2") => change.drag_area = 1.0,
-            (Part::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.motion) {
-                // One number is the moment about the normal.
+            (RobotPart::Robot, "gravity_m_s2") => change.gravity_w = unit()?,
+            (RobotPart::Platform, "mass_kg") => change.mass = 1.0,
+            (RobotPart::Platform, "center_of_mass_m") => change.center_of_mass_p = unit()?,
+            (RobotPart::Platform, "drag_area_m2") => change.drag_area = 1.0,
+            (RobotPart::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.motion) {
+                // A single number is the moment about the normal.
                 (None, PlatformMotion::Planar(plane)) => {
                     change.inertia_p = plane.normal_w() * plane.normal_w().transpose();
                 }
@@ -301,10 +304,10 @@ impl Parameters {
                     change.inertia_p[(j, i)] = 1.0;
                 }
             },
-            (Part::Load, "force_n") => change.force_w = unit()?,
-            (Part::Load, "moment_n_m") => change.moment_w = unit()?,
-            (Part::Load, "point_m") => change.point_p = unit()?,
-            (Part::Cable(i), key) => {
+            (RobotPart::Load, "force_n") => change.force_w = unit()?,
+            (RobotPart::Load, "moment_n_m") => change.moment_w = unit()?,
+            (RobotPart::Load, "point_m") => change.point_p = unit()?,
+            (RobotPart::Cable(i), key) => {
                 let cable = change.cables.get_mut(i)?;
                 match key {
                     "anchor_m" => cable.anchor_w = unit()?,
@@ -314,13 +317,14 @@ impl Parameters {
                     _ => return None,
                 }
             }
-            (Part::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
+            (RobotPart::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
             _ => return None,
         }
+
         Some(change)
     }
 
-    /// Change of all cables of a rope.
+    /// Change of all cables made of a rope.
     fn material_change(
         &self,
         parameter: &Parameter,
@@ -330,6 +334,7 @@ impl Parameters {
     ) -> Option<()> {
         let name = parameter.keys.get(1)?;
         let in_wind = self.robot.wind.velocity_w != Vec3::zeros();
+
         for (i, (cable, change)) in self.robot.cables.iter().zip(&mut change.cables).enumerate() {
             let material = &cable.material;
             if material.name != *name {
@@ -339,12 +344,12 @@ impl Parameters {
             match key {
                 "axial_stiffness_n" => change.axial_stiffness = 1.0,
                 "youngs_modulus_pa" | "area_m2" => change.axial_stiffness = relative,
-                // The wind meets the diameter, too.
+                // The drag depends on the diameter, too.
                 "diameter_m" if in_wind && material.drag_width.is_some() => return None,
                 "diameter_m" => change.axial_stiffness = 2.0 * relative,
                 "mass_kg_per_m" => change.mass_per_length = 1.0,
                 "load_n_per_m" => {
-                    let own = |other: &Parameter| other.part == Part::Cable(i) && other.key == "load_n_per_m";
+                    let own = |other: &Parameter| other.part == RobotPart::Cable(i) && other.key == "load_n_per_m";
                     if !self.list.iter().any(own) {
                         change.load_per_length_w = unit?;
                     }
@@ -356,7 +361,7 @@ impl Parameters {
     }
 }
 
-/// Component that the last key of a path names, and the default of the whole where the file has none; `None` for a path
+/// Component that the last key of a path names, and the default of the array if the file has none; `None` for a path
 /// that ends at a key of the file.
 ///
 /// # Example
@@ -392,19 +397,20 @@ pub fn component<K: AsRef<str>>(path: &[K]) -> Option<ComponentOfKey> {
 pub struct ComponentOfKey {
     /// Element of the vector, or row of the tensor.
     pub row: usize,
-    /// Column of a tensor; its mirror has the same value.
+    /// Column of the tensor; the mirrored entry has the same value.
     pub column: Option<usize>,
-    /// Vector where the file has none.
+    /// Default vector, used if the file gives none.
     pub default: Option<[f64; 3]>,
 }
 
-/// A value without borrowed text, its numbers in a list beside it (first byte, number) and placeholders in their place.
+/// Copy of a value without borrowed text. Its numbers go to the list `numbers` (first byte, number), and placeholders
+/// take their places.
 fn owned(value: &Spanned<DeValue<'_>>, numbers: &mut Vec<(usize, f64)>) -> Spanned<DeValue<'static>> {
     let place = value.span();
     let inner = match value.get_ref() {
         DeValue::String(text) => DeValue::String(Cow::Owned(text.to_string())),
         DeValue::Integer(_) | DeValue::Float(_) => {
-            // Only digits beyond `i128` are none; they were refused.
+            // Only digits beyond `i128` cannot be parsed; the reader has refused them.
             numbers.push((place.start, parsed(value.get_ref()).unwrap_or(f64::INFINITY)));
             DeValue::Float(DeFloat::default())
         }
@@ -420,7 +426,7 @@ fn owned(value: &Spanned<DeValue<'_>>, numbers: &mut Vec<(usize, f64)>) -> Spann
     Spanned::new(place, inner)
 }
 
-/// A table without borrowed text, as [`owned`].
+/// Copy of a table without borrowed text, see [`owned`].
 fn owned_table(table: &DeTable<'_>, numbers: &mut Vec<(usize, f64)>) -> DeTable<'static> {
     let mut copy = DeTable::new();
     for (key, value) in table {
@@ -430,10 +436,10 @@ fn owned_table(table: &DeTable<'_>, numbers: &mut Vec<(usize, f64)>) -> DeTable<
     copy
 }
 
-/// All numbers of a file whose robot was read.
+/// All numbers of a file that has been read without issues.
 fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     let mut list = Vec::new();
-    let mut table = |part: Part, header: &str, path: &[&str], table: &DeTable| {
+    let mut table = |part: RobotPart, header: &str, path: &[&str], table: &DeTable| {
         let keys = TABLES.iter().find(|(name, _)| *name == header).map_or(&[][..], |(_, keys)| keys);
         for key in keys {
             let Some(numbers) = &key.number else { continue };
@@ -459,25 +465,25 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
         }
     };
 
-    table(Part::Robot, TOP, &[], root);
+    table(RobotPart::Robot, TOP, &[], root);
     if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
-        table(Part::Platform, "[platform]", &["platform"], platform);
+        table(RobotPart::Platform, "[platform]", &["platform"], platform);
     }
     if let Some(DeValue::Table(materials)) = root.get("materials").map(Spanned::get_ref) {
         for (name, material) in materials {
             if let DeValue::Table(material) = material.get_ref() {
-                table(Part::Material, "[materials.NAME]", &["materials", name.get_ref()], material);
+                table(RobotPart::Material, "[materials.NAME]", &["materials", name.get_ref()], material);
             }
         }
     }
     if let Some(DeValue::Array(cables)) = root.get("cables").map(Spanned::get_ref) {
         for (i, (entry, cable)) in cables.iter().zip(&robot.cables).enumerate() {
             if let DeValue::Table(entry) = entry.get_ref() {
-                table(Part::Cable(i), "[[cables]]", &["cables", &cable.name], entry);
+                table(RobotPart::Cable(i), "[[cables]]", &["cables", &cable.name], entry);
             }
         }
     }
-    for (part, name) in [(Part::Load, "loads"), (Part::Wind, "wind"), (Part::State, "state")] {
+    for (part, name) in [(RobotPart::Load, "loads"), (RobotPart::Wind, "wind"), (RobotPart::State, "state")] {
         if let Some(DeValue::Table(entry)) = root.get(name).map(Spanned::get_ref) {
             table(part, &format!("[{name}]"), &[name], entry);
         }
@@ -485,25 +491,27 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     list
 }
 
-/// A number of a key: name of its component, value, first byte at each place where it stands.
-type Found = (Option<&'static str>, f64, Vec<usize>);
+/// One number of a key: name of its component, value, first byte at each place where it stands.
+type KeyNumber = (Option<&'static str>, f64, Vec<usize>);
 
-/// The numbers that the file has at a key.
-fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> Vec<Found> {
+/// Numbers that the file gives for a key.
+fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> Vec<KeyNumber> {
     if let Some(number) = parsed(value) {
         return vec![(None, number, vec![span.start])];
     }
+
     let DeValue::Array(rows) = value else { return Vec::new() };
     let element = |row: usize, column: Option<usize>| {
         let value = rows.get(row)?;
         let value = match (value.get_ref(), column) {
             (DeValue::Array(columns), Some(column)) => columns.get(column)?,
-            // Three principal moments: nothing off the diagonal.
+            // Three principal moments have no off-diagonal entries.
             (_, Some(column)) if column != row => return None,
             _ => value,
         };
         Some((parsed(value.get_ref())?, value.span().start))
     };
+
     let components = shape.components().iter();
     components
         .filter_map(|(name, component)| match *component {
@@ -517,8 +525,8 @@ fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> V
         .collect()
 }
 
-/// The numbers of a key that the file leaves out, where they mean something on this robot.
-fn defaults(key: &Key, numbers: &Numeric, table: &DeTable, robot: &Robot) -> Vec<Found> {
+/// Default numbers of a key that the file leaves out, if they have a meaning for this robot.
+fn defaults(key: &Key, numbers: &Numeric, table: &DeTable, robot: &Robot) -> Vec<KeyNumber> {
     let motion = &robot.platform.motion;
     let means_something = match key.name {
         "plane_offset_m" => matches!(motion, PlatformMotion::Planar(_)),

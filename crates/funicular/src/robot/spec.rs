@@ -1,53 +1,53 @@
 //! The robot file: TOML text in, a validated [`Robot`] out, or errors that point into the text.
 //!
-//! The file is read as a tree of values that know their place ([`toml::de::DeTable`]), not through derived types: so one
-//! reading reports every error, each at the value it is about, and an unknown key is compared with the known ones.
+//! The file is read as a tree of values with their places ([`toml::de::DeTable`]), not through derived types. So one
+//! reading reports every error at the value that caused it, and an unknown key is compared with the known ones.
 //!
 //! # Keys
 //!
 //! | Key | Meaning | Default |
 //! |---|---|---|
-//! | `name` | what the robot is called | required |
-//! | `source` | where its numbers come from | `""` |
+//! | `name` | name of the robot | required |
+//! | `source` | source of the numbers | `""` |
 //! | `gravity_m_s2` | acceleration of gravity, world axes | `[0, 0, -9.81]` |
 //! | **`[platform]`** | | required |
 //! | `mass_kg` | mass, positive | required |
 //! | `motion` | `"rigid"`, `"point-mass"` (translations only), `"planar-xy"`, `"planar-xz"`, `"planar-yz"` (two translations and the rotation about the third axis), or `"planar"` with a normal | `"rigid"` |
 //! | `plane_normal` | normal of the plane in which the platform's origin moves, world axes, any length | required if `"planar"`, else refused |
 //! | `plane_offset_m` | distance of that plane from the world's origin along the normal (z, y or x, or `plane_normal`) | 0 |
-//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; if planar also one number, the moment about the normal, the only one that counts | required, refused of a point mass |
+//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; for a planar platform also one number, the moment about the normal, which is all that counts there | required, refused for a point mass |
 //! | `center_of_mass_m` | in the platform frame | `[0, 0, 0]` |
-//! | `drag_area_m2` | drag coefficient times area; the wind pushes at the centre of mass | 0 |
+//! | `drag_area_m2` | drag coefficient times area; the wind acts at the centre of mass | 0 |
 //! | **`[materials.NAME]`** | | one or more |
 //! | `youngs_modulus_pa` with `diameter_m` or `area_m2` | axial stiffness as `E A` | one of the two ways |
 //! | `axial_stiffness_n` | axial stiffness EA itself | one of the two ways |
 //! | `mass_kg_per_m` | mass per unstrained length; 0 is massless | required |
 //! | `damping_ratio` or `viscous_damping_n_s_m2` | ξ in \[0, 0.5), or c ≥ 0 | `damping_ratio = 0` |
-//! | `minimum_tension_n`, `maximum_tension_n` | limits of the tension in these cables, both ends and between | none |
-//! | `breaking_load_n` | tension at which the rope breaks; the maximum where none is given | none |
-//! | `drag_coefficient` | for wind across the rope; needs `diameter_m`, or `drag_diameter_m` where ice or a sheath makes the rope thicker | no drag |
+//! | `minimum_tension_n`, `maximum_tension_n` | limits of the tension anywhere in these cables | none |
+//! | `breaking_load_n` | tension at which the rope breaks; the maximum tension if no other is given | none |
+//! | `drag_coefficient` | for wind across the rope; needs `diameter_m`, or `drag_diameter_m` if ice or a sheath makes the rope thicker | no drag |
 //! | `load_n_per_m` | dead load per unstrained length besides the weight, world axes | `[0, 0, 0]` |
 //! | **`[[cables]]`** | | one or more |
 //! | `name` | unique | required |
 //! | `material` | a NAME of `[materials.NAME]` | required |
 //! | `anchor_m` | exit point in the world frame | required |
-//! | `attachment_m` | point in the platform frame | required, zero of a point mass |
+//! | `attachment_m` | point in the platform frame | required, zero for a point mass |
 //! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
-//! | `load_n_per_m` | as of a material | that of its material |
-//! | `unstrained_length_m` | positive; all cables have one, or none | none |
+//! | `load_n_per_m` | as for a material | that of its material |
+//! | `unstrained_length_m` | positive; given for all cables or for none | none |
 //! | **`[loads]`** | on the platform, besides its weight; fixed in the world | none |
 //! | `force_n` | force, world axes | `[0, 0, 0]` |
-//! | `point_m` | where it acts, platform frame | `[0, 0, 0]` |
-//! | `moment_n_m` | moment, world axes; refused of a point mass, as `point_m` | `[0, 0, 0]` |
+//! | `point_m` | point at which the force acts, platform frame | `[0, 0, 0]` |
+//! | `moment_n_m` | moment, world axes; refused for a point mass, like `point_m` | `[0, 0, 0]` |
 //! | **`[wind]`** | steady and uniform, on ropes with a `drag_coefficient` and on the platform | still air |
 //! | `velocity_m_s` | velocity of the air, world axes | required |
 //! | `air_density_kg_m3` | positive | 1.225 |
-//! | **`[state]`** | a pose; not together with lengths | none |
+//! | **`[state]`** | a pose; not allowed together with lengths | none |
 //! | `position_m` | platform origin in the world frame | required |
 //! | `roll_pitch_yaw_deg` | R = Rz(yaw) Ry(pitch) Rx(roll) | `[0, 0, 0]` |
 //!
 //! Every number is finite and at most 1e12 in magnitude; a quantity that has to be positive is at least 1e-12. No robot
-//! comes near these limits, and within them no product of the analyses overflows.
+//! comes near these limits, and within them no product in the analyses overflows.
 
 mod cables;
 mod issue;
@@ -65,7 +65,7 @@ pub(super) use read::{Component, Key, Numbers, Numeric, Shape, TOP, parsed};
 use read::{Reader, Section, is_zero};
 use toml::de::DeTable;
 
-/// Gravity where the file gives none [m/s²]: the rounded standard value that the publications compared with use.
+/// Default gravity [m/s²]: the rounded standard value, used by the publications that the results are compared with.
 const DEFAULT_GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
 /// Keys at the top of the file.
@@ -136,7 +136,7 @@ const STATE: &[Key] = &[
     .or([0.0; 3]),
 ];
 
-/// Every table of the file, to tell a key that sits in the wrong one.
+/// Every table of the file, to recognise a key in the wrong table.
 pub(super) const TABLES: &[(&str, &[Key])] = &[
     (TOP, ROOT),
     ("[platform]", platform::KEYS),
@@ -189,10 +189,10 @@ impl Robot {
             Ok(root) => from_tree(text, root.get_ref(), Numbers::default()),
             Err(error) => {
                 let mut reader = Reader::new(text);
-                // Only the first: after a syntax error the parser guesses, and what it reports next misleads.
+                // Only the first error: after a syntax error the parser guesses, and its further errors mislead.
                 let message = format!("the file is not valid TOML: {}", error.message());
                 let issue = reader.issue(error.span().unwrap_or(0..0), message);
-                // The parser says this of everything that is no value, `10 kg` and `4 * 1e-3` among them.
+                // The parser gives this message for every invalid value, `10 kg` and `4 * 1e-3` among them.
                 if error.message().contains("must be quoted") {
                     issue.help("a value is one number without its unit, text in quotes, or an array in brackets");
                 }
@@ -202,10 +202,11 @@ impl Robot {
     }
 }
 
-/// The robot of a text that was parsed, with numbers beside its tree.
+/// Robot of a parsed text, with numbers beside its tree.
 ///
 /// # Errors
-/// [`SpecError`], as [`Robot::from_toml`]; it points into the text, its messages hold the numbers in place of its own.
+/// [`SpecError`], as [`Robot::from_toml`]. It points into the text; its messages show the numbers that replace
+/// those of the text.
 pub(super) fn from_tree(text: &str, root: &DeTable, numbers: Numbers) -> Result<Robot, SpecError> {
     let mut reader = Reader::with(text, numbers);
     if root.is_empty() {
@@ -220,9 +221,10 @@ pub(super) fn from_tree(text: &str, root: &DeTable, numbers: Numbers) -> Result<
     }
 }
 
-/// The whole file. `None`, and at every early end, means that an issue has been reported.
+/// Reads the complete file. `None`, here and at every early end, means that an issue has been reported.
 fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let root = reader.open(TOP, 0..0, table, ROOT);
+
     let name = reader.required(&root, "name").and_then(|value| reader.name("name", value));
     let source = match root.get("source") {
         Some(value) => reader.prose("source", value),
@@ -232,6 +234,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         Some(value) => reader.vector(&root, "gravity_m_s2", value),
         None => Some(DEFAULT_GRAVITY),
     };
+
     let motion = platform::motion(reader, &root);
     let platform = platform::read(reader, &root, motion);
     let load = read_load(reader, &root, motion);
@@ -239,6 +242,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let materials = materials::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), motion);
     let state = read_state(reader, &root, cables.as_deref(), motion);
+
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
     Some(Robot {
         name: name?,
@@ -252,11 +256,12 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     })
 }
 
-/// `[loads]`: force, moment and point.
+/// Reads `[loads]`: force, moment and point.
 fn read_load(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>) -> Option<Load> {
     let Some(value) = root.get("loads") else { return Some(Load::default()) };
     let table = reader.table("loads", "[loads]", value)?;
     let section = reader.open("[loads]", value.span(), table, LOADS);
+
     let mut vector = |key: &str| match section.get(key) {
         Some(value) => {
             let vector = reader.vector(&section, key, value)?;
@@ -273,15 +278,17 @@ fn read_load(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>
         }
         None => Some(Vec3::zeros()),
     };
+
     let (force, moment, point) = (vector("force_n"), vector("moment_n_m"), vector("point_m"));
     Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
 }
 
-/// `[wind]`: velocity and density.
+/// Reads `[wind]`: velocity and density.
 fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     let Some(value) = root.get("wind") else { return Some(Wind::default()) };
     let table = reader.table("wind", "[wind]", value)?;
     let section = reader.open("[wind]", value.span(), table, WIND);
+
     let velocity = reader.required(&section, "velocity_m_s").and_then(|v| reader.vector(&section, "velocity_m_s", v));
     if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
         let speed = Vec3::from(velocity).norm();
@@ -295,6 +302,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
             return None;
         }
     }
+
     let air_density = match section.get("air_density_kg_m3") {
         Some(value) => reader.number_of(&section, "air_density_kg_m3", value),
         None => Some(Wind::AIR_DENSITY),
@@ -302,7 +310,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     Some(Wind { velocity_w: Vec3::from(velocity?), air_density: air_density? })
 }
 
-/// `[state]` or the cables' lengths, and what can be checked of them against the geometry.
+/// Reads `[state]` or the cables' lengths, and checks them against the geometry.
 fn read_state(
     reader: &mut Reader,
     root: &Section,
@@ -310,6 +318,7 @@ fn read_state(
     motion: Option<PlatformMotion>,
 ) -> Option<State> {
     let lengths = cables.map(|cables| cables::lengths(reader, cables));
+
     let Some(value) = root.get("state") else {
         let lengths = lengths??;
         if !lengths.is_empty() {
@@ -317,6 +326,7 @@ fn read_state(
         }
         return Some(if lengths.is_empty() { State::Unknown } else { State::Lengths(lengths) });
     };
+
     let table = reader.table("state", "[state]", value)?;
     let section = reader.open("[state]", value.span(), table, STATE);
     let position = reader.required(&section, "position_m").and_then(|v| reader.vector(&section, "position_m", v));
@@ -332,6 +342,7 @@ fn read_state(
         }
         None => Some([0.0; 3]),
     };
+
     if let Some(with_length) = cables.into_iter().flatten().find_map(|c| c.length_span.clone()) {
         reader
             .issue(value.span(), "the file gives both a pose and unstrained lengths, each fixes the other")
@@ -339,6 +350,7 @@ fn read_state(
             .help("remove [state], or remove every `unstrained_length_m`");
         return None;
     }
+
     let pose = Pose::new(position?, angles?);
     if let Some(Err(out)) = motion.map(|motion| motion.check(&pose)) {
         reader.issue(value.span(), format!("this pose is not in the plane: {out}"));
@@ -354,7 +366,7 @@ mod tests {
     use crate::robot::Damping;
     use proptest::prelude::*;
 
-    /// A file that uses every kind of value.
+    /// File that uses every kind of value.
     const VALID: &str = r#"name = "two ropes"
 source = "made up"
 gravity_m_s2 = [0, 0, -9.81]
@@ -480,7 +492,7 @@ roll_pitch_yaw_deg = [0.0, 0.0, 90.0]
         }
     }
 
-    /// What users and bad luck put into files.
+    /// Fragments that damage a file.
     fn mutation() -> impl Strategy<Value = String> {
         prop_oneof![
             Just(String::new()),
@@ -524,7 +536,7 @@ roll_pitch_yaw_deg = [0.0, 0.0, 90.0]
             Err(error) => {
                 assert!(!error.issues().is_empty());
                 assert!(error.render("robot.toml", text, false).contains("error"));
-                // With a text it does not belong to, the place is wrong, but there is one.
+                // With the wrong text the place is wrong, but rendering still works.
                 assert!(error.render("robot.toml", "é", true).contains("robot.toml"));
             }
         }

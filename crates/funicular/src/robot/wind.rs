@@ -1,4 +1,4 @@
-//! Steady wind, and what acts on every metre of a cable: its weight, the wind, and what else the file puts on it.
+//! Steady wind, and the load per length of a cable: its weight, the wind, and further loads given by the file.
 
 use super::Robot;
 use crate::math::{Mat3, Vec3};
@@ -13,26 +13,26 @@ pub struct Wind {
 }
 
 impl Wind {
-    /// Density where the file gives none [kg/m³]: the ISO standard atmosphere (ISO 2533) at sea level.
+    /// Default air density [kg/m³]: the ISO standard atmosphere (ISO 2533) at sea level.
     pub const AIR_DENSITY: f64 = 1.225;
 
-    /// Highest speed taken [m/s]: a third of that of sound, up to which it hardly matters that air can be compressed.
+    /// Maximum wind speed [m/s]: a third of the speed of sound, up to which the compressibility of air hardly matters.
     pub const FASTEST: f64 = 110.0;
 
-    /// Force on a body per area and drag coefficient [N/m²], along the wind; `½ ρ |u| u`.
+    /// Force on a body per area and drag coefficient [N/m²], along the wind: `½ ρ |u| u`.
     pub fn pressure_w(&self) -> Vec3 {
         self.velocity_w * (0.5 * self.air_density * self.velocity_w.norm())
     }
 
-    /// Force on a straight cylinder per length, diameter and drag coefficient [N/m²]: that of the part of the wind which
-    /// is normal to its axis (a unit vector), the only one that counts (the cross-flow principle, theory (49)).
+    /// Force on a straight cylinder per length, diameter and drag coefficient [N/m²]. Only the wind component normal to
+    /// the axis (a unit vector) counts (the cross-flow principle, theory (49)).
     pub fn cross_pressure_w(&self, axis_w: &Vec3) -> Vec3 {
         let across = self.velocity_w - axis_w * axis_w.dot(&self.velocity_w);
         across * (0.5 * self.air_density * across.norm())
     }
 
-    /// Derivative of [`Self::cross_pressure_w`] by a chord of the direction `axis_w` (a unit vector) and the length `chord`
-    /// [m]; 3×3, world axes, not symmetric [N/m³]. Zero where the wind blows along the chord.
+    /// Derivative of [`Self::cross_pressure_w`] with respect to a chord of direction `axis_w` (a unit vector) and
+    /// length `chord` [m]; 3×3, world axes, not symmetric [N/m³]. Zero if the wind blows along the chord.
     ///
     /// # References
     /// docs/theory.md, equation (49a).
@@ -56,25 +56,25 @@ impl Default for Wind {
     }
 }
 
-/// What acts on every metre of an unstrained cable, uniform along it.
+/// Load per length of an unstrained cable, uniform along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineLoad {
-    /// Unit vector against it: what is up for this cable.
+    /// Unit vector against the load: the upward direction of this cable.
     pub up_w: Vec3,
-    /// Its size [N/m].
+    /// Magnitude [N/m].
     pub size: f64,
 }
 
 impl LineLoad {
-    /// As a vector, world axes [N/m].
+    /// Load as a vector, world axes [N/m].
     pub fn vector_w(&self) -> Vec3 {
         self.up_w * -self.size
     }
 }
 
 impl Robot {
-    /// The load on cable `i` per unstrained length when its chord, platform to anchor, is `chord_w` [m]: weight, the
-    /// file's own load, and the drag of the wind, which depends on the chord's direction.
+    /// Load on cable `i` per unstrained length if its chord, platform to anchor, is `chord_w` [m]: weight, the load
+    /// given by the file, and the drag of the wind, which depends on the chord's direction.
     ///
     /// # Example
     /// ```
@@ -95,7 +95,7 @@ impl Robot {
         }
         let mut total = self.gravity_w * mass + cable.load_per_length_w;
         if drag_width > 0.0 {
-            // Ends that coincide have no axis; who places a cable refuses them.
+            // Coinciding ends have no axis; the callers that place cables refuse them.
             let axis = chord_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
             total += self.wind.cross_pressure_w(&axis) * drag_width;
         }
@@ -103,8 +103,8 @@ impl Robot {
         if size > 0.0 { LineLoad { up_w: -total / size, size } } else { LineLoad { up_w: self.up_w(), size } }
     }
 
-    /// Derivative of [`Self::line_load`] of cable `i`, as a vector, by its chord: how the drag of the wind turns with the
-    /// cable; 3×3, world axes, not symmetric [N/m²]. `None` where the load does not depend on the chord.
+    /// Derivative of the [`Self::line_load`] vector of cable `i` with respect to its chord: the change of drag as the
+    /// cable turns in the wind; 3×3, world axes, not symmetric [N/m²]. `None` if the load does not depend on the chord.
     ///
     /// # References
     /// docs/theory.md, equation (49a).
@@ -117,13 +117,13 @@ impl Robot {
         Some(self.wind.cross_pressure_by_chord_w(&axis, chord_w.norm()) * drag_width)
     }
 
-    /// The load on some cable depends on the direction of its chord.
+    /// True if the load on some cable depends on the direction of its chord.
     pub(crate) fn wind_turns_with_cables(&self) -> bool {
         self.wind.velocity_w != Vec3::zeros()
             && self.cables.iter().any(|cable| cable.material.drag_width.is_some_and(|width| width > 0.0))
     }
 
-    /// The dead force in the platform's centre of mass, weight and wind, world axes [N].
+    /// Dead force at the platform's centre of mass, weight and wind, world axes [N].
     pub fn force_at_mass_centre_w(&self) -> Vec3 {
         self.gravity_w * self.platform.mass + self.wind.pressure_w() * self.platform.drag_area
     }

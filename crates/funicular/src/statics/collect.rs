@@ -1,4 +1,4 @@
-//! An equilibrium made of cables that hang at a pose.
+//! Equilibrium made of cables that hang at a pose.
 
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium, Stability};
@@ -31,6 +31,7 @@ pub(super) fn collect(
             hanging: Some(cable),
         })
         .collect();
+
     let residual = residual_of(robot, &pose, &cables);
     let mut equilibrium = Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid };
     if let Some(stiffness) = tangent_with_drag(robot, &equilibrium) {

@@ -1,9 +1,9 @@
-//! How an equilibrium follows a number of the robot: derivatives of pose, forces and lengths, by implicit
-//! differentiation of the balance after it was solved.
+//! Derivatives of an equilibrium (pose, forces and lengths) with respect to a number of the robot, by implicit
+//! differentiation of the solved balance.
 //!
-//! The wrench Φ on the platform depends on its pose x, the unstrained lengths L and a parameter p. At an equilibrium
-//! Φ = 0, so that with lengths held `𝒥 dx/dp = ∂Φ/∂p`, `𝒥 = −∂Φ/∂x`, and with the pose held `(∂Φ/∂L) dL/dp = −∂Φ/∂p`:
-//! one linear system, whatever the parameter.
+//! The wrench Φ on the platform depends on its pose x, the unstrained lengths L and a parameter p. At an equilibrium Φ
+//! = 0. So with lengths held `𝒥 dx/dp = ∂Φ/∂p`, `𝒥 = −∂Φ/∂x`, and with the pose held `(∂Φ/∂L) dL/dp = −∂Φ/∂p`: one
+//! linear system, whatever the parameter.
 
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
@@ -13,25 +13,26 @@ use crate::platform::{Coordinates, wrench_of};
 use crate::robot::{CableChange, Load, Robot, RobotChange};
 use thiserror::Error;
 
-/// Part of the largest singular value up to which the least one counts as zero: beyond it a derivative has no digits.
+/// Ratio to the largest singular value up to which the smallest one counts as zero: below it a derivative has no
+/// correct digits.
 const SINGULAR: f64 = 1e-12;
 
-/// Why an equilibrium has no derivative.
+/// Reason why an equilibrium has no derivative.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StaticDerivativeError {
     /// Ideal cables have no finite stiffness.
     #[error("ideal cables are rigid: derivatives of an equilibrium need elastic cables")]
     Ideal,
-    /// A slack cable without weight pulls or not, depending on the direction of the change.
+    /// A slack cable without weight pulls or stays slack, depending on the direction of the change.
     #[error("cable \"{cable}\" has no tension: at the edge of being slack an equilibrium has no derivative")]
     Slack {
         /// Name of the cable.
         cable: String,
     },
-    /// Some motion is not opposed, or no change of the lengths balances some wrench.
+    /// Some motion meets no resistance, or some wrench cannot be balanced by a change of the lengths.
     #[error("the equilibrium is indifferent: some small change of the robot moves it without limit")]
     Singular,
-    /// Held pose, and not as many cables as degrees of freedom.
+    /// Pose held, but the number of cables differs from the number of degrees of freedom.
     #[error(
         "{cables} cables hold {degrees_of_freedom} degrees of freedom: with the pose held the lengths follow from a \
          change of the robot only if both numbers are equal"
@@ -44,7 +45,7 @@ pub enum StaticDerivativeError {
     },
 }
 
-/// Derivative of an equilibrium by a parameter. Units are over that of the parameter.
+/// Derivative of an equilibrium with respect to a parameter. The units given are divided by the unit of the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EquilibriumDerivative {
     /// Motion of the platform origin, world axes [m].
@@ -55,7 +56,8 @@ pub struct EquilibriumDerivative {
     pub cables: Vec<CableDerivative>,
 }
 
-/// Derivative of the state of one cable by a parameter. Units are over that of the parameter.
+/// Derivative of one cable's state with respect to a parameter. The units given are divided by the unit of the
+/// parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CableDerivative {
     /// Force on the platform, world axes [N].
@@ -72,8 +74,8 @@ pub struct CableDerivative {
     pub load_w: Vec3,
 }
 
-/// Derivative of an equilibrium with the unstrained lengths held (but for what the change itself does to them): how the
-/// platform moves and the forces change.
+/// Derivative of an equilibrium with the unstrained lengths held, apart from their own change: motion of the platform
+/// and changes of the forces.
 ///
 /// # Errors
 /// [`StaticDerivativeError`].
@@ -104,7 +106,8 @@ pub fn at_held_lengths(
     let direct = Direct::new(robot, equilibrium, change)?;
     let coordinates = Coordinates::of(robot);
 
-    // The tangent counts half of a moment that is fixed in the world, so that it is symmetric; the balance has none of it.
+    // The tangent contains half of a moment that is fixed in the world, so that it is symmetric; the balance contains
+    // none of it.
     let mut jacobian = tangent_with_drag(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
     let mut turns = jacobian.fixed_view_mut::<3, 3>(3, 3);
     turns -= skew(&robot.load.moment_w) * 0.5;
@@ -116,8 +119,8 @@ pub fn at_held_lengths(
     Ok(direct.moved(equilibrium, translation_w, rotation_w))
 }
 
-/// Derivative of an equilibrium with the pose held: how the unstrained lengths have to change. They replace what the
-/// change itself does to them. For robots with as many cables as degrees of freedom.
+/// Derivative of an equilibrium with the pose held: the changes of the unstrained lengths that keep the pose. They
+/// replace the lengths' own change. For robots with as many cables as degrees of freedom.
 ///
 /// # Errors
 /// [`StaticDerivativeError`].
@@ -142,7 +145,7 @@ pub fn at_held_pose(
     for (i, (cable, state)) in direct.cables.iter().zip(&equilibrium.cables).enumerate() {
         by_lengths.set_column(i, &coordinates.reduce_force(&cable.force_by_length_w, &state.lever_w));
     }
-    // A step of the solution is a length, not a coordinate of the platform: its number is the same.
+    // The solution contains lengths, not coordinates of the platform; only their numbers are equal.
     let lengths = solve(by_lengths, &coordinates, &-direct.wrench)?;
     for (cable, length) in direct.cables.iter_mut().zip(lengths.iter()) {
         cable.force_w += cable.force_by_length_w * *length;
@@ -151,7 +154,7 @@ pub fn at_held_pose(
     Ok(direct.moved(equilibrium, Vec3::zeros(), Vec3::zeros()))
 }
 
-/// Solves for the reduced unknowns; `wrench` is not reduced yet.
+/// Solves for the reduced unknowns; `wrench` is not yet reduced.
 fn solve(mut matrix: Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<Vec6, StaticDerivativeError> {
     let scale = matrix.amax();
     (coordinates.count()..6).for_each(|k| matrix[(k, k)] = scale);
@@ -162,23 +165,23 @@ fn solve(mut matrix: Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<V
     matrix.lu().solve(&coordinates.reduce(wrench)).ok_or(StaticDerivativeError::Singular)
 }
 
-/// What a change does while the platform stays where it is.
+/// Effect of a change while the platform stays in place.
 struct Direct {
     /// Wrench on the platform.
     wrench: Vec6,
     cables: Vec<DirectCable>,
 }
 
-/// What a change does to one cable while the platform stays where it is, and what its platform end's motion does.
+/// Effect of a change on one cable while the platform stays in place, and the cable's response to its platform end.
 struct DirectCable {
     force_w: Vec3,
     lever_w: Vec3,
     load_w: Vec3,
     unstrained_length: f64,
     force_by_length_w: Vec3,
-    /// Of the force, by the chord: stiffness, and the turn of the wind's drag.
+    /// Derivative of the force with respect to the chord: stiffness, and the turn of the wind's drag.
     force_by_chord_w: Mat3,
-    /// Of the load per length, by the chord.
+    /// Derivative of the load per length with respect to the chord.
     load_by_chord_w: Mat3,
 }
 
@@ -187,7 +190,7 @@ impl Direct {
         let rot = &equilibrium.pose.rot_wp;
         let platform = &robot.platform;
 
-        // Weight and wind in the centre of mass, then the load.
+        // Weight and wind at the centre of mass, then the load.
         let centre_w = rot * platform.center_of_mass_p;
         let at_centre_w = robot.force_at_mass_centre_w();
         let weight_w = robot.gravity_w * change.mass
@@ -208,14 +211,14 @@ impl Direct {
         Ok(Self { wrench, cables })
     }
 
-    /// The derivative, with the platform's motion.
+    /// Derivative including the platform's motion.
     fn moved(self, equilibrium: &Equilibrium, translation_w: Vec3, rotation_w: Vec3) -> EquilibriumDerivative {
         let cables = self.cables.into_iter().zip(&equilibrium.cables).map(|(cable, state)| {
             let chord_w = -(translation_w + rotation_w.cross(&state.lever_w));
             let force_w = cable.force_w + cable.force_by_chord_w * chord_w;
             let load_w = cable.load_w + cable.load_by_chord_w * chord_w;
 
-            // The tension at the anchor is that of N = f − L q, q being the load per length.
+            // The tension at the anchor is the magnitude of N = f − L q, q being the load per length.
             let at_anchor_w = state.force_on_platform_w - load_of(state) * state.unstrained_length;
             let change_at_anchor_w =
                 force_w - load_w * state.unstrained_length - load_of(state) * cable.unstrained_length;
@@ -261,7 +264,7 @@ impl DirectCable {
             robot.gravity_w * change.mass_per_length + gravity_w * material.mass_per_length + change.load_per_length_w;
         let load_w = if counts { own_w + load_by_chord_w * chord_w } else { Vec3::zeros() };
 
-        // A stiffer rope is strained less: its mean tension is f − ½ L q.
+        // A stiffer rope is strained less; its mean tension is f − ½ L q.
         let length = state.unstrained_length;
         let mean_w = state.force_on_platform_w - load_of(state) * (0.5 * length);
         let by_stiffness_w = stiffness * mean_w * (length / material.axial_stiffness.powi(2));
@@ -282,7 +285,7 @@ impl DirectCable {
     }
 }
 
-/// Load per unstrained length that a cable hangs with, world axes [N/m]; zero for a straight one.
+/// Load per unstrained length of a hanging cable, world axes [N/m]; zero for a straight cable.
 pub(crate) fn load_of(state: &CableState) -> Vec3 {
     state.hanging.as_ref().map_or_else(Vec3::zeros, |hanging| {
         let (_, up_w) = hanging.axes_w();
@@ -290,7 +293,7 @@ pub(crate) fn load_of(state: &CableState) -> Vec3 {
     })
 }
 
-/// Wrench of the moment of a force at a lever arm, without the force.
+/// Wrench of a force at a lever arm with the moment only, without the force.
 fn moment(force: &Vec3, lever: &Vec3) -> Vec6 {
     let moment = lever.cross(force);
     Vec6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)

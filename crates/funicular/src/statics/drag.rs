@@ -1,4 +1,4 @@
-//! The stiffness that the drag of the wind adds because it turns with the cables.
+//! Stiffness that the drag of the wind adds because it turns with the cables.
 
 use super::equilibrium::Equilibrium;
 use super::model::StaticModel;
@@ -7,9 +7,9 @@ use crate::math::Mat6;
 use crate::platform::{Coordinates, add_congruent};
 use crate::robot::Robot;
 
-/// Derivative `−∂wrench/∂(δp, δθ)` at an equilibrium with a drag of the wind that turns with the cables: what a small slow
-/// displacement meets. About the platform origin, world axes [N/m, N, N·m]; in wind not symmetric, without wind
-/// [`tangent_stiffness`] to the last bit.
+/// Stiffness against small slow displacements in wind: the derivative `−∂wrench/∂(δp, δθ)` at an equilibrium, with the
+/// drag turning with the cables. About the platform origin, world axes [N/m, N, N·m]. In wind it is not symmetric;
+/// without wind it equals [`tangent_stiffness`] to the last bit.
 ///
 /// `None` for ideal cables. Zero for motions that the platform does not have. A moment fixed in the world counts as in
 /// [`tangent_stiffness`].
@@ -35,9 +35,9 @@ pub fn tangent_with_drag(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
     Some(drag_stiffness(robot, equilibrium).map_or(held, |turn| held + turn))
 }
 
-/// The part of [`tangent_with_drag`] that is due to the turn of the drag; 6×6, about the platform origin, world axes, not
-/// symmetric [N/m, N, N·m]. `None` where no drag turns: without wind, without drag coefficients, or with cables that
-/// carry no load along them (static models `ideal` and `spring`).
+/// Part of [`tangent_with_drag`] due to the turn of the drag; 6×6, about the platform origin, world axes, not symmetric
+/// [N/m, N, N·m]. `None` if no drag turns: without wind, without drag coefficients, or with cables that carry no load
+/// along them (static models `ideal` and `spring`).
 ///
 /// # References
 /// docs/theory.md, equation (49c).
@@ -48,24 +48,24 @@ pub fn drag_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> 
     let mut total = Mat6::zeros();
     for (i, cable) in equilibrium.cables.iter().enumerate() {
         if let (Some(hanging), Some(turn)) = (&cable.hanging, robot.line_load_by_chord(i, &cable.chord_w())) {
-            // The chord shortens as the attachment moves along it: the two signs of −∂Φ/∂x and ∂d/∂x cancel.
+            // The chord shortens as the attachment moves along it: the signs of −∂Φ/∂x and ∂d/∂x cancel.
             add_congruent(&mut total, &(hanging.force_by_load_w() * turn), &cable.lever_w);
         }
     }
     Some(Coordinates::of(robot).allowed_matrix(&total))
 }
 
-/// Size of the antisymmetric part of a stiffness over the size of the whole: Frobenius norms of the scaled matrices
-/// (theory (3)), moments over ℓ and rotations times ℓ.
+/// Ratio of the antisymmetric part of a stiffness to the complete stiffness: Frobenius norms of the scaled matrices
+/// (theory (3)), with moments over ℓ and rotations times ℓ.
 pub fn antisymmetric_fraction(robot: &Robot, stiffness: &Mat6) -> f64 {
     let matrix = Coordinates::of(robot).scale_matrix(stiffness);
     let size = matrix.norm();
     if size > 0.0 { 0.5 * (matrix - matrix.transpose()).norm() / size } else { 0.0 }
 }
 
-/// How much the turn of the drag changes static displacements: the largest change of the displacement under any small load,
-/// over the displacement with the drag held; rotations times ℓ, moments over ℓ. `None` where no drag turns, and where the
-/// stiffness is singular.
+/// Relative effect of the drag's turn on static displacements: the largest change of the displacement under any small
+/// load, over the displacement with the drag held; rotations times ℓ, moments over ℓ. `None` if no drag turns, or if
+/// the stiffness is singular.
 ///
 /// # References
 /// docs/theory.md, equation (49e).

@@ -4,10 +4,9 @@ use super::equilibrium::Equilibrium;
 use crate::catenary::space::HangingCable;
 use crate::robot::{Pose, Robot};
 
-/// Potential energy [J] of cables, platform and load at an equilibrium, but for a constant: weights are measured from
-/// the world's origin, cables without force have none. The moment of a load, which has no energy, is left out, the drag of
-/// the wind counts as if it kept its direction; ideal
-/// cables have neither weight nor strain.
+/// Potential energy [J] of cables, platform and load at an equilibrium, up to a constant: weights are measured from the
+/// world's origin, and cables without force have no energy. The moment of a load has no energy and is left out. The
+/// drag of the wind counts as if it kept its direction. Ideal cables have neither weight nor strain.
 ///
 /// # Example
 /// ```
@@ -22,7 +21,7 @@ pub fn energy(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
     of_parts(robot, &equilibrium.pose, equilibrium.cables.iter().filter_map(|cable| cable.hanging.as_ref()))
 }
 
-/// The same of cables that hang at a pose, equilibrium or not.
+/// Potential energy [J] of cables that hang at a pose, in equilibrium or not, with platform and load.
 pub(super) fn of_parts<'a>(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = &'a HangingCable>) -> f64 {
     let com_w = pose.point_w(&robot.platform.center_of_mass_p);
     let loaded_w = pose.point_w(&robot.load.point_p);

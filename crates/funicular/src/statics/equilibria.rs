@@ -1,87 +1,89 @@
-//! Every equilibrium of given lengths that a search finds: cables that sag or stretch leave several (Merlet).
+//! All equilibria of given lengths that a search finds: with cables that sag or stretch there are several (Merlet).
 //!
-//! The energy of an elastic cable is a convex function of where its ends are, so in every orientation of the platform
-//! there is one position of least energy, and only orientations have to be searched; a point mass has one equilibrium.
-//! On the space of orientations, which is compact, Morse's theory counts for us: the sum of (−1)^index over all
-//! equilibria, the index being the number of directions in which the energy falls, is the Euler characteristic of that
-//! space, whatever the robot (theory, section 16). A list with another sum lacks an equilibrium; one with this sum may
+//! The energy of an elastic cable is a convex function of the positions of its ends. So for every orientation of the
+//! platform there is one position of minimum energy, and only orientations have to be searched; a point mass has one
+//! equilibrium. The space of orientations is compact, so Morse theory gives a count. The sum of (−1)^index over all
+//! equilibria, the index being the number of directions in which the energy falls, is the Euler characteristic of this
+//! space for every robot (theory, section 16). A list with another sum lacks an equilibrium; a list with this sum may
 //! still lack a pair.
 
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
-use super::forward::{AT_REST, Search, elastic, forward};
+use super::forward::{CONVERGED, EnergySearch, descend_to_equilibrium, forward};
 use super::model::StaticModel;
-use super::nearest_pose::distance;
+use super::nearest_pose::pose_distance;
 use super::residual::check_lengths;
 use crate::math::{Vec3, symmetric};
 use crate::platform::load_size;
 use crate::robot::{PlatformMotion, Pose, Robot};
 use std::f64::consts::TAU;
 
-/// One of several equilibria of the same lengths.
+/// One of several equilibria for the same lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
-    /// The equilibrium, stable or not.
+    /// Equilibrium, stable or not.
     pub equilibrium: Equilibrium,
     /// Number of directions in which the energy falls.
     pub falling: usize,
-    /// Number of directions in which it does not change: the platform is free to move there.
+    /// Number of directions in which the energy does not change: the platform can move there freely.
     pub indifferent: usize,
-    /// Energy above that of the lowest of the list [J]; none where the wind turns with the cables or a moment acts, which
-    /// have no potential.
+    /// Energy above the lowest one of the list [J]; none if the drag of the wind turns with the cables or a moment
+    /// acts, which have no potential.
     pub energy: Option<f64>,
-    /// Distance from the pose asked [m], see [`distance`](super::distance).
+    /// Distance from the requested pose [m], see [`pose_distance`](super::pose_distance).
     pub distance: f64,
 }
 
 impl Candidate {
-    /// The platform stays there.
+    /// True if the equilibrium is stable.
     pub fn is_stable(&self) -> bool {
         self.falling == 0 && self.indifferent == 0
     }
 }
 
-/// The equilibria of given lengths.
+/// Equilibria of given lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidates {
-    /// Those found: the lowest first, or without energy the nearest to the pose asked.
+    /// Equilibria found: sorted by energy, or without energy by distance from the requested pose.
     pub found: Vec<Candidate>,
-    /// Orientations that the search started from.
+    /// Number of orientations from which the search started.
     pub starts: usize,
     /// Sum of (−1)^falling over the list.
     pub index_sum: i64,
-    /// What it is if none is missing; none where some equilibrium is indifferent or the loads have no potential.
+    /// Value of the sum if no equilibrium is missing; none if some equilibrium is indifferent or the loads have no
+    /// potential.
     pub expected_index_sum: Option<i64>,
 }
 
 impl Candidates {
-    /// Whether the sum shows that some are missing; false where it says nothing.
+    /// True if the sum shows that some equilibria are missing; false if it gives no information.
     pub fn lacks_some(&self) -> bool {
         self.expected_index_sum.is_some_and(|expected| expected != self.index_sum)
     }
 }
 
-/// Starts after the last find at which a list counts as whole (ten times as many while the sum says that some are
-/// missing), and limit of all starts. Catenaries: with 400 the lists of all robots of the library, up to 50 long, are those
-/// with 4,000. Springs, whose stiffness jumps where they go slack, may need some 10,000 starts.
+/// Number of starts without a find after which the list counts as complete (ten times as many while the sum shows that
+/// some are missing), and maximum number of starts. With catenaries, 400 starts give the same lists, up to 50 long, for
+/// all robots of the library as 4,000. Springs, whose stiffness jumps when they go slack, may need some 10,000 starts.
 const IDLE: usize = 400;
 const MAX_STARTS: usize = 20_000;
 
-/// Starts of the search for another stable equilibrium.
+/// Number of starts of the search for another stable equilibrium.
 const FEW_STARTS: usize = 40;
 
-/// Most equilibria listed; more of them are the points of a plateau.
+/// Maximum number of equilibria in the list; more of them are points of a plateau.
 const MAX_FOUND: usize = 200;
 
-/// Distance over the size of the platform below which two equilibria are one.
+/// Distance over the size of the platform below which two equilibria count as one.
 const SAME: f64 = 1e-5;
 
-/// Eigenvalue over the largest below which a direction is indifferent.
+/// Eigenvalue, relative to the largest, below which a direction is indifferent.
 const INDIFFERENT: f64 = 1e-9;
 
-/// All equilibria for given unstrained lengths [m], one a cable in file order, that a search from many poses finds:
-/// stable ones by descent of the energy, unstable ones by Newton's method, from orientations all over. Deterministic. `asked`: the pose that
-/// distances are measured from; without it where [`forward`](super::forward) finds the platform.
+/// All equilibria for given unstrained lengths [m], one per cable in file order, that a search finds. Stable ones are
+/// found by descent of the energy, unstable ones by Newton's method, from orientations spread over the space of
+/// rotations. Deterministic. `requested` is the pose from which distances are measured; without it the pose that
+/// [`forward`](super::forward) finds.
 ///
 /// # Errors
 /// [`StaticsError`]: lengths that do not fit the robot, ideal cables, or no equilibrium at all.
@@ -91,7 +93,7 @@ const INDIFFERENT: f64 = 1e-9;
 /// # use funicular::{robot::Robot, statics::{self, StaticModel}};
 /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
-/// let all = statics::all(&robot, &lengths, StaticModel::Catenary, None)?;
+/// let all = statics::all_equilibria(&robot, &lengths, StaticModel::Catenary, None)?;
 /// assert!(all.found[0].is_stable() && all.found[0].distance < 1e-6);
 /// assert!(all.found.len() >= 4 && Some(all.index_sum) == all.expected_index_sum);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -99,43 +101,43 @@ const INDIFFERENT: f64 = 1e-9;
 ///
 /// # References
 /// docs/theory.md, equations (50) and (51).
-pub fn all(
+pub fn all_equilibria(
     robot: &Robot,
     lengths: &[f64],
     model: StaticModel,
-    asked: Option<&Pose>,
+    requested: Option<&Pose>,
 ) -> Result<Candidates, StaticsError> {
     if model == StaticModel::Ideal {
         return Err(StaticsError::NeedsElasticCables);
     }
-    let first = forward(robot, lengths, model, asked)?;
+    let first = forward(robot, lengths, model, requested)?;
 
-    let mut hunt = EquilibriumSearch::new(robot, lengths, model, asked.copied().unwrap_or(first.pose));
-    hunt.take(&first);
+    let mut search = EquilibriumSearch::new(robot, lengths, model, requested.copied().unwrap_or(first.pose));
+    search.take(&first);
     let mut last_find = 0;
     let mut starts = 0;
     let max_starts = if robot.platform.motion.can_turn() { MAX_STARTS } else { 0 };
 
-    while starts < max_starts && hunt.found.len() < MAX_FOUND {
-        let wanting = hunt.expected().is_some_and(|expected| expected != hunt.index_sum());
+    while starts < max_starts && search.found.len() < MAX_FOUND {
+        let wanting = search.expected().is_some_and(|expected| expected != search.index_sum());
         if starts >= last_find + if wanting { 10 * IDLE } else { IDLE } {
             break;
         }
         starts += 1;
 
-        let Some(start) = hunt.start(starts) else { continue };
-        let new = [hunt.downhill(start), hunt.stationary(start)].into_iter().flatten();
+        let Some(start) = search.start(starts) else { continue };
+        let new = [search.downhill(start), search.stationary(start)].into_iter().flatten();
         for equilibrium in new.collect::<Vec<_>>() {
-            if hunt.take(&equilibrium) {
+            if search.take(&equilibrium) {
                 last_find = starts;
             }
         }
     }
-    Ok(hunt.sorted(starts))
+    Ok(search.sorted(starts))
 }
 
-/// Another stable equilibrium for the lengths of one, if a short search meets any; of several the lowest (without energy the
-/// nearest). With it, how far its energy is above that of the given one [J].
+/// Another stable equilibrium for the lengths of a given one, if a short search finds any. Of several the one with the
+/// lowest energy, or without energy the nearest. Also returns its energy above the given one [J].
 ///
 /// # Example
 /// ```
@@ -157,53 +159,53 @@ pub fn another_stable_equilibrium(robot: &Robot, equilibrium: &Equilibrium) -> O
         return None;
     }
 
-    let mut hunt = EquilibriumSearch::new(robot, &lengths, equilibrium.model, equilibrium.pose);
-    hunt.take(equilibrium);
-    let one = hunt.found.remove(0);
+    let mut search = EquilibriumSearch::new(robot, &lengths, equilibrium.model, equilibrium.pose);
+    search.take(equilibrium);
+    let one = search.found.remove(0);
     for k in 1..=FEW_STARTS {
-        if let Some(other) = hunt.start(k).and_then(|start| hunt.downhill(start))
-            && !(one.0.indifferent > 0 && hunt.same_plateau(&one, &other))
-            && distance(robot, &other.pose, &equilibrium.pose) > SAME * hunt.size
+        if let Some(other) = search.start(k).and_then(|start| search.downhill(start))
+            && !(one.0.indifferent > 0 && search.same_plateau(&one, &other))
+            && pose_distance(robot, &other.pose, &equilibrium.pose) > SAME * search.size
         {
-            hunt.take(&other);
+            search.take(&other);
         }
     }
 
-    hunt.found.retain(|(candidate, _)| candidate.is_stable());
-    let key = |found: &(Candidate, f64)| if hunt.has_energy() { found.1 } else { found.0.distance };
-    let (other, energy) = hunt.found.iter().min_by(|a, b| key(a).total_cmp(&key(b)))?.clone();
-    Some((other, hunt.has_energy().then_some(energy - one.1)))
+    search.found.retain(|(candidate, _)| candidate.is_stable());
+    let key = |found: &(Candidate, f64)| if search.has_energy() { found.1 } else { found.0.distance };
+    let (other, energy) = search.found.iter().min_by(|a, b| key(a).total_cmp(&key(b)))?.clone();
+    Some((other, search.has_energy().then_some(energy - one.1)))
 }
 
-/// A search and what it has found, each with its energy [J].
+/// Search with its finds, each with its energy [J].
 struct EquilibriumSearch<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
     model: StaticModel,
-    asked: Pose,
-    /// What distances are compared with: the platform and the longest cable [m].
+    requested: Pose,
+    /// Reference for distances: the size of the platform [m].
     size: f64,
     found: Vec<(Candidate, f64)>,
 }
 
 impl<'a> EquilibriumSearch<'a> {
-    fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, asked: Pose) -> Self {
-        Self { robot, lengths, model, asked, size: robot.platform_length(), found: Vec::new() }
+    fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, requested: Pose) -> Self {
+        Self { robot, lengths, model, requested, size: robot.platform_length(), found: Vec::new() }
     }
 
-    /// The loads have a potential.
+    /// True if the loads have a potential.
     fn has_energy(&self) -> bool {
         !self.robot.wind_turns_with_cables() && self.robot.load.moment_w == Vec3::zeros()
     }
 
-    /// Number `k` of the poses to start from: turned evenly over all orientations, and there where the energy is least.
+    /// Start pose number `k`: orientations spread evenly over all rotations, at the position of minimum energy.
     fn start(&self, k: usize) -> Option<Pose> {
         let [a, b, c] = [2, 3, 5].map(|base| van_der_corput(k, base));
         let turn = match self.robot.platform.motion {
             PlatformMotion::PointMass => Vec3::zeros(),
             PlatformMotion::Planar(plane) => plane.normal_w() * (TAU * a),
             PlatformMotion::Rigid => {
-                // Evenly over all rotations (Shoemake): a unit quaternion from three numbers, as axis times angle.
+                // Evenly over all rotations (Shoemake): unit quaternion from three numbers, as axis times angle.
                 let (s, t) = ((1.0 - a).sqrt(), a.sqrt());
                 let (w, x) = (s * (TAU * b).sin(), s * (TAU * b).cos());
                 let axis = Vec3::new(x, t * (TAU * c).sin(), t * (TAU * c).cos());
@@ -211,28 +213,28 @@ impl<'a> EquilibriumSearch<'a> {
                 if sine > 0.0 { axis * (2.0 * sine.atan2(w) / sine) } else { axis }
             }
         };
-        let turned = self.asked.moved(&Vec3::zeros(), &turn);
-        let mut search = Search::new(self.robot, self.lengths, self.model, &turned);
+        let turned = self.requested.moved(&Vec3::zeros(), &turn);
+        let mut search = EnergySearch::new(self.robot, self.lengths, self.model, &turned);
         search.turns = false;
         let (trial, _) = search.minimise(turned);
-        search.holds(&trial).then_some(trial.pose)
+        search.is_equilibrium(&trial).then_some(trial.pose)
     }
 
     fn downhill(&self, start: Pose) -> Option<Equilibrium> {
-        elastic(self.robot, self.lengths, self.model, start).ok()
+        descend_to_equilibrium(self.robot, self.lengths, self.model, start).ok()
     }
 
-    /// Whatever rest point Newton's method comes to.
+    /// Equilibrium of any stability that Newton's method converges to.
     fn stationary(&self, start: Pose) -> Option<Equilibrium> {
         if !self.has_energy() {
             return None;
         }
-        let search = Search::new(self.robot, self.lengths, self.model, &start);
+        let search = EnergySearch::new(self.robot, self.lengths, self.model, &start);
         let mut here = search.at(start);
         let mut steps = 0;
 
-        while here.residual > AT_REST {
-            // Newton's step, cut where the stiffness hardly resists.
+        while here.residual > CONVERGED {
+            // Newton's step, limited in directions of very low stiffness.
             let (values, vectors) = symmetric::eigen(&search.stiffness(&here), search.coordinates.count());
             let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {
@@ -259,12 +261,12 @@ impl<'a> EquilibriumSearch<'a> {
                 return None;
             }
         }
-        search.holds(&here).then(|| search.collected(here, self.model, steps))
+        search.is_equilibrium(&here).then(|| search.collected(here, self.model, steps))
     }
 
-    /// Adds an equilibrium unless it is in the list; whether it did.
+    /// Adds an equilibrium unless the list contains it; true if it was added.
     fn take(&mut self, equilibrium: &Equilibrium) -> bool {
-        let search = Search::new(self.robot, self.lengths, self.model, &equilibrium.pose);
+        let search = EnergySearch::new(self.robot, self.lengths, self.model, &equilibrium.pose);
         let trial = search.at(equilibrium.pose);
 
         let (values, _) = symmetric::eigen(&search.stiffness(&trial), search.coordinates.count());
@@ -272,12 +274,12 @@ impl<'a> EquilibriumSearch<'a> {
         let falling = values.iter().filter(|value| **value < -zero).count();
         let indifferent = values.iter().filter(|value| value.abs() <= zero).count();
 
-        let distance_of = |other: &Pose| distance(self.robot, &equilibrium.pose, other);
+        let distance_of = |other: &Pose| pose_distance(self.robot, &equilibrium.pose, other);
         let candidate = Candidate {
             falling,
             indifferent,
             energy: None,
-            distance: distance_of(&self.asked),
+            distance: distance_of(&self.requested),
             equilibrium: equilibrium.clone(),
         };
         let new = (candidate, trial.energy);
@@ -292,15 +294,15 @@ impl<'a> EquilibriumSearch<'a> {
         !known
     }
 
-    /// Two energies are one but for rounding [J].
+    /// True if two energies [J] are equal to rounding.
     fn level(&self, a: f64, b: f64) -> bool {
         let scale = load_size(self.robot) * self.size;
         (a - b).abs() <= 1e-9 * (a.abs() + b.abs() + scale)
     }
 
-    /// An equilibrium has the energy of an indifferent one: the platform gets there without work.
+    /// True if an equilibrium has the energy of an indifferent one: the platform gets there without work.
     fn same_plateau(&self, one: &(Candidate, f64), other: &Equilibrium) -> bool {
-        let search = Search::new(self.robot, self.lengths, self.model, &other.pose);
+        let search = EnergySearch::new(self.robot, self.lengths, self.model, &other.pose);
         self.level(one.1, search.at(other.pose).energy)
     }
 
@@ -308,7 +310,8 @@ impl<'a> EquilibriumSearch<'a> {
         self.found.iter().map(|(candidate, _)| if candidate.falling % 2 == 0 { 1 } else { -1 }).sum()
     }
 
-    /// The Euler characteristic of the space of orientations: of those in space or in a plane 0, of a single one 1.
+    /// Euler characteristic of the space of orientations: 0 for orientations in space or in a plane, 1 for a single
+    /// one.
     fn expected(&self) -> Option<i64> {
         if !self.has_energy() || self.found.iter().any(|(candidate, _)| candidate.indifferent > 0) {
             return None;
@@ -332,7 +335,7 @@ impl<'a> EquilibriumSearch<'a> {
     }
 }
 
-/// The digits of `k` mirrored at the point: evenly spread numbers between 0 and 1.
+/// Van der Corput's sequence: the digits of `k` mirrored at the point, evenly spread between 0 and 1.
 fn van_der_corput(mut k: usize, base: usize) -> f64 {
     let (mut value, mut place) = (0.0, 1.0 / base as f64);
     while k > 0 {

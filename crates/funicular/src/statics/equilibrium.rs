@@ -1,11 +1,11 @@
-//! An equilibrium as plain data: pose, cables, residual, stability.
+//! Equilibrium as plain data: pose, cables, residual, stability.
 
 use super::model::StaticModel;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat3, Vec3};
 use crate::robot::Pose;
 
-/// One cable at equilibrium.
+/// State of one cable at equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CableState {
     /// Attachment in the world [m].
@@ -14,7 +14,7 @@ pub struct CableState {
     pub lever_w: Vec3,
     /// Point at which the cable leaves its anchor, in the world [m].
     pub anchor_w: Vec3,
-    /// Unstrained length [m]; of an ideal cable its length.
+    /// Unstrained length [m]; for an ideal cable its length.
     pub unstrained_length: f64,
     /// Force of the cable on the platform, world axes [N].
     pub force_on_platform_w: Vec3,
@@ -22,7 +22,7 @@ pub struct CableState {
     pub tension_platform: f64,
     /// Tension at the anchor [N].
     pub tension_anchor: f64,
-    /// The curve; none for an ideal cable.
+    /// Curve of the cable; none for an ideal cable.
     pub hanging: Option<HangingCable>,
 }
 
@@ -42,55 +42,56 @@ impl CableState {
         self.hanging.as_ref().map(HangingCable::tangent_w)
     }
 
-    /// No force between the ends: a massless cable longer than its chord, or one that hangs straight down as a loop.
+    /// True if the cable carries no force between its ends: a massless cable longer than its chord, or one that hangs
+    /// straight down as a loop.
     pub fn is_slack(&self) -> bool {
         let no_force = |h: &HangingCable| h.catenary.parallel_tension() <= 0.0;
         self.hanging.as_ref().map_or(self.tension_platform == 0.0, no_force)
     }
 }
 
-/// A static equilibrium of a robot.
+/// Static equilibrium of a robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
     /// Pose of the platform.
     pub pose: Pose,
-    /// The model it was found with.
+    /// Static model of the cables.
     pub model: StaticModel,
     /// The cables, in file order.
     pub cables: Vec<CableState>,
-    /// What is left of the wrench: the larger of force and moment/ℓ over the sum of all tensions and the weight. Zero
-    /// where no load acts and all tensions together are rounding, see [`carries_nothing`].
+    /// Scaled residual: the larger of remaining force and moment/ℓ, over the sum of all tensions and the weight. Zero
+    /// if no load acts and all tensions together are rounding, see [`is_unloaded`].
     pub residual: f64,
-    /// Iterations taken.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Whether it is stable.
+    /// Stability.
     pub stability: Stability,
 }
 
-/// What the static stiffness says of an equilibrium: the signs of the eigenvalues of its symmetric part, which is the work
-/// that a small displacement takes. In wind it is the symmetric part of [`tangent_with_drag`].
+/// Stability of an equilibrium by the signs of the eigenvalues of the static stiffness' symmetric part, which gives the
+/// work of a small displacement. In wind it is the symmetric part of [`tangent_with_drag`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stability {
-    /// Every small displacement is opposed; the least eigenvalue of the scaled stiffness S K S [N/m].
+    /// Every small displacement meets resistance; with the minimum eigenvalue of the scaled stiffness S K S [N/m].
     Stable {
-        /// Least eigenvalue [N/m].
+        /// Minimum eigenvalue [N/m].
         min_stiffness: f64,
     },
-    /// Some displacement is not opposed.
+    /// Some displacement meets no resistance.
     Unstable {
-        /// Least eigenvalue [N/m]; negative, or exactly zero where it is rounding: then the equilibrium is indifferent.
+        /// Minimum eigenvalue [N/m]; negative, or exactly zero if it is rounding: then the equilibrium is indifferent.
         min_stiffness: f64,
-        /// Number of directions that are not opposed.
+        /// Number of directions without resistance.
         directions: usize,
     },
-    /// An ideal robot is rigid; the question does not arise.
+    /// A robot with ideal cables is rigid; stability has no meaning for it.
     Rigid,
 }
 
 /// Scaled residual below which an equilibrium counts as found; rounding leaves 1e-15 to 1e-12.
 pub const RESIDUAL_LIMIT: f64 = 1e-10;
 
-/// Largest scaled residual that rounding excuses. Very stiff cables under a very small load have a residual that no pose
-/// in floating point brings below [`RESIDUAL_LIMIT`]; up to this one the tensions are right to six digits, which is more
-/// than any input has. Beyond it rounding would soon be all there is, and the place no more than a guess.
+/// Maximum scaled residual accepted because of rounding. Very stiff cables under a very small load have a residual that
+/// no pose in floating point brings below [`RESIDUAL_LIMIT`]. Up to this value the tensions are right to six digits,
+/// more than any input has. Beyond it nearly everything would be rounding, and the pose no more than a guess.
 pub const MAX_RESIDUAL_OF_ROUNDING: f64 = 1e-6;

@@ -1,24 +1,24 @@
-//! Reasons why there is no equilibrium to give, and their texts.
+//! Reasons why an equilibrium cannot be given, and their messages.
 
 use super::equilibrium::RESIDUAL_LIMIT;
 use super::limits::LimitViolation;
-use super::loaded_cable::LONGEST;
+use super::loaded_cable::MAX_LENGTH_RATIO;
 use crate::robot::OutOfPlane;
 use thiserror::Error;
 
-/// Why there is no equilibrium to give.
+/// Reason why an equilibrium cannot be given.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StaticsError {
-    /// A robot of which neither lengths nor a pose are known.
+    /// Neither lengths nor a pose of the robot are known.
     #[error(
         "the robot has no state: give unstrained lengths or a pose, or give every cable of the robot file an \
          `unstrained_length_m`, or the file a [state] with `position_m`"
     )]
     NoState,
-    /// A tension rule for as many cables as degrees of freedom, or fewer.
+    /// Tension rule for a robot without redundant cables.
     #[error(
-        "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions at a \
-         pose; leave out the tension rule and the wanted tensions"
+        "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions \
+         at a pose; leave out the tension rule and the target tensions"
     )]
     NothingToChoose {
         /// Cables of the robot.
@@ -26,21 +26,23 @@ pub enum StaticsError {
         /// Degrees of freedom of the platform.
         dof: usize,
     },
-    /// A tension rule for given lengths.
+    /// Tension rule together with given lengths.
     #[error(
         "a tension rule has nothing to choose: the state is given by unstrained lengths, which determine the \
          tensions; give a pose"
     )]
     RuleOfLengths,
-    /// A number of lengths that is not the number of cables.
-    #[error("{given} unstrained lengths for {cables} cables: give one a cable, in file order")]
+    /// The number of lengths differs from the number of cables.
+    #[error(
+        "{given} unstrained lengths given for {cables} cables: give one length per cable, in the order of the file"
+    )]
     LengthCount {
         /// Lengths given.
         given: usize,
         /// Cables of the robot.
         cables: usize,
     },
-    /// A length that is not positive and finite.
+    /// A length is not positive and finite.
     #[error("unstrained length of cable \"{cable}\" is {value} m: it must be positive and finite")]
     Length {
         /// Name of the cable.
@@ -48,7 +50,7 @@ pub enum StaticsError {
         /// Value [m].
         value: f64,
     },
-    /// Ideal cables, not as many as degrees of freedom.
+    /// The number of ideal cables differs from the degrees of freedom.
     #[error(
         "{} for {dof} degrees of freedom: forward statics of `ideal` cables needs exactly {dof}; `spring` \
          and `catenary` cables may be fewer or more",
@@ -60,10 +62,10 @@ pub enum StaticsError {
         /// Degrees of freedom of the platform.
         dof: usize,
     },
-    /// Fewer cables than degrees of freedom hold no given pose.
+    /// Fewer cables than degrees of freedom cannot hold a given pose.
     #[error(
-        "{} for {dof} degrees of freedom can hold no given pose: with `spring` and `catenary` cables there is the nearest pose \
-         that can be held, with `ideal` cables there is none",
+        "{} for {dof} degrees of freedom cannot hold a given pose: with `spring` and `catenary` cables there is a \
+         nearest pose that they can hold, with `ideal` cables there is none",
         crate::counted(*cables, "cable")
     )]
     InverseCableCount {
@@ -72,10 +74,10 @@ pub enum StaticsError {
         /// Degrees of freedom of the platform.
         dof: usize,
     },
-    /// A pose that a planar platform cannot have.
+    /// A planar platform cannot have this pose.
     #[error(transparent)]
     OutOfPlane(#[from] OutOfPlane),
-    /// A cable has no length between its ends at this pose.
+    /// The ends of a cable coincide at this pose.
     #[error("cable \"{cable}\" has coinciding ends at this pose: move the platform away from its anchor")]
     CoincidingEnds {
         /// Name of the cable.
@@ -84,44 +86,44 @@ pub enum StaticsError {
     /// The pose is singular: the cables do not span the degrees of freedom.
     #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
     Singular,
-    /// A straight cable would have to push.
+    /// A straight cable would need negative tension.
     #[error(
         "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose; choose \
          another pose, mass or centre of mass"
     )]
     NegativeTension {
-        /// Name of the cable that lacks most.
+        /// Name of the cable with the most negative tension.
         cable: String,
         /// Its tension [N], not positive.
         tension: f64,
     },
-    /// No tensions found for sagging cables where a straight one would have to push. That is no proof that there are
-    /// none: the balance of sagging cables is not linear.
+    /// No tensions found for sagging cables at a pose where a straight one would need negative tension. This is no
+    /// proof that there are none: the balance of sagging cables is not linear.
     #[error(
         "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N; sagging, {}; \
          choose another pose, mass or centre of mass",
-        searched(*starts, *residual, *greatest)
+        searched(*starts, *residual, *max_tension)
     )]
     NotFound {
-        /// Name of the cable that lacks most if straight.
+        /// Name of the straight cable with the most negative tension.
         cable: String,
         /// Its tension if straight [N], not positive.
         tension: f64,
-        /// Number of starts of the search; none where only a cable longer than twice its chord could hold the pose.
+        /// Number of starts of the search; zero if only a cable longer than twice its chord could hold the pose.
         starts: usize,
-        /// Least scaled residual reached.
+        /// Minimum scaled residual reached.
         residual: f64,
-        /// Greatest tension [N] of cables that do hold the pose, but with tensions out of all proportion.
-        greatest: Option<f64>,
+        /// Maximum tension [N] of cables that do hold the pose, but with excessive tensions.
+        max_tension: Option<f64>,
     },
-    /// Ideal cables of given lengths close at a pose where one of them would push.
+    /// Ideal cables of given lengths close at a pose where one of them would need negative tension.
     #[error(
         "no equilibrium with cables in tension: ideal cables of these lengths close at position ({x:.4}, {y:.4}, \
          {z:.4}) m, where cable \"{cable}\" would need {tension:.4} N; choose other lengths, another mass or centre of \
          mass, or the static model `spring` or `catenary`, whose platform moves until all cables pull or are slack"
     )]
     LengthsPush {
-        /// Name of the cable that lacks most.
+        /// Name of the cable with the most negative tension.
         cable: String,
         /// Its tension [N], negative.
         tension: f64,
@@ -132,93 +134,98 @@ pub enum StaticsError {
         /// Position of the platform [m].
         z: f64,
     },
-    /// No tensions within the limits hold the pose; proved.
+    /// It is proved that no tensions within the limits hold the pose.
     #[error(
-        "no tensions within their limits hold this pose: the nearest miss the limits {0}; choose another pose, mass or \
-         centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
+        "no tensions within their limits hold this pose: the best tensions violate the limits {0}; choose another \
+         pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     BeyondLimits(LimitViolation),
-    /// No tensions within the limits were found, and no proof that there are none: the balance of sagging cables is not
-    /// linear.
+    /// No tensions within the limits were found, and there is no proof that there are none: the balance of sagging
+    /// cables is not linear.
     #[error(
-        "no tensions within their limits found that hold this pose, in a search from {starts} starts: the nearest miss \
-         the limits {miss}; choose another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, \
-         `maximum_tension_n`)"
+        "no tensions within their limits that hold this pose were found in a search from {starts} starts: the best \
+         tensions violate the limits {miss}; choose another pose, mass or centre of mass, or widen the limits \
+         (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     NotFoundWithinLimits {
-        /// By how much the nearest tensions found miss the limits, and which.
+        /// Violation of the limits by the best tensions found.
         miss: LimitViolation,
         /// Number of starts of the search.
         starts: usize,
     },
-    /// Limits between which there is nothing.
+    /// The minimum of a tension is not below its maximum.
     #[error(
-        "cable \"{cable}\" may have tensions from {minimum} N to {maximum} N, which is nothing: give it a \
-         `minimum_tension_n` below its maximum (without one it is 2.5 times the cable's weight)"
+        "cable \"{cable}\": minimum tension {minimum} N is not below its maximum {maximum} N; give it a \
+         `minimum_tension_n` below its maximum (the default is 2.5 times the cable's weight)"
     )]
     LimitsExclude {
         /// Name of the cable.
         cable: String,
-        /// Least tension [N].
+        /// Minimum tension [N].
         minimum: f64,
-        /// Greatest tension [N].
+        /// Maximum tension [N].
         maximum: f64,
     },
-    /// A rule that needs a maximum.
+    /// The rule needs a maximum tension.
     #[error(
-        "the tension rule `{rule}` needs a greatest tension for every cable, and cable \"{cable}\" has none: give \
+        "the tension rule `{rule}` needs a maximum tension for every cable, and cable \"{cable}\" has none: give \
          `maximum_tension_n` or `breaking_load_n` in the robot file, or choose the rule `lowest` or `closest`"
     )]
     NeedsMaximum {
-        /// Name of the first cable without one.
+        /// Name of the first cable without a maximum.
         cable: String,
         /// Name of the rule.
         rule: &'static str,
     },
-    /// A number of wanted tensions that is not the number of cables.
-    #[error("{given} wanted tensions for {cables} cables: give one for all, or one a cable, in file order")]
-    WantedCount {
+    /// The number of target tensions is neither one nor the number of cables.
+    #[error(
+        "{given} target tensions given for {cables} cables: give one for all cables, or one per cable in the order of \
+         the file"
+    )]
+    TargetCount {
         /// Tensions given.
         given: usize,
         /// Cables of the robot.
         cables: usize,
     },
-    /// A wanted tension that is not finite or negative.
-    #[error("the wanted tension is {value} N: it must be finite and not negative")]
-    Wanted {
+    /// A target tension is not finite or is negative.
+    #[error("the target tension is {value} N: it must be finite and not negative")]
+    TargetTension {
         /// Value [N].
         value: f64,
     },
-    /// Ideal cables are rigid whatever their tension.
+    /// Ideal cables are rigid at any tension.
     #[error(
-        "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` or `catenary`"
+        "the tension rule `stiffest` has no answer for ideal cables, which are rigid: choose the static model `spring` \
+         or `catenary`"
     )]
     StiffestNeedsElastic,
-    /// More cables than the rule `stiffest` is made for.
+    /// More cables than the rule `stiffest` allows.
     #[error(
-        "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the cube \
-         of their number; choose the rule `middle`, `lowest` or `closest`"
+        "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the \
+         cube of their number; choose the rule `middle`, `lowest` or `closest`"
     )]
     TooManyToStiffen {
         /// Cables of the robot.
         cables: usize,
-        /// Most that the rule takes.
+        /// Maximum number of cables for the rule.
         limit: usize,
     },
-    /// Ideal cables are rigid: their poses are those of a mechanism, not of an energy.
+    /// Ideal cables are rigid: their poses follow from a mechanism, not from an energy.
     #[error("a search for all equilibria needs cables that stretch: choose the static model `spring` or `catenary`")]
     NeedsElasticCables,
-    /// The search for the nearest pose did not end.
+    /// The search for the nearest pose did not converge.
     #[error(
-        "no nearest pose found in {iterations} iterations: the last, at position ({x:.4}, {y:.4}, {z:.4}) m, could come \
-         nearer by {residual:.1e} of the robot's size (limit {limit:.0e}); ask for a pose nearer to one that hangs freely"
+        "no nearest pose found in {iterations} iterations: the last pose, at position ({x:.4}, {y:.4}, {z:.4}) m, \
+         could come nearer by {residual:.1e} of the robot's size (limit {limit:.0e}); request a pose nearer to one \
+         that hangs freely"
     )]
     NotNearest {
         /// Iterations of forward statics taken.
         iterations: usize,
         /// Relative length by which the pose could come nearer along the equilibria, to first order.
         residual: f64,
-        /// What it has to be below.
+        /// Limit of this length.
         limit: f64,
         /// Position reached [m].
         x: f64,
@@ -227,18 +234,18 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
-    /// The tensions of a robot with more cables than degrees of freedom do not come to rest.
+    /// The tensions of a redundantly constrained robot did not converge.
     #[error(
-        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual is \
-         {residual:.3e}; raise the least tensions (`minimum_tension_n` in the robot file)",
+        "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual \
+         is {residual:.3e}; raise the minimum tensions (`minimum_tension_n` in the robot file)",
         unrest(*change, *limit)
     )]
     TensionsNotConverged {
         /// Iterations taken.
         iterations: usize,
-        /// Change of the tensions in the last step, over their size; infinite if no step could be made.
+        /// Change of the tensions in the last step, over their size; infinite if no step was possible.
         change: f64,
-        /// Change asked.
+        /// Limit of this change.
         limit: f64,
         /// Scaled residual reached.
         residual: f64,
@@ -252,16 +259,16 @@ pub enum StaticsError {
     /// The loads are so small that rounding of the cables' elastic forces hides them.
     #[error(
         "no equilibrium found in {iterations} iterations: the loads are too small for cables as stiff as these, whose \
-         elastic forces are rounded by up to {rounding:.1e} N in all; at position ({x:.4}, {y:.4}, {z:.4}) m that leaves \
-         a scaled residual of {residual:.1e} (limit {limit:.0e}); give the platform more mass or load, the cables less \
-         stiffness, or no load at all"
+         elastic forces are rounded by up to {rounding:.1e} N in all; at position ({x:.4}, {y:.4}, {z:.4}) m that \
+         leaves a scaled residual of {residual:.1e} (limit {limit:.0e}); give the platform more mass or load, the \
+         cables less stiffness, or no load at all"
     )]
     LostInRounding {
         /// Iterations taken.
         iterations: usize,
         /// Scaled residual reached.
         residual: f64,
-        /// Scaled residual asked.
+        /// Limit of the scaled residual.
         limit: f64,
         /// Force that rounding may leave [N].
         rounding: f64,
@@ -274,7 +281,8 @@ pub enum StaticsError {
     },
     /// The search did not reach the tolerance.
     #[error(
-        "no equilibrium found in {iterations} iterations: {} (limit {limit:.0e}) at position ({x:.4}, {y:.4}, {z:.4}) m",
+        "no equilibrium found in {iterations} iterations: {} (limit {limit:.0e}) at position \
+         ({x:.4}, {y:.4}, {z:.4}) m",
         remainder(*residual)
     )]
     NotConverged {
@@ -282,7 +290,7 @@ pub enum StaticsError {
         iterations: usize,
         /// Scaled residual reached.
         residual: f64,
-        /// Scaled residual asked.
+        /// Limit of the scaled residual.
         limit: f64,
         /// Position reached [m].
         x: f64,
@@ -294,7 +302,7 @@ pub enum StaticsError {
 }
 
 impl StaticsError {
-    /// A short name that does not change, for columns of tables.
+    /// Short name that does not change between versions, for columns of tables.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NoState => "no-state",
@@ -310,8 +318,8 @@ impl StaticsError {
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NeedsMaximum { .. } => "needs-maximum",
-            Self::WantedCount { .. } => "wanted-count",
-            Self::Wanted { .. } => "wanted",
+            Self::TargetCount { .. } => "wanted-count",
+            Self::TargetTension { .. } => "wanted",
             Self::StiffestNeedsElastic => "nothing-to-stiffen",
             Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::NeedsElasticCables => "one-ideal",
@@ -322,7 +330,7 @@ impl StaticsError {
         }
     }
 
-    /// Whether nothing is wrong with what was asked: the robot has no such equilibrium, or none was found.
+    /// True if the input is valid, but the robot has no such equilibrium, or none was found.
     pub fn is_no_solution(&self) -> bool {
         matches!(
             self,
@@ -340,14 +348,14 @@ impl StaticsError {
     }
 }
 
-fn searched(starts: usize, residual: f64, greatest: Option<f64>) -> String {
+fn searched(starts: usize, residual: f64, max_tension: Option<f64>) -> String {
     if starts == 0 {
-        return format!("one of them would have to be more than {LONGEST} times as long as its chord");
+        return format!("one of them would have to be more than {MAX_LENGTH_RATIO} times as long as its chord");
     }
     let starts = crate::counted(starts, "start");
-    greatest.map_or_else(
+    max_tension.map_or_else(
         || format!("a search from {starts} left a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e})"),
-        |greatest| format!("a search from {starts} found only tensions up to {greatest:.3e} N, out of all proportion"),
+        |max_tension| format!("a search from {starts} found only excessive tensions, up to {max_tension:.3e} N"),
     )
 }
 
@@ -355,7 +363,7 @@ fn unrest(change: f64, limit: f64) -> String {
     if change.is_finite() {
         format!("a step still changes them by {change:.3e} of their size (limit {limit:.0e})")
     } else {
-        "from those that were reached there is no step within the limits".to_owned()
+        "no step from the tensions reached stays within the limits".to_owned()
     }
 }
 

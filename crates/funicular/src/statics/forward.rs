@@ -1,4 +1,4 @@
-//! Unstrained lengths to pose.
+//! Forward statics: unstrained lengths to pose.
 
 use super::collect::collect;
 use super::equilibrium::{Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT};
@@ -14,21 +14,22 @@ use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
 use std::ops::ControlFlow;
 
-/// Limit of iterations. Robots of the library take 4 to 12; random ones whose platform slides down a narrow valley of
-/// stiff ropes, some of them slack, up to 450.
+/// Maximum number of iterations. Robots of the library take 4 to 12. Random robots whose platform slides down a narrow
+/// valley of stiff ropes, some of them slack, take up to 450.
 const MAX_ITERATIONS: usize = 5000;
 
-/// The pose in which the platform rests for given unstrained lengths [m], one a cable in file order.
+/// Equilibrium for given unstrained lengths [m], one per cable in file order.
 ///
-/// `spring` and `catenary`: minimises the potential energy of cables and platform by Newton's method with shifted
-/// stiffness, so that what it finds is a stable equilibrium wherever there is one near, or an indifferent one; any number
-/// of cables. `ideal`: closes the lengths, as many cables as degrees of freedom, all of which have to pull. `start`: where to begin; without it
-/// the pose that straight cables of these lengths come closest to.
+/// `spring` and `catenary`, any number of cables: minimises the potential energy of cables and platform by Newton's
+/// method with shifted stiffness. So it finds a stable equilibrium if there is one near, or an indifferent one.
+/// `ideal`, as many cables as degrees of freedom: closes the lengths; all tensions have to be positive. `start` is the
+/// start pose; without it the search begins at the pose at which straight cables of these lengths come closest to
+/// closing.
 ///
 /// # Errors
-/// [`StaticsError`]: lengths that do not fit the robot, ideal cables that are not as many as degrees of freedom or one of which
-/// would have to push, a start out of a planar platform's plane, no equilibrium within [`RESIDUAL_LIMIT`], or, where
-/// rounding of stiff cables leaves more, none within [`MAX_RESIDUAL_OF_ROUNDING`].
+/// [`StaticsError`]: lengths that do not fit the robot; ideal cables whose number differs from the degrees of freedom
+/// or that would need negative tension; a start out of a planar platform's plane; no equilibrium within
+/// [`RESIDUAL_LIMIT`], or, where rounding of stiff cables leaves more, within [`MAX_RESIDUAL_OF_ROUNDING`].
 ///
 /// # Example
 /// ```
@@ -56,45 +57,45 @@ pub fn forward(
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     match model {
         StaticModel::Ideal => ideal::forward(robot, lengths, pose),
-        StaticModel::Spring | StaticModel::Catenary => elastic(robot, lengths, model, pose),
+        StaticModel::Spring | StaticModel::Catenary => descend_to_equilibrium(robot, lengths, model, pose),
     }
 }
 
-/// Everything the search needs to know about one pose.
-pub(super) struct Trial {
+/// State of the search at one pose.
+pub(super) struct TrialPose {
     pub(super) pose: Pose,
     pub(super) cables: Vec<HangingCable>,
     /// Wrench on the platform in its coordinates, scaled.
     pub(super) wrench: Vec6,
     pub(super) residual: f64,
-    /// [`RESIDUAL_LIMIT`], or what rounding of the pose leaves in very stiff cables under very small loads: below it the
-    /// search cannot come nearer. Whether the place is an equilibrium, [`Search::holds`] says.
+    /// [`RESIDUAL_LIMIT`], or the residual left by rounding of the pose for very stiff cables under very small loads:
+    /// the search cannot get below it. [`EnergySearch::is_equilibrium`] decides whether the pose is an equilibrium.
     pub(super) limit: f64,
     pub(super) energy: f64,
 }
 
-/// The robot with its lengths: energy, wrench and stiffness at any pose.
-pub(super) struct Search<'a> {
+/// Robot with its lengths: energy, wrench and stiffness at any pose.
+pub(super) struct EnergySearch<'a> {
     robot: &'a Robot,
     lengths: &'a [f64],
-    /// The cables; the drag of the wind is that of one pose, so that all loads have a potential.
+    /// Cables with their loads; the drag of the wind is that of one pose, so that all loads have a potential.
     loaded: Vec<LoadedCable<'a>>,
-    /// Force that rounding of chords leaves [N].
+    /// Force left by rounding of the chords [N].
     rounding: f64,
     pub(super) coordinates: Coordinates,
-    /// The platform may turn; else its orientation is held.
+    /// True if the platform may turn; otherwise its orientation is held.
     pub(super) turns: bool,
 }
 
-impl<'a> Search<'a> {
-    /// With the drag that the cables have at `pose`.
+impl<'a> EnergySearch<'a> {
+    /// Search with the drag that the cables have at `pose`.
     pub(super) fn new(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, pose: &Pose) -> Self {
         let loaded = LoadedCable::all(robot, pose, model);
         let (coordinates, rounding) = (Coordinates::of(robot), elastic_rounding(robot));
         Self { robot, lengths, loaded, rounding, coordinates, turns: true }
     }
 
-    pub(super) fn at(&self, pose: Pose) -> Trial {
+    pub(super) fn at(&self, pose: Pose) -> TrialPose {
         let cables: Vec<HangingCable> =
             self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length)).collect();
         let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
@@ -104,24 +105,24 @@ impl<'a> Search<'a> {
         let residual = scaled_residual(&self.coordinates, &wrench, force_scale);
         let limit = if force_scale > 0.0 { RESIDUAL_LIMIT.max(self.rounding / force_scale) } else { RESIDUAL_LIMIT };
         let wrench = self.coordinates.reduce(&wrench);
-        Trial { pose, cables, wrench, residual, limit, energy }
+        TrialPose { pose, cables, wrench, residual, limit, energy }
     }
 
-    /// Whether the platform is in equilibrium there: to [`RESIDUAL_LIMIT`]; or as well as rounding allows, if that is
-    /// [`MAX_RESIDUAL_OF_ROUNDING`] at least, or if nothing is there to be balanced.
-    pub(super) fn holds(&self, trial: &Trial) -> bool {
+    /// True if the platform is in equilibrium: to [`RESIDUAL_LIMIT`]; or as well as rounding allows, if that is below
+    /// [`MAX_RESIDUAL_OF_ROUNDING`] or there is nothing to balance.
+    pub(super) fn is_equilibrium(&self, trial: &TrialPose) -> bool {
         trial.residual <= trial.limit.min(MAX_RESIDUAL_OF_ROUNDING)
-            || (self.carries_nothing(trial) && trial.residual <= trial.limit)
+            || (self.is_unloaded(trial) && trial.residual <= trial.limit)
     }
 
-    /// Nothing acts on the platform and its cables, and all tensions together are rounding.
-    fn carries_nothing(&self, trial: &Trial) -> bool {
+    /// True if no load acts on the platform and its cables, and all tensions together are rounding.
+    fn is_unloaded(&self, trial: &TrialPose) -> bool {
         trial.limit >= 1.0 && load_size(self.robot) == 0.0 && self.loaded.iter().all(|cable| cable.load.size == 0.0)
     }
 
-    /// The equilibrium at a place that [holds](Self::holds).
-    pub(super) fn collected(&self, trial: Trial, model: StaticModel, iterations: usize) -> Equilibrium {
-        let nothing = self.carries_nothing(&trial);
+    /// Equilibrium at a pose that [is an equilibrium](Self::is_equilibrium).
+    pub(super) fn collected(&self, trial: TrialPose, model: StaticModel, iterations: usize) -> Equilibrium {
+        let nothing = self.is_unloaded(&trial);
         let mut equilibrium = collect(self.robot, trial.pose, model, trial.cables, self.lengths, iterations);
         if nothing {
             equilibrium.residual = 0.0;
@@ -129,8 +130,8 @@ impl<'a> Search<'a> {
         equilibrium
     }
 
-    /// Why a place is no equilibrium.
-    fn refused(&self, trial: &Trial, iterations: usize) -> StaticsError {
+    /// Error for a pose that is not an equilibrium.
+    fn refused(&self, trial: &TrialPose, iterations: usize) -> StaticsError {
         let (p, residual) = (trial.pose.position_w, trial.residual);
         if trial.limit > MAX_RESIDUAL_OF_ROUNDING {
             let (rounding, limit) = (self.rounding, MAX_RESIDUAL_OF_ROUNDING);
@@ -141,7 +142,7 @@ impl<'a> Search<'a> {
     }
 
     /// Symmetric part of the tangent stiffness in the platform's coordinates, scaled; a unit diagonal beyond them.
-    pub(super) fn stiffness(&self, trial: &Trial) -> Mat6 {
+    pub(super) fn stiffness(&self, trial: &TrialPose) -> Mat6 {
         let parts =
             trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
@@ -155,42 +156,43 @@ impl<'a> Search<'a> {
         total
     }
 
-    /// Work of the load's moment along a step; a moment that stays fixed in the world has no energy.
+    /// Work of the load's moment along a step; a moment that is fixed in the world has no energy.
     fn work(&self, step: &Vec6) -> f64 {
         let step = self.coordinates.expand(step);
         self.robot.load.moment_w.dot(&step.fixed_rows::<3>(3)) / self.coordinates.ell()
     }
 }
 
-/// Scaled residual at which a search ends at once. Rounding leaves 1e-15 to 1e-12: where it leaves more than this, the
-/// search ends when no step betters the residual.
-pub(super) const AT_REST: f64 = 1e-13;
+/// Scaled residual at which a search ends at once. Rounding leaves 1e-15 to 1e-12; if it leaves more than this value,
+/// the search ends when no step reduces the residual.
+pub(super) const CONVERGED: f64 = 1e-13;
 
-/// Part of the residual of the round before above which a round counts as no gain, once the residual is below its limit.
-/// Near 1 rounds would go on that are better by rounding alone; far below, rounds that gain slowly would be the last.
+/// Ratio to the previous round's residual above which a round counts as no gain, once the residual is below its limit.
+/// Near 1, rounds that improve by rounding only would go on; far below, rounds that gain slowly would be the last.
 const STALLED_ROUND: f64 = 0.5;
 
-/// Limit of rounds in which the drag of the wind follows the cables; each gains a factor, see theory, section 15.
+/// Maximum number of rounds in which the drag of the wind follows the cables; each round gains a factor, see theory,
+/// section 15.
 const MAX_ROUNDS: usize = 100;
 
-/// The stable equilibrium that elastic cables come to from a start.
-pub(super) fn elastic(
+/// Stable equilibrium that elastic cables reach from a start.
+pub(super) fn descend_to_equilibrium(
     robot: &Robot,
     lengths: &[f64],
     model: StaticModel,
     start: Pose,
 ) -> Result<Equilibrium, StaticsError> {
-    let mut search = Search::new(robot, lengths, model, &start);
+    let mut search = EnergySearch::new(robot, lengths, model, &start);
     let (mut here, mut iterations) = search.minimise(start);
 
     if robot.wind_turns_with_cables() {
-        // At rest under the drag of one pose, the platform meets that of another; the two draw near, each round by the
-        // part that the drag's turn is of the stiffness.
+        // Each equilibrium is found with the drag of the previous pose. Pose and drag converge: each round reduces the
+        // difference by the ratio of the drag's turn to the stiffness.
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
-            search = Search::new(robot, lengths, model, &here.pose);
+            search = EnergySearch::new(robot, lengths, model, &here.pose);
             here = search.at(here.pose);
-            if here.residual < AT_REST || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
+            if here.residual < CONVERGED || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
                 break;
             }
             last = here.residual;
@@ -200,35 +202,36 @@ pub(super) fn elastic(
         }
     }
 
-    if !search.holds(&here) {
+    if !search.is_equilibrium(&here) {
         return Err(search.refused(&here, iterations));
     }
     Ok(search.collected(here, model, iterations))
 }
 
-/// Part of the mean unstrained length that the platform may move by in one step, …
+/// Maximum translation per step as a fraction of the mean unstrained length, …
 const REACH: f64 = 0.2;
 
-/// … and of the mean distance to the anchors, where the platform is so far from them that it is more: with steps of the
-/// lengths alone, a platform of kilometres on cables of metres took hundreds of them to come to rest. Cables have to be
-/// twice as long as unstrained for it, so that it changes no search of a robot near its place.
+/// … and of the mean distance to the anchors, which counts if the platform is so far away that it gives more. With
+/// steps limited by the lengths alone, a platform kilometres away on cables of metres took hundreds of steps. This
+/// limit counts only if the mean distance is above twice the mean unstrained length, so it changes no search of a robot
+/// near its equilibrium.
 const FAR_REACH: f64 = 0.1;
 
-/// Angle that the platform may turn by in one step [rad]. Large turns are taken in several: at a whole radian a rotation
-/// differs from its first order by half of itself.
+/// Maximum rotation per step [rad]; larger turns are made in several steps. At one radian a rotation differs from its
+/// first order by half of itself.
 const MAX_TURN: f64 = 0.5;
 
-/// Part of the work expected of a step, to first order, that the energy has to fall by (Armijo's condition). Of a quadratic
-/// energy a full step of Newton's method gains one half, a step at the edge of divergence nothing.
+/// Minimum decrease of the energy as a fraction of the work expected to first order (Armijo's condition). For a
+/// quadratic energy a full Newton step gains one half, a step at the edge of divergence nothing.
 const ARMIJO: f64 = 1e-4;
 
-/// Saddles that one search leaves; each time the energy falls, so that none is met twice.
+/// Maximum number of saddles that one search leaves; the energy falls each time, so none is met twice.
 const MAX_ESCAPES: usize = 3;
 
-impl Search<'_> {
-    /// A step from a place cut to what may be taken at once, and how many times that it was: half a radian, a fifth of
-    /// the mean cable or a tenth of the mean distance.
-    pub(super) fn limited(&self, from: &Trial, step: &Vec6) -> (Vec6, f64) {
+impl EnergySearch<'_> {
+    /// Step limited to the maximum step, and the factor by which it exceeded it: half a radian, a fifth of the mean
+    /// cable or a tenth of the mean distance.
+    pub(super) fn limited(&self, from: &TrialPose, step: &Vec6) -> (Vec6, f64) {
         let lengths: f64 = self.lengths.iter().sum();
         let chords: f64 = from.cables.iter().map(|cable| cable.chord_w().norm()).sum();
         let reach = (REACH * lengths).max(FAR_REACH * chords) / self.lengths.len() as f64;
@@ -238,14 +241,15 @@ impl Search<'_> {
         (if length > 1.0 { step / length } else { *step }, length)
     }
 
-    /// Where the energy is least, from a start downhill; and the iterations taken. Where none was found, what was reached.
-    pub(super) fn minimise(&self, start: Pose) -> (Trial, usize) {
+    /// Minimum of the energy downhill from a start, and the number of iterations. If no minimum was found: the last
+    /// pose.
+    pub(super) fn minimise(&self, start: Pose) -> (TrialPose, usize) {
         let (here, iterations, _) = self.descend(start);
         (here, iterations)
     }
 
-    /// Newton's method with a shifted stiffness from a start: the last place, the iterations taken, and why it ended.
-    fn descend(&self, start: Pose) -> (Trial, usize, Exit) {
+    /// Newton's method with a shifted stiffness from a start: last pose, number of iterations, and reason of the end.
+    fn descend(&self, start: Pose) -> (TrialPose, usize, Exit) {
         let mut descent = Descent::new(self, start);
         for iterations in 1..=MAX_ITERATIONS {
             if let ControlFlow::Break(exit) = descent.iterate() {
@@ -256,103 +260,105 @@ impl Search<'_> {
     }
 }
 
-/// Why a descent ended.
+/// Reason why a descent ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Exit {
-    /// The residual is below [`AT_REST`].
-    AtRest,
-    /// The residual is below its limit, and rounding lets no step better it.
-    AsFarAsRounding,
-    /// No shift within the tries makes the stiffness positive definite: its entries are not finite.
+    /// The residual is below [`CONVERGED`].
+    Converged,
+    /// The residual is below its limit, and rounding lets no step reduce it.
+    AtRounding,
+    /// No shift within the limit of tries makes the stiffness positive definite: its entries are not finite.
     NeverDefinite,
-    /// No step gains, however short.
+    /// No step gains, even a very short one.
     NoGain,
-    /// [`MAX_ITERATIONS`].
+    /// [`MAX_ITERATIONS`] reached.
     TooManyIterations,
 }
 
-/// What became of the last step.
+/// Outcome of the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum LastStep {
-    /// It was taken, or there was none.
+    /// It was taken, or there was no step yet.
     Taken,
-    /// It was no gain; the next one is from the same place with a larger shift.
+    /// It was no gain; the next step starts from the same pose with a larger shift.
     Refused,
-    /// It was no gain where the residual is below its limit: nothing better is to be had.
+    /// It was no gain with the residual below its limit: rounding allows nothing better.
     DrownedInRounding,
 }
 
-/// Smallest diagonal of the stiffness that shifts are measured by, over that of all cables pulling in one direction. It
-/// counts where all cables are slack, whose stiffness is their weight: 1e-5 and more would be stiffer than slack ropes
-/// are, and shorten their steps; zero would leave shifts without a measure.
+/// Minimum reference diagonal of the stiffness for the shifts, over the stiffness of all cables pulling in one
+/// direction. It counts if all cables are slack and their stiffness comes from their weight. 1e-5 and more would be
+/// stiffer than slack ropes and shorten their steps; zero would leave the shifts without a reference.
 const MIN_DIAGONAL: f64 = 1e-9;
 
-/// Part of the residual that a step has to leave behind at most to be taken for it alone. Nearer to 1, rounding passes for
-/// progress; far below, the last steps of a search in a narrow valley are refused.
-const QUIETER: f64 = 0.9;
+/// Maximum ratio of the residual after a step to that before, for a step that is taken for its residual alone. Nearer
+/// to 1, rounding counts as progress; far below, the last steps of a search in a narrow valley are refused.
+const MAX_RESIDUAL_RATIO: f64 = 0.9;
 
 /// Residual below which a step may be taken for its residual alone. The energy has some 14 digits and falls with the
-/// square of the residual, so that it decides nothing below 1e-7; above 1e-4 it does, and residuals would lead to saddles.
+/// square of the residual, so it decides nothing below 1e-7. Above 1e-4 it decides, and residuals would lead to
+/// saddles.
 const ENERGY_DROWNS: f64 = 1e-4;
 
-/// Factors of the shift after a step that was taken at full length, and after one that needed a larger shift before:
-/// Newton's own convergence needs the shift gone within a few steps, and in a narrow valley (stiff ropes, a light
-/// platform, slack cables) the shift that has just been found necessary still is. At 1 the end would be linear, at 0
-/// every second step in a valley would be refused.
+/// Factors of the shift after a step taken at full length, and after a step that needed a larger shift before. Newton's
+/// convergence needs the shift gone within a few steps; but in a narrow valley (stiff ropes, a light platform, slack
+/// cables) a shift that has just been necessary still is. With 1 the final convergence would be linear; with 0 every
+/// second step in a valley would be refused.
 const SHIFT_AFTER_STEP: f64 = 0.1;
 const SHIFT_AFTER_REFUSAL: f64 = 0.5;
 
 /// Factors of the shift after the first refused step, and after each further one. Below 2 a search spends its time on
-/// refusals; beyond 10 it takes far shorter steps than it could.
+/// refused steps; above 10 its steps are far shorter than necessary.
 const SHIFT_AT_FIRST_REFUSAL: f64 = 3.0;
 const SHIFT_AT_FURTHER_REFUSALS: f64 = 10.0;
 
-/// Shifts over the stiffness: the first one, below which a shift is none, and the last one. The first has to be above
-/// rounding (1e-16 times the condition of the stiffness) and far below the stiffness. The step at the last one is a
-/// billionth of the wrench over the stiffness, which no pose in double precision tells from standing still for long.
+/// Shifts relative to the stiffness: the first one, the value below which a shift counts as zero, and the last one. The
+/// first has to be above rounding (1e-16 times the condition number of the stiffness) and far below the stiffness. With
+/// the last one a step is a billionth of the wrench over the stiffness, which hardly changes a pose in double
+/// precision.
 const FIRST_SHIFT: f64 = 1e-6;
 const NO_SHIFT: f64 = 1e-12;
 const MAX_SHIFT: f64 = 1e9;
 
-/// A search on its way downhill.
+/// State of a descent.
 struct Descent<'a, 's> {
-    search: &'a Search<'s>,
-    here: Trial,
-    /// What is added to the diagonal of the stiffness [N/m].
+    search: &'a EnergySearch<'s>,
+    here: TrialPose,
+    /// Shift added to the diagonal of the stiffness [N/m].
     shift: f64,
     last: LastStep,
-    /// Saddles left so far.
+    /// Number of saddles left so far.
     escapes: usize,
     /// [`MIN_DIAGONAL`] in [N/m].
     min_diagonal: f64,
 }
 
 impl<'a, 's> Descent<'a, 's> {
-    fn new(search: &'a Search<'s>, start: Pose) -> Self {
+    fn new(search: &'a EnergySearch<'s>, start: Pose) -> Self {
         let stiffest: f64 = search.loaded.iter().map(LoadedCable::axial_stiffness).sum();
         let min_diagonal = MIN_DIAGONAL * stiffest / search.lengths.iter().copied().fold(0.0, f64::max);
         let here = search.at(start);
         Self { search, here, shift: 0.0, last: LastStep::Taken, escapes: 0, min_diagonal }
     }
 
-    /// One step, taken or refused; or the end.
+    /// One step, taken or refused; or the end of the descent.
     fn iterate(&mut self) -> ControlFlow<Exit> {
         let stiffness = self.search.stiffness(&self.here);
         let near = self.here.residual < self.here.limit;
         if near {
-            // The last digits are those of Newton's method alone.
+            // The last digits come from Newton's method without shift.
             self.shift = 0.0;
         }
 
-        // The end, unless the place is a saddle.
-        if self.here.residual < AT_REST {
-            return self.leave_saddle(&stiffness, Exit::AtRest);
+        // End, unless the pose is a saddle.
+        if self.here.residual < CONVERGED {
+            return self.leave_saddle(&stiffness, Exit::Converged);
         }
         if near && self.last == LastStep::DrownedInRounding {
-            return self.leave_saddle(&stiffness, Exit::AsFarAsRounding);
+            return self.leave_saddle(&stiffness, Exit::AtRounding);
         }
 
-        // The step. Where all cables are slack there is no stiffness to compare with.
+        // Compute the step. If all cables are slack there is no stiffness to compare with.
         let diagonal = stiffness.diagonal().amax().max(self.min_diagonal);
         let Some(step) = shifted_step(&stiffness, &self.here.wrench, &mut self.shift, diagonal) else {
             return ControlFlow::Break(Exit::NeverDefinite);
@@ -360,7 +366,7 @@ impl<'a, 's> Descent<'a, 's> {
         let (step, length) = self.search.limited(&self.here, &step);
         let next = self.search.at(self.search.coordinates.moved(&self.here.pose, &step));
 
-        // Taken, or tried again with a larger shift.
+        // Take it, or try again with a larger shift.
         if self.is_gain(&step, &next) {
             self.take(next, length, diagonal);
         } else if near {
@@ -371,8 +377,8 @@ impl<'a, 's> Descent<'a, 's> {
         ControlFlow::Continue(())
     }
 
-    /// Goes on from a place of lower energy if the platform rests on a saddle, along its weakest direction, in which the
-    /// energy falls both ways; else ends.
+    /// Leaves a saddle: continues from a pose of lower energy along its weakest direction, in which the energy falls
+    /// both ways. Ends if the pose is not a saddle.
     fn leave_saddle(&mut self, stiffness: &Mat6, exit: Exit) -> ControlFlow<Exit> {
         if self.escapes < MAX_ESCAPES
             && symmetric::negative_eigenvalues(stiffness, self.search.coordinates.count()) > 0
@@ -385,16 +391,17 @@ impl<'a, 's> Descent<'a, 's> {
         ControlFlow::Break(exit)
     }
 
-    /// Whether a step lowers the energy enough, or, where the energy drowns in rounding, the residual.
-    fn is_gain(&self, step: &Vec6, next: &Trial) -> bool {
+    /// True if a step lowers the energy enough, or, where the energy drowns in rounding, the residual.
+    fn is_gain(&self, step: &Vec6, next: &TrialPose) -> bool {
         let expected = step.dot(&self.here.wrench);
         let lower = next.energy - self.search.work(step) < self.here.energy - ARMIJO * expected;
-        let quieter = next.residual < QUIETER * self.here.residual && self.here.residual < ENERGY_DROWNS;
-        next.residual.is_finite() && (lower || quieter)
+        let smaller_residual =
+            next.residual < MAX_RESIDUAL_RATIO * self.here.residual && self.here.residual < ENERGY_DROWNS;
+        next.residual.is_finite() && (lower || smaller_residual)
     }
 
-    /// Takes a step that was cut `length` times if that is more than 1.
-    fn take(&mut self, next: Trial, length: f64, diagonal: f64) {
+    /// Takes a step that was shortened by the factor `length` if that is above 1.
+    fn take(&mut self, next: TrialPose, length: f64, diagonal: f64) {
         if length <= 1.0 {
             let refused = self.last == LastStep::Refused;
             self.shift *= if refused { SHIFT_AFTER_REFUSAL } else { SHIFT_AFTER_STEP };
@@ -415,18 +422,18 @@ impl<'a, 's> Descent<'a, 's> {
     }
 }
 
-/// Limit of tries for a shift. Those of [`SHIFT_GROWTH`] pass from the first shift to more than 1e30 times the stiffness:
-/// only entries that are not finite need more.
+/// Maximum number of tries for a shift. With [`SHIFT_GROWTH`] they reach from the first shift to more than 1e30 times
+/// the stiffness: only entries that are not finite need more.
 const MAX_SHIFT_TRIES: usize = 60;
 
-/// Factor from one try for a shift to the next. Below 2 tries cost more than the step; a factor of 100 would shorten
-/// steps for nothing.
+/// Factor from one try for a shift to the next. Below 2 the tries cost more than the step; a factor of 100 would
+/// shorten steps unnecessarily.
 const SHIFT_GROWTH: f64 = 4.0;
 
-/// Smallest shift [N/m], for a platform that nothing holds.
+/// Minimum shift [N/m], for a platform that nothing holds.
 const MIN_SHIFT: f64 = 1e-12;
 
-/// Solves `(K + shift) step = wrench` with the least shift that makes the matrix positive definite.
+/// Solves `(K + shift) step = wrench` with the smallest of the tried shifts that makes the matrix positive definite.
 fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64) -> Option<Vec6> {
     for _ in 0..MAX_SHIFT_TRIES {
         if let Some(factor) = (stiffness + Mat6::identity() * *shift).cholesky() {
@@ -437,16 +444,17 @@ fn shifted_step(stiffness: &Mat6, wrench: &Vec6, shift: &mut f64, diagonal: f64)
     None
 }
 
-/// Part of the largest eigenvalue of the stiffness that a negative one has to exceed to be more than rounding. Rounding of
-/// the stiffness leaves some 1e-14; a saddle within 1e-10 is left so slowly that it counts as indifferent.
+/// Minimum magnitude of a negative eigenvalue of the stiffness, relative to the largest one, above which it is more
+/// than rounding. Rounding of the stiffness leaves some 1e-14; a saddle within 1e-10 is left so slowly that it counts
+/// as indifferent.
 const NOISE: f64 = 1e-10;
 
-/// Distances that a saddle is left by, in parts of ℓ and radians, both ways. Nearer than 0.01 the energy hardly falls; at
-/// more than 0.3 the platform may come down in another valley.
+/// Steps by which a saddle is left in both directions, in units of ℓ and radians. Nearer than 0.01 the energy hardly
+/// falls; beyond 0.3 the platform may reach another valley.
 const ESCAPES: [f64; 6] = [0.3, -0.3, 0.1, -0.1, 0.01, -0.01];
 
-/// A point of lower energy beside a saddle, on the side and at the distance that lowers it most.
-fn descend_from_saddle(search: &Search<'_>, here: &Trial, stiffness: &Mat6) -> Option<Trial> {
+/// Pose of lower energy near a saddle, on the side and at the distance with the lowest energy.
+fn descend_from_saddle(search: &EnergySearch<'_>, here: &TrialPose, stiffness: &Mat6) -> Option<TrialPose> {
     let (values, vectors) = symmetric::eigen(stiffness, search.coordinates.count());
     let noise = NOISE * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values[0] > -noise {
@@ -473,16 +481,16 @@ mod tests {
         Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
     }
 
-    /// The exit of a descent, and what rounding leaves.
-    fn descent(robot: &Robot, start: Pose) -> (Trial, usize, Exit) {
-        Search::new(robot, &LENGTHS, StaticModel::Catenary, &start).descend(start)
+    /// Result of a descent.
+    fn descent(robot: &Robot, start: Pose) -> (TrialPose, usize, Exit) {
+        EnergySearch::new(robot, &LENGTHS, StaticModel::Catenary, &start).descend(start)
     }
 
     #[test]
     fn a_usual_search_ends_at_rest_or_at_rounding_within_a_few_iterations() {
         let robot = robot();
         let (here, iterations, exit) = descent(&robot, initial_pose::pose_from_lengths(&robot, &LENGTHS));
-        assert!(matches!(exit, Exit::AtRest | Exit::AsFarAsRounding), "{exit:?}");
+        assert!(matches!(exit, Exit::Converged | Exit::AtRounding), "{exit:?}");
         assert!(here.residual < here.limit && iterations < 20, "{} after {iterations}", here.residual);
     }
 
@@ -491,7 +499,7 @@ mod tests {
         let robot = robot();
         let (first, ..) = descent(&robot, initial_pose::pose_from_lengths(&robot, &LENGTHS));
         let (second, iterations, exit) = descent(&robot, first.pose);
-        assert!(matches!(exit, Exit::AtRest | Exit::AsFarAsRounding), "{exit:?}");
+        assert!(matches!(exit, Exit::Converged | Exit::AtRounding), "{exit:?}");
         assert!(iterations <= 3 && second.residual <= first.residual, "{iterations}");
     }
 

@@ -8,24 +8,25 @@ use crate::math::{Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench};
 use crate::robot::{Pose, Robot};
 
-/// Gap of the worst cable over the longest one at which the lengths are closed, rounding being 1e-16 a cable; and up to
-/// which they count as closed where rounding leaves more, beside singular poses.
+/// Largest gap over the longest length at which the lengths are closed, rounding being 1e-16 per cable; and the value
+/// that still counts as closed where rounding leaves more, near singular poses.
 const CLOSED: f64 = 1e-14;
 const NEARLY_CLOSED: f64 = 1e-10;
 
-/// Limit of steps, a guard: a way that leads nowhere ends by [`MIN_FRACTION`].
+/// Maximum number of steps, a guard: a search that does not converge ends by [`MIN_FRACTION`].
 const MAX_ITERATIONS: usize = 100;
 
-/// Least fraction of Newton's step: one that is cut to it without gain has come to a place of least gaps.
+/// Minimum fraction of Newton's step: if a step cut to this fraction does not reduce the gap, the search has reached a
+/// local minimum of the gap.
 const MIN_FRACTION: f64 = 1e-6;
 
-/// Bound of the condition of the balance below which singular values need not be looked at, and the least singular value
-/// over the largest below which a pose is singular. There ten of the tensions' sixteen
+/// Bound of the balance's condition number below which singular values need not be computed; and the ratio of the
+/// smallest to the largest singular value below which a pose is singular. At this ratio ten of the tensions' sixteen
 /// digits are lost; a limit nearer to 1 would refuse poses that are merely badly conditioned.
 const MAX_BOUND: f64 = 1e9;
 const SINGULAR: f64 = 1e-10;
 
-/// Straight cables of fixed length: closure first, then the tensions from the wrench balance.
+/// Forward statics of ideal cables: first the closure of the lengths, then the tensions from the wrench balance.
 pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equilibrium, StaticsError> {
     let coordinates = Coordinates::of(robot);
     let mut pose = start;
@@ -38,7 +39,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
             .fold(0.0_f64, |worst, (cable, length)| worst.max((cable.straight_length(pose) - length).abs()))
     };
 
-    // Poses at which the cables have their lengths.
+    // Find the pose at which the cables have their lengths.
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let mut gap = gap_of(&pose);
     while gap > CLOSED * longest && iterations < MAX_ITERATIONS {
@@ -78,28 +79,29 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
 
-    // Tensions there.
+    // Tensions at this pose.
     let tensions = straight_tensions(robot, &pose, &load_wrench(robot, &pose))?;
-    if let Some((i, tension)) = pushing(&tensions) {
+    if let Some((i, tension)) = most_negative(&tensions) {
         let (cable, p) = (robot.cables[i].name.clone(), pose.position_w);
         return Err(StaticsError::LengthsPush { cable, tension, x: p.x, y: p.y, z: p.z });
     }
     Ok(collect(robot, pose, &tensions, iterations))
 }
 
-/// Part of the largest tension that is rounding of the balance: of a cable with a tension of zero it has the wrong sign
-/// as often as not. The condition of the balance, which is up to 1e10, may take more; then the pose is nearly singular.
+/// Rounding of a tension relative to the largest one: a cable with zero tension gets the wrong sign in about half of
+/// all cases. The condition number of the balance, which is up to 1e10, may cause more; then the pose is nearly
+/// singular.
 const ZERO_TENSION: f64 = 1e-12;
 
-/// The straight cable that would have to push hardest, and its tension [N], if there is one.
-pub(super) fn pushing(tensions: &[f64]) -> Option<(usize, f64)> {
+/// Straight cable with the most negative tension, and this tension [N], if one is negative beyond rounding.
+pub(super) fn most_negative(tensions: &[f64]) -> Option<(usize, f64)> {
     let largest = tensions.iter().fold(0.0, |most: f64, tension| most.max(tension.abs()));
     let least = tensions.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
     least.filter(|(_, tension)| *tension < -ZERO_TENSION * largest)
 }
 
-/// Unit tension wrenches (e, r × e/ℓ) of straight cables in the platform's coordinates as columns; the identity beyond
-/// them.
+/// Wrenches (e, r × e/ℓ) of unit tensions of straight cables in the platform's coordinates, as columns; columns of the
+/// identity beyond them.
 fn unit_wrenches(robot: &Robot, pose: &Pose, coordinates: &Coordinates) -> Mat6 {
     let mut columns = Mat6::identity();
     for (i, cable) in robot.cables.iter().enumerate().take(6) {
@@ -115,11 +117,13 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
     }
+
     let coordinates = Coordinates::of(robot);
     let right = -coordinates.reduce(load);
     let columns = unit_wrenches(robot, pose, &coordinates);
     let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
-    // Frobenius' norms bound the condition from above, and cost a tenth of the singular values.
+
+    // Frobenius norms bound the condition number from above and cost a tenth of the singular values.
     let bound = columns.norm() * inverse.norm();
     if bound.is_nan() || bound > MAX_BOUND {
         let singular = columns.svd(false, false).singular_values;
@@ -127,11 +131,12 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
             return Err(StaticsError::Singular);
         }
     }
+
     let tensions = columns.lu().solve(&right).ok_or(StaticsError::Singular)?;
     Ok(tensions.iter().copied().take(robot.cables.len()).collect())
 }
 
-/// The equilibrium of ideal cables.
+/// Equilibrium of ideal cables.
 pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: usize) -> Equilibrium {
     let cables: Vec<CableState> = robot
         .cables
@@ -152,6 +157,7 @@ pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: u
             }
         })
         .collect();
+
     let residual = residual_of(robot, &pose, &cables);
     Equilibrium { pose, model: StaticModel::Ideal, cables, residual, iterations, stability: Stability::Rigid }
 }

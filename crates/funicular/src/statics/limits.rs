@@ -1,32 +1,32 @@
-//! Limits of a cable's tension: what they are where the file says nothing, and how far a state is from them.
+//! Limits of a cable's tension: their defaults, and the distance of a state from them.
 
 use super::equilibrium::CableState;
 use crate::math::Vec3;
 use crate::robot::Robot;
 use std::fmt;
 
-/// Part of its weight by which a cable has to be taut where the file has no minimum: a level cable then sags by a
-/// twentieth of its chord, which is where shallow-sag models end ([`crate::cable::SHALLOW_SAG_LIMIT`]).
+/// Default minimum tension as a multiple of the cable's weight, used if the file gives none. A level cable then sags by
+/// a twentieth of its chord, which is the limit of shallow-sag models ([`crate::cable::SHALLOW_SAG_LIMIT`]).
 const TAUT: f64 = 2.5;
 
-/// Part of the platform's weight that every cable has at least to carry where the file has no minimum: what keeps a
-/// cable without weight from being slack.
+/// Default minimum tension as a fraction of the platform's weight, used if the file gives none. It keeps cables without
+/// weight from being slack.
 const PART_OF_PLATFORM: f64 = 1e-3;
 
-/// The tensions between which a cable is to be kept.
+/// Tension range of a cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TensionRange {
-    /// Least tension anywhere in the cable [N].
+    /// Minimum tension anywhere in the cable [N].
     pub minimum: f64,
-    /// Greatest tension anywhere in the cable [N]; infinite where the file has neither a maximum nor a breaking load.
+    /// Maximum tension anywhere in the cable [N]; infinite if the file gives neither a maximum nor a breaking load.
     pub maximum: f64,
 }
 
 impl TensionRange {
-    /// The limits of cable `i` with this chord, platform to anchor, world axes [m].
+    /// Limits of cable `i` with this chord, platform to anchor, world axes [m].
     ///
-    /// Without a `minimum_tension_n` it is the larger of 2.5 times the weight (and other load) of the chord and a thousandth of the
-    /// platform's weight; without a `maximum_tension_n` it is the rope's breaking load.
+    /// The default of `minimum_tension_n` is the larger of 2.5 times the weight (and other load) of the chord and a
+    /// thousandth of the platform's weight; the default of `maximum_tension_n` is the rope's breaking load.
     ///
     /// # Example
     /// ```
@@ -46,7 +46,7 @@ impl TensionRange {
         Self { minimum, maximum: limits.maximum.unwrap_or(f64::INFINITY) }
     }
 
-    /// How far a cable is from these limits.
+    /// Distances of a cable's tensions from these limits.
     pub fn margin(&self, state: &CableState) -> TensionMargin {
         let (min, max) = state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
             (hanging.catenary.min_tension(), hanging.catenary.max_tension())
@@ -55,27 +55,27 @@ impl TensionRange {
     }
 }
 
-/// How far a cable is from the limits of its tension.
+/// Tensions of a cable compared with their limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TensionMargin {
-    /// The limits.
+    /// Limits.
     pub range: TensionRange,
-    /// Least tension anywhere in the cable [N].
+    /// Minimum tension anywhere in the cable [N].
     pub min: f64,
-    /// Greatest tension anywhere in the cable [N].
+    /// Maximum tension anywhere in the cable [N].
     pub max: f64,
 }
 
 /// One of the two limits of a tension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
-    /// The least tension.
+    /// Minimum tension.
     Minimum,
-    /// The greatest tension.
+    /// Maximum tension.
     Maximum,
 }
 
-/// A limit counts as reached within this part of its value.
+/// Relative distance within which a limit counts as reached.
 const REACHED: f64 = 1e-6;
 
 impl TensionMargin {
@@ -84,14 +84,14 @@ impl TensionMargin {
         (self.min - self.range.minimum).min(self.range.maximum - self.max)
     }
 
-    /// [`Self::distance`] over the distance between the limits: at most one half, negative beyond a limit; `None`
-    /// without a maximum.
+    /// Relative margin: [`Self::distance`] over the distance between the limits; at most one half, negative beyond a
+    /// limit; `None` without a maximum.
     pub fn relative(&self) -> Option<f64> {
         let breadth = self.range.maximum - self.range.minimum;
         (breadth > 0.0 && breadth.is_finite()).then(|| self.distance() / breadth)
     }
 
-    /// The limit that is reached or exceeded, within a millionth.
+    /// Limit that is reached or exceeded, within a millionth.
     pub fn reached(&self) -> Option<Limit> {
         if self.min <= self.range.minimum * (1.0 + REACHED) {
             Some(Limit::Minimum)
@@ -103,17 +103,17 @@ impl TensionMargin {
     }
 }
 
-/// Most cables that a message names.
+/// Maximum number of cables that a message names.
 const MAX_NAMES: usize = 8;
 
-/// How far the best tensions miss the limits, and which they are.
+/// Violation of the limits by the best tensions, and the limits concerned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitViolation {
-    /// The least force [N] by which all limits would have to give way for tensions within them to exist.
+    /// Minimum force [N] by which all limits would have to be widened for a solution within them to exist.
     pub by: f64,
-    /// Cables whose minimum is in the way.
+    /// Cables whose minimum prevents a solution.
     pub minimum_of: Vec<String>,
-    /// Cables whose maximum is in the way.
+    /// Cables whose maximum prevents a solution.
     pub maximum_of: Vec<String>,
 }
 
@@ -131,6 +131,6 @@ impl fmt::Display for LimitViolation {
         let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
         write!(f, "by {:.4} N", self.by)?;
-        if limits.is_empty() { Ok(()) } else { write!(f, ", held by {}", limits.join(" and ")) }
+        if limits.is_empty() { Ok(()) } else { write!(f, ", because of {}", limits.join(" and ")) }
     }
 }

@@ -1,4 +1,4 @@
-//! A cable with its load, before its length is known.
+//! Cable with its load, before its length is known.
 
 use super::model::StaticModel;
 use crate::catenary::Rope;
@@ -6,21 +6,21 @@ use crate::catenary::space::HangingCable;
 use crate::math::Vec3;
 use crate::robot::{Cable, LineLoad, Pose, Robot};
 
-/// Unstrained length over chord up to which the search looks for slack cables where straight ones would push. 30,000
-/// random robots that rest with cables up to 1.25 times as long as their chords are all found with 2; poses that only
-/// longer ropes hold are held by their weight alone.
-pub(super) const LONGEST: f64 = 2.0;
+/// Maximum ratio of unstrained length to chord in the search for slack cables at a pose where straight cables would
+/// have negative tension. For 30,000 random robots in equilibrium with cables up to 1.25 times as long as their chords,
+/// the limit 2 finds every equilibrium. Poses that only longer ropes hold are held by the ropes' weight alone.
+pub(super) const MAX_LENGTH_RATIO: f64 = 2.0;
 
-/// A cable without its length: where it leaves its anchor, what it is made of and what acts on it.
+/// Cable without its length: anchor, rope and load.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadedCable<'a> {
     pub(super) cable: &'a Cable,
-    /// The load, which of a straight model counts nothing.
+    /// Load; its size is zero in a straight model.
     pub(super) load: LineLoad,
 }
 
 impl<'a> LoadedCable<'a> {
-    /// Cable `i` as a static model sees it, with the load that it has at a pose.
+    /// Cable `i` in a static model, with the load that it has at a pose.
     pub(super) fn at(robot: &'a Robot, i: usize, pose: &Pose, model: StaticModel) -> Self {
         let cable = &robot.cables[i];
         let mut load = robot.line_load(i, &cable.chord_w(pose));
@@ -45,7 +45,7 @@ impl<'a> LoadedCable<'a> {
         self.cable.chord_w(pose)
     }
 
-    /// Hung from the platform at a pose with an unstrained length [m].
+    /// Cable hung from the platform at a pose with an unstrained length [m].
     pub(super) fn hang(&self, pose: &Pose, unstrained_length: f64) -> HangingCable {
         let (weight_per_length, axial_stiffness) = (self.load.size, self.axial_stiffness());
         let rope = Rope { unstrained_length, weight_per_length, axial_stiffness };
@@ -53,12 +53,12 @@ impl<'a> LoadedCable<'a> {
         HangingCable::between(start_w, self.cable.anchor.exit_w(&start_w), self.load.up_w, rope)
     }
 
-    /// Hung so that the tension parallel to its chord is this [N]; not far slacker than its weight has it.
+    /// Cable hung with this tension parallel to its chord [N], which must not be far below its weight.
     pub(super) fn hang_with_tension(&self, pose: &Pose, tension: f64) -> HangingCable {
         let start_w = pose.point_w(&self.cable.attachment_p);
         let exit_w = self.cable.anchor.exit_w(&start_w);
         let rope = Rope {
-            // The tension fixes the length; this one is where the search for it begins.
+            // The tension fixes the length; this value is only the start of the search for it.
             unstrained_length: (exit_w - start_w).norm(),
             weight_per_length: self.load.size,
             axial_stiffness: self.axial_stiffness(),

@@ -1,9 +1,10 @@
 //! Models of how a cable carries its static load.
 
-/// How a cable carries its static load.
+/// Static model of a cable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StaticModel {
-    /// Straight, massless, rigid in length; pulls as equilibrium asks, and has none where it would have to push.
+    /// Straight, massless, rigid in length. Its tension follows from equilibrium; there is no equilibrium if the
+    /// tension would be negative.
     Ideal,
     /// Straight, massless, elastic; no force when slack.
     Spring,
@@ -13,10 +14,10 @@ pub enum StaticModel {
 }
 
 impl StaticModel {
-    /// All of them, simplest first.
+    /// All models, simplest first.
     pub const ALL: [Self; 3] = [Self::Ideal, Self::Spring, Self::Catenary];
 
-    /// Its name on the command line and in files.
+    /// Name in commands and files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ideal => "ideal",

@@ -1,9 +1,10 @@
-//! The pose nearest to a given one that fewer cables than degrees of freedom can hold.
+//! Pose nearest to a requested one that fewer cables than degrees of freedom can hold.
 //!
-//! With m cables the equilibria are a surface of m dimensions in the space of poses and lengths. A step along it
-//! satisfies `K dx = B dL`, B being the wrench by the lengths; the one that comes nearest to the pose asked is taken, and
-//! forward statics brings the platform back to the surface, to a stable equilibrium of the new lengths. How the surface
-//! bends is learnt from the steps (Broyden, Fletcher, Goldfarb, Shanno), which start as those of a flat one.
+//! With m cables the equilibria form a surface of m dimensions in the space of poses and lengths. A step along it
+//! satisfies `K dx = B dL`, B being the derivative of the wrench with respect to the lengths. Each iteration takes the
+//! step that comes nearest to the requested pose; then forward statics brings the platform back to the surface, to a
+//! stable equilibrium of the new lengths. The curvature of the surface is learnt from the steps (Broyden, Fletcher,
+//! Goldfarb, Shanno); the first step assumes a flat surface.
 
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
@@ -16,68 +17,68 @@ use crate::math::{DMat, Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench, wrench_of};
 use crate::robot::{Cable, Pose, Robot};
 
-/// An equilibrium near a pose that was asked for.
+/// Equilibrium near a requested pose.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Nearest {
-    /// The equilibrium, stable or indifferent; its pose is not the one asked.
+pub struct NearestEquilibrium {
+    /// Equilibrium, stable or indifferent; its pose differs from the requested one.
     pub equilibrium: Equilibrium,
-    /// Distance of its pose from the one asked [m], see [`distance`].
+    /// Distance of its pose from the requested one [m], see [`pose_distance`].
     pub distance: f64,
 }
 
-/// Limit of steps; 3 to 30 are seen.
+/// Maximum number of steps; 3 to 30 are observed.
 const MAX_STEPS: usize = 300;
 
-/// Length over the size of the robot that the pose could still come nearer, along the surface, at which it counts as
-/// nearest; and up to which it does when rounding allows no more.
+/// Remaining approach along the surface, over the size of the robot, at which the pose counts as nearest; and the value
+/// that is accepted if rounding allows no further approach.
 const NEAREST: f64 = 1e-11;
 const NEAR: f64 = 1e-6;
 
-/// Part of its length that a cable keeps at least in one step. At zero a step could take a cable away; near 1 a pose that
-/// needs a much shorter cable would take many steps.
+/// Minimum ratio of a cable's length after a step to its length before. At zero a step could take a cable away; near 1
+/// a pose that needs a much shorter cable would take many steps.
 const MIN_SHORTENED: f64 = 0.2;
 
-/// Distance that the pose could still come nearer over the distance that is left, below which a step may be taken for its
-/// direction alone: the distance falls with the square of this ratio, so that it drowns in rounding below 1e-8, and at
-/// more than 1e-2 it decides well.
+/// Ratio of the remaining approach to the remaining distance below which a step may be taken for its direction alone.
+/// The distance falls with the square of this ratio, so it drowns in rounding below 1e-8; above 1e-2 the distance
+/// decides well.
 const NEARLY_SQUARE: f64 = 1e-4;
 
-/// Part of the approach that could still be made which such a step has to leave behind at most. Nearer to 1, rounding
-/// passes for progress; far below, the last steps along a surface that bends strongly are refused.
+/// Maximum ratio of the remaining approach after such a step to that before. Nearer to 1, rounding counts as progress;
+/// far below, the last steps along a strongly curved surface are refused.
 const STRAIGHTER: f64 = 0.9;
 
-/// Damping of the step: the first one, the factor after each step refused, its inverse after each one taken, the value
-/// below which there is none, and the one at which the search is over. It is measured against the bend of the surface,
-/// which starts as 1. A first one far below 0.1 would hardly change the step that has just been refused; far above, the
-/// search would creep along bent surfaces. At the last one a step is a millionth of
-/// a millionth of the distance that is left.
+/// Damping of the step: its first value, its factor after each refused step (its inverse after each step taken), the
+/// value below which it is zero, and the value at which the search ends. The reference is the curvature of the surface,
+/// which starts as 1. A first value far below 0.1 would hardly change the step that has just been refused; far above,
+/// the search would creep along curved surfaces. At the last value a step is a millionth of a millionth of the
+/// remaining distance.
 const FIRST_DAMPING: f64 = 0.1;
 const DAMPING_FACTOR: f64 = 10.0;
 const NO_DAMPING: f64 = 1e-3;
 const MAX_DAMPING: f64 = 1e12;
 
-/// Singular values, over one, of unit wrenches that a first guess of tensions leaves out: at less, tensions out of all
-/// proportion would hold a load across nearly parallel cables; cables at more than a billionth of a radian to each other do
-/// share a load.
+/// Singular values of the unit wrenches, relative to one, below which they are left out of the first guess of tensions.
+/// With a smaller limit, nearly parallel cables would share a load by excessive tensions; cables at more than a
+/// billionth of a radian to each other do share a load.
 const PARALLEL: f64 = 1e-9;
 
-/// Least tension of a first guess over the weight of a cable as long as its chord. At a quarter a level
-/// cable is 1.8 chords long; with less the guess is all sag, and well above it light platforms are lifted by their cables.
+/// Minimum tension of a first guess over the weight of a cable as long as its chord. At a quarter, a level cable is 1.8
+/// chords long. With less, the guess is all sag; well above it, light platforms are lifted by their cables.
 const MIN_GUESS: f64 = 0.25;
 
-/// Least cosine between a step and the change of slope that goes with it, from which the surface's bend is learnt: below,
-/// the quotient is rounding, or the surface is bent the other way.
+/// Minimum cosine between a step and the change of slope along it at which the surface's curvature is updated. Below,
+/// the quotient is rounding, or the curvature has the other sign.
 const MIN_CURVATURE: f64 = 1e-3;
 
-/// Singular values over the largest that are zero.
+/// Ratio to the largest singular value below which a singular value counts as zero.
 const ZERO: f64 = 1e-12;
 
-/// Least motion by a unit step along the surface that counts: what moves less is a change of tensions alone.
+/// Minimum motion per unit step along the surface that counts: a smaller motion is a change of tensions alone.
 const ALONG: f64 = 1e-9;
 
-/// How far apart two poses are [m]: translation and ℓ times the angle between them, in the root of the sum of squares, ℓ
-/// being [`Robot::platform_length`].
-pub fn distance(robot: &Robot, from: &Pose, to: &Pose) -> f64 {
+/// Distance between two poses [m]: root of the sum of squares of the translation and of ℓ times the angle between them,
+/// ℓ being [`Robot::platform_length`].
+pub fn pose_distance(robot: &Robot, from: &Pose, to: &Pose) -> f64 {
     gap(robot, from, to).norm()
 }
 
@@ -88,8 +89,8 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
     robot.platform.motion.reduced(&Vec6::new(p.x, p.y, p.z, turn.x, turn.y, turn.z))
 }
 
-/// The pose nearest to a given one that the cables can hold by some lengths, for robots with fewer cables than degrees of freedom;
-/// nearest by [`distance`], among poses around the one that the first guess of lengths leads to.
+/// Nearest pose that the cables can hold with some lengths, for robots with fewer cables than degrees of freedom. It is
+/// nearest by [`pose_distance`], among the poses around the one reached from the first guess of lengths.
 ///
 /// # Errors
 /// [`StaticsError`]: ideal cables, a pose out of a planar platform's plane, coinciding ends, or no convergence.
@@ -97,7 +98,7 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 /// # Example
 /// ```
 /// # use funicular::{robot::{Pose, Robot}, statics::{self, StaticModel}};
-/// // A body on one cable hangs straight below the anchor: of a pose beside it the nearest is below.
+/// // A body on one cable hangs straight below the anchor; this is also the nearest pose to one beside it.
 /// let text = r#"
 ///     name = "pendulum"
 ///     [platform]
@@ -112,26 +113,30 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 ///     anchor_m = [0.0, 0.0, 3.0]
 /// "#;
 /// let robot = Robot::from_toml(text)?;
-/// let found = statics::nearest(&robot, &Pose::new([0.3, 0.0, 1.0], [0.0; 3]), StaticModel::Catenary)?;
+/// let found = statics::nearest_equilibrium(&robot, &Pose::new([0.3, 0.0, 1.0], [0.0; 3]), StaticModel::Catenary)?;
 /// assert!((found.distance - 0.3).abs() < 1e-9);
 /// assert!((found.equilibrium.pose.position_w.z - 1.0).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Nearest, StaticsError> {
+pub fn nearest_equilibrium(
+    robot: &Robot,
+    requested: &Pose,
+    model: StaticModel,
+) -> Result<NearestEquilibrium, StaticsError> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if model == StaticModel::Ideal {
         return Err(StaticsError::InverseCableCount { cables, dof });
     }
-    robot.platform.motion.check(asked)?;
+    robot.platform.motion.check(requested)?;
 
-    // On the surface, by a first guess of the lengths.
+    // Reach the surface by a first guess of the lengths.
     let coordinates = Coordinates::of(robot);
-    let mut lengths = first_lengths(robot, asked, model)?;
-    let mut here = forward(robot, &lengths, model, Some(asked))?;
+    let mut lengths = first_lengths(robot, requested, model)?;
+    let mut here = forward(robot, &lengths, model, Some(requested))?;
     let mut iterations = here.iterations;
     let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
     let mut surface = Surface::at(robot, &here);
-    let mut missing = gap(robot, &here.pose, asked);
+    let mut missing = gap(robot, &here.pose, requested);
 
     let (mut bend, mut damping) = (Mat6::identity(), 0.0);
     for _ in 0..MAX_STEPS {
@@ -140,19 +145,19 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
             break;
         }
 
-        // A step along the surface, and back to it.
+        // Step along the surface, and back to it.
         let (motion, by_length) = surface.step(&missing, &bend, damping);
         let trial: Vec<f64> = lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(MIN_SHORTENED * l)).collect();
         let start = coordinates.moved(&here.pose, &motion);
         if let Ok(next) = forward(robot, &trial, model, Some(&start)) {
             iterations += next.iterations;
-            let next_missing = gap(robot, &next.pose, asked);
+            let next_missing = gap(robot, &next.pose, requested);
             let next_surface = Surface::at(robot, &next);
             let next_could = next_surface.along(&next_missing);
 
-            // Taken if it is a gain.
+            // Take the step if it is a gain.
             let nearer = next_missing.norm() < missing.norm();
-            // Near the end the distance drowns in rounding; there the direction decides.
+            // Near the end the distance drowns in rounding; then the direction decides.
             let straighter =
                 could.norm() < NEARLY_SQUARE * missing.norm() && next_could.norm() < STRAIGHTER * could.norm();
             if nearer || straighter {
@@ -164,7 +169,7 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
             }
         }
 
-        // Else tried again, shorter; what was learnt of the bend may be wrong.
+        // Otherwise try a shorter step; the learnt curvature may be wrong.
         if damping == 0.0 {
             bend = Mat6::identity();
         }
@@ -181,51 +186,52 @@ pub fn nearest(robot: &Robot, asked: &Pose, model: StaticModel) -> Result<Neares
         return Err(StaticsError::NotNearest { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
 
-    // Only ropes of no length come near a pose on the line between their anchors.
+    // Only ropes of zero length come near a pose on the line between their anchors.
     let torn = |(cable, state): (&Cable, &CableState)| state.tension_platform > cable.material.axial_stiffness;
     if robot.cables.iter().zip(&here.cables).any(torn) {
         return Err(StaticsError::Singular);
     }
 
     here.iterations = iterations;
-    Ok(Nearest { equilibrium: here, distance: missing.norm() })
+    Ok(NearestEquilibrium { equilibrium: here, distance: missing.norm() })
 }
 
-/// Lengths of cables whose tensions balance the platform's load as well as straight cables can, none below its least.
+/// Lengths of cables whose tensions balance the platform's load as well as straight cables can, none below its minimum.
 fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f64>, StaticsError> {
     let coordinates = Coordinates::of(robot);
     let n = robot.cables.len();
 
-    // Load with half of each cable's, and the unit wrenches.
+    // Load with half of each cable's load, and the unit wrenches.
     let mut load = load_wrench(robot, pose);
     let mut columns = DMat::zeros(6, n);
-    let mut lines = Vec::with_capacity(n);
+    let mut loaded = Vec::with_capacity(n);
     for (i, cable) in robot.cables.iter().enumerate() {
         let straight = StraightCable::at(cable, pose);
         let chord = straight.chord_w.norm();
         if chord == 0.0 {
             return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
         }
-        let line = LoadedCable::at(robot, i, pose, model);
-        load += wrench_of(&(line.load.vector_w() * (0.5 * chord)), &straight.lever_w);
+        let cable = LoadedCable::at(robot, i, pose, model);
+        load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &straight.lever_w);
         columns.set_column(i, &straight.unit_wrench(&coordinates));
-        lines.push((line, straight.chord_w));
+        loaded.push((cable, straight.chord_w));
     }
 
-    // Tensions that balance it best, and the lengths that have them.
+    // Tensions that balance it best, and the corresponding lengths.
     let right = -coordinates.reduce(&load);
     let balanced = columns.svd(true, true).solve(&right, PARALLEL).unwrap_or_else(|_| Vec6::zeros().rows(0, n).into());
     let lengths = (0..n).map(|i| {
-        let (line, chord_w) = &lines[i];
+        let (cable, chord_w) = &loaded[i];
         let chord = chord_w.norm();
-        // Not so slack that its length would be all sag.
-        let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * line.load.size * chord);
-        line.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
+        // Limit the slackness, so that the length is not all sag.
+        let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * cable.load.size * chord);
+        cable.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
     });
     Ok(lengths.collect())
 }
 
-/// Learns from a step how the slope of half the squared distance changes along it; positive definite it stays.
+/// Updates the curvature from a step: the change of the slope of half the squared distance along it. The matrix stays
+/// positive definite.
 fn update(bend: &mut Mat6, moved: &Vec6, slope: &Vec6) {
     let (by, bent) = (moved.dot(slope), *bend * moved);
     let along = moved.dot(&bent);
@@ -234,11 +240,11 @@ fn update(bend: &mut Mat6, moved: &Vec6, slope: &Vec6) {
     }
 }
 
-/// The directions in which an equilibrium can go by changes of the lengths.
+/// Directions in which an equilibrium can move by changes of the lengths.
 struct Surface {
     /// Orthonormal motions.
     directions: Vec<Vec6>,
-    /// The changes of the lengths that go with each [m/m].
+    /// Changes of the lengths for each direction [m/m].
     lengths: Vec<Vec<f64>>,
 }
 
@@ -248,7 +254,7 @@ impl Surface {
         let (n, m) = (coordinates.count(), equilibrium.cables.len());
         let stiffness = tangent_with_drag(robot, equilibrium).expect("the cables are elastic");
         let stiffness = coordinates.reduce_matrix(&stiffness);
-        // Zero rows make it square, so that its right singular vectors are all there are.
+        // Zero rows make it square, so that all right singular vectors are computed.
         let mut equations = DMat::zeros(n + m, n + m);
         equations.view_mut((0, 0), (n, n)).copy_from(&stiffness.view((0, 0), (n, n)));
         for (i, cable) in equilibrium.cables.iter().enumerate() {
@@ -257,16 +263,16 @@ impl Surface {
             equations.view_mut((0, n + i), (n, 1)).copy_from(&-column.rows(0, n));
         }
 
-        // Motions and lengths that go together: the null space of both.
+        // Motions with the changes of length that cause them: the null space of both.
         let svd = equations.svd(false, true);
-        let rows = svd.v_t.expect("asked for");
+        let rows = svd.v_t.expect("requested above");
         let largest = svd.singular_values.max();
         let free: Vec<usize> = (0..n + m).filter(|&k| svd.singular_values[k] <= ZERO * largest).collect();
 
-        // Of these an orthonormal basis of the motions; what moves nothing is a change of tensions alone.
+        // Orthonormal basis of these motions; a vector that moves nothing is a change of tensions alone.
         let motions = DMat::from_fn(6, free.len(), |i, k| if i < n { rows[(free[k], i)] } else { 0.0 });
         let svd = motions.svd(true, true);
-        let (u, v_t) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
+        let (u, v_t) = (svd.u.expect("requested above"), svd.v_t.expect("requested above"));
         let kept: Vec<usize> = (0..svd.singular_values.len()).filter(|&k| svd.singular_values[k] > ALONG).collect();
         let lengths = kept.iter().map(|&k| {
             let of = |i: usize| free.iter().enumerate().map(|(j, &row)| v_t[(k, j)] * rows[(row, n + i)]).sum::<f64>();
@@ -275,13 +281,13 @@ impl Surface {
         Self { lengths: lengths.collect(), directions: kept.iter().map(|&k| Vec6::from_fn(|i, _| u[(i, k)])).collect() }
     }
 
-    /// The part of a motion that is along the surface.
+    /// Projection of a motion on the surface.
     fn along(&self, motion: &Vec6) -> Vec6 {
         self.directions.iter().map(|direction| direction * direction.dot(motion)).sum()
     }
 
-    /// The motion along the surface that comes nearest to another, if it bends like this, and the change of the lengths
-    /// that it takes.
+    /// Motion along the surface that comes nearest to a given motion for this curvature and damping, and its change of
+    /// the lengths.
     fn step(&self, motion: &Vec6, bend: &Mat6, damping: f64) -> (Vec6, Vec<f64>) {
         let r = self.directions.len();
         let u = &self.directions;

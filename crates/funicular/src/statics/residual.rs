@@ -1,4 +1,4 @@
-//! The residual of the balance: what is left of the wrench at a pose, and how much of it is rounding.
+//! Residual of the balance: the remaining wrench at a pose, and the share of rounding in it.
 
 use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
@@ -8,11 +8,11 @@ use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
 
-/// Total wrench on the platform at any pose, cables, weight and load, about the platform origin [N, N·m]; the residual of
-/// equilibrium.
+/// Total wrench on the platform at any pose from cables, weight and load, about the platform origin [N, N·m]; the
+/// residual of equilibrium.
 ///
 /// # Errors
-/// A number of lengths that is not that of the cables, or a length that is not positive.
+/// [`StaticsError`]: the number of lengths differs from the number of cables, or a length is not positive.
 pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Result<Vec6, StaticsError> {
     check_lengths(robot, lengths)?;
     let forces = lengths.iter().enumerate().map(|(i, &length)| {
@@ -32,7 +32,8 @@ pub(super) fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), Static
     }
 }
 
-/// The larger of force and moment/ℓ, over all tensions and the weight; what the platform cannot do is not counted.
+/// Larger of force and moment/ℓ, over the sum of all tensions and the weight; components that the platform cannot
+/// follow do not count.
 pub(super) fn scaled_residual(coordinates: &Coordinates, wrench: &Vec6, force_scale: f64) -> f64 {
     let size = coordinates.wrench_size(wrench);
     if force_scale > 0.0 { size / force_scale } else { size }
@@ -44,7 +45,7 @@ pub(super) fn residual_of(robot: &Robot, pose: &Pose, cables: &[CableState]) -> 
     scaled_residual(&Coordinates::of(robot), &wrench, scale)
 }
 
-/// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of some chords' length, a few operations.
+/// Relative rounding of a chord, in units of [`f64::EPSILON`]: coordinates of a few chord lengths, a few operations.
 const CHORD_ROUNDING: f64 = 8.0;
 
 /// Force that rounding of all chords leaves in the balance [N]: strains of [`CHORD_ROUNDING`] in all cables.
@@ -53,8 +54,8 @@ pub(super) fn elastic_rounding(robot: &Robot) -> f64 {
     CHORD_ROUNDING * f64::EPSILON * stiffness
 }
 
-/// Whether nothing is there to be balanced: nothing acts on the platform or its cables, and all tensions together are no
-/// more than rounding of the cables' elastic forces. A residual relative to them would be nothing over nothing.
+/// True if there is nothing to balance: no load acts on the platform or its cables, and all tensions together are no
+/// more than rounding of the cables' elastic forces. A residual relative to them would be zero over zero.
 ///
 /// # Example
 /// ```
@@ -63,10 +64,10 @@ pub(super) fn elastic_rounding(robot: &Robot) -> f64 {
 /// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// robot.gravity_w = Vec3::zeros();
 /// let afloat = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
-/// assert!(statics::carries_nothing(&robot, &afloat) && afloat.residual == 0.0);
+/// assert!(statics::is_unloaded(&robot, &afloat) && afloat.residual == 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn carries_nothing(robot: &Robot, equilibrium: &Equilibrium) -> bool {
+pub fn is_unloaded(robot: &Robot, equilibrium: &Equilibrium) -> bool {
     let tensions: f64 = equilibrium.cables.iter().map(|cable| cable.force_on_platform_w.norm()).sum();
     let loads = LoadedCable::all(robot, &equilibrium.pose, equilibrium.model);
     load_size(robot) == 0.0 && loads.iter().all(|cable| cable.load.size == 0.0) && tensions <= elastic_rounding(robot)

@@ -1,32 +1,32 @@
-//! The equilibrium of a robot at its state, whichever way the state is given.
+//! Equilibrium of a robot at its state, given by lengths or by a pose.
 
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::forward::forward;
 use super::inverse::determinate;
 use super::model::StaticModel;
-use super::nearest_pose::nearest;
+use super::nearest_pose::nearest_equilibrium;
 use super::tension::{TensionRule, distribute_tensions};
 use crate::robot::{Pose, Robot, State};
 use std::cmp::Ordering;
 
-/// A robot's equilibrium, and how it came about.
+/// Equilibrium of a robot, with the way it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// The equilibrium.
+    /// Equilibrium.
     pub equilibrium: Equilibrium,
-    /// The pose asked, where fewer cables than degrees of freedom hold only the nearest to it, and how far that is [m], by
-    /// [`distance`](super::distance).
+    /// Requested pose, and its distance [m] by [`pose_distance`](super::pose_distance), if fewer cables than degrees of
+    /// freedom can hold only a pose near it.
     pub requested_pose: Option<(Pose, f64)>,
-    /// The rule that the tensions were chosen by, where there was a choice.
+    /// Rule by which the tensions were chosen, if there was a choice.
     pub rule: Option<TensionRule>,
 }
 
-/// Equilibrium at [`Robot::state`] by [`solve_at`], where a rule that is given must have a choice.
+/// Equilibrium at [`Robot::state`] by [`solve_at`]. A given rule must have a choice.
 ///
 /// # Errors
-/// [`StaticsError`]; [`StaticsError::NoState`] of a robot without state, [`StaticsError::NothingToChoose`] for a rule that
-/// has no choice.
+/// [`StaticsError`]; among them [`StaticsError::NoState`] for a robot without state and
+/// [`StaticsError::NothingToChoose`] for a rule without a choice.
 ///
 /// # Example
 /// ```
@@ -47,12 +47,13 @@ pub fn solve(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Re
     solve_at(robot, &robot.state, model, &rule.unwrap_or_default())
 }
 
-/// Equilibrium of a robot at a state, which need not be its own: of unstrained lengths the pose ([`forward`]); of a pose the
-/// lengths and tensions ([`inverse`]), by the rule where more cables than degrees of freedom leave a choice
-/// ([`distribute_tensions`]); of a pose that fewer cables cannot hold, the nearest one that they can ([`nearest`]).
+/// Equilibrium of a robot at a state, which need not be its own. For unstrained lengths: the pose ([`forward`]). For a
+/// pose: the lengths and tensions ([`inverse`]), chosen by the rule if more cables than degrees of freedom leave a
+/// choice ([`distribute_tensions`]). For a pose that fewer cables cannot hold: the nearest one that they can hold
+/// ([`nearest_equilibrium`]).
 ///
 /// # Errors
-/// [`StaticsError`] of the function that solves it; [`StaticsError::NoState`] of an unknown state.
+/// [`StaticsError`] of the function that solves it; [`StaticsError::NoState`] for an unknown state.
 ///
 /// # Example
 /// ```
@@ -75,9 +76,9 @@ pub fn solve_at(
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
-        State::Pose(pose) => match cables_to_freedoms(robot) {
+        State::Pose(pose) => match cables_to_degrees_of_freedom(robot) {
             Ordering::Less => {
-                let nearest = nearest(robot, pose, model)?;
+                let nearest = nearest_equilibrium(robot, pose, model)?;
                 Ok(Solution { requested_pose: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
             }
             Ordering::Equal => Ok(found(determinate(robot, pose, model)?)),
@@ -89,15 +90,15 @@ pub fn solve_at(
     }
 }
 
-/// The unstrained lengths and tensions that hold the platform at a pose.
+/// Inverse statics: unstrained lengths and tensions that hold the platform at a pose.
 ///
-/// With more cables than degrees of freedom the tensions are chosen: as low as their limits allow; [`solve_at`] takes other
-/// rules. With as many there is one solution, whatever the limits; [`crate::validity`] compares.
+/// With more cables than degrees of freedom the tensions are as low as their limits allow; [`solve_at`] takes other
+/// rules. With as many cables the solution is unique, whatever the limits; [`crate::warnings`] compares it with them.
 ///
 /// # Errors
-/// [`StaticsError`]: fewer cables than degrees of freedom ([`nearest`] knows what they can hold), tensions beyond their limits
-/// if there is a choice, a singular pose, a straight cable that would have to push, no tensions found for sagging ones,
-/// coinciding ends, or no convergence.
+/// [`StaticsError`]: fewer cables than degrees of freedom ([`nearest_equilibrium`] finds a pose that they can hold),
+/// tensions beyond their limits if there is a choice, a singular pose, a straight cable that would need negative
+/// tension, no tensions found for sagging cables, coinciding ends, or no convergence.
 ///
 /// # Example
 /// ```
@@ -111,21 +112,21 @@ pub fn solve_at(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
-    match cables_to_freedoms(robot) {
+    match cables_to_degrees_of_freedom(robot) {
         Ordering::Equal => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.
         Ordering::Less | Ordering::Greater => distribute_tensions(robot, pose, model, &TensionRule::default()),
     }
 }
 
-/// Number of cables, compared with the number of degrees of freedom.
-fn cables_to_freedoms(robot: &Robot) -> Ordering {
+/// Comparison of the number of cables with the number of degrees of freedom.
+fn cables_to_degrees_of_freedom(robot: &Robot) -> Ordering {
     robot.cables.len().cmp(&robot.platform.motion.count())
 }
 
 /// Refuses a tension rule where the tensions follow from the state alone.
 fn refuse_rule_without_choice(robot: &Robot) -> Result<(), StaticsError> {
-    let choice = cables_to_freedoms(robot) == Ordering::Greater;
+    let choice = cables_to_degrees_of_freedom(robot) == Ordering::Greater;
     match &robot.state {
         State::Pose(_) if !choice => {
             let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());

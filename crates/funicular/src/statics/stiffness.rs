@@ -1,4 +1,4 @@
-//! Static stiffness of the platform at an equilibrium, and what its eigenvalues say of stability.
+//! Static stiffness of the platform at an equilibrium, and stability from its eigenvalues.
 
 use super::drag::drag_stiffness;
 use super::equilibrium::{Equilibrium, Stability};
@@ -9,11 +9,11 @@ use crate::robot::{Pose, Robot};
 /// Tangent stiffness `−∂wrench/∂(δp, δθ)` of cables, platform weight and load at an equilibrium, about the platform
 /// origin, world axes [N/m, N, N·m]. This is the `Consistent` static stiffness; symmetric at an equilibrium.
 ///
-/// Every load keeps its direction: in wind this is the stiffness under the drag of the equilibrium, held. The stiffness with
-/// a drag that turns with the cables is [`tangent_with_drag`].
+/// Every load keeps its direction: in wind this is the stiffness with the drag of the equilibrium held. The stiffness
+/// with a drag that turns with the cables is [`tangent_with_drag`].
 ///
-/// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. Of a moment
-/// the antisymmetric half is left out: such a moment has no energy.
+/// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. The
+/// antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
 ///
 /// # References
 /// docs/theory.md, equation (14).
@@ -27,12 +27,12 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
     Some(Coordinates::of(robot).allowed_matrix(&whole))
 }
 
-/// Load along each coordinate of the platform over the motion along it, all others free [N/m, N m/rad]: one over the
-/// diagonal of the compliance. In wind the drag turns with the cables.
+/// Stiffness along each coordinate of the platform: load along it over the motion along it, all other motions free
+/// [N/m, N m/rad]; one over the diagonal of the compliance. In wind the drag turns with the cables.
 ///
-/// `None` for ideal cables, and where the stiffness is singular.
+/// `None` for ideal cables, and if the stiffness is singular.
 pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> Option<Vec<f64>> {
-    // Symmetric to rounding; what the turn of the drag adds in wind is not symmetric.
+    // Symmetric to rounding; the stiffness added by the turn of the drag is not.
     let mut whole = symmetric_part(&tangent_stiffness(robot, equilibrium)?);
     if let Some(turn) = drag_stiffness(robot, equilibrium) {
         whole += turn;
@@ -46,7 +46,7 @@ pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> 
     Some((0..n).map(|k| 1.0 / compliance[(k, k)]).collect())
 }
 
-/// Stiffness of cables (3×3, force on the platform, lever arm) and of weight and load at a pose.
+/// Sum of the stiffness of cables (3×3, force on the platform, lever arm) and that of weight and load at a pose.
 pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
     let mut total = Mat6::zeros();
     for (stiffness, force, lever) in cables {
@@ -60,7 +60,7 @@ pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item =
 pub(super) fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let coordinates = Coordinates::of(robot);
     let values = symmetric::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());
-    // Rounding in the sum of the cables' stiffnesses; seen: 1e-16 of the largest.
+    // Rounding in the sum of the cables' stiffnesses; observed: 1e-16 of the largest.
     let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let directions = values.iter().filter(|v| **v <= zero).count();
     match directions {

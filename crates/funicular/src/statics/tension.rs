@@ -1,11 +1,11 @@
-//! Pose to unstrained lengths and tensions for more cables than degrees of freedom: of all tensions that hold the platform, those
-//! within the limits that a rule prefers.
+//! Tension distribution: inverse statics for more cables than degrees of freedom. Of all tensions that hold the
+//! platform, a rule chooses the best within the limits.
 //!
-//! The unknown of every cable is its tension τ parallel to the chord. The balance is linear in them but for the small
-//! vertical share of the sag; so it is linearised about the last tensions, the best solution of the linear problem is
-//! taken, and so on (sequential quadratic programming). The linear problem is solved in the null space of the balance,
-//! which has one or two dimensions in most robots: it takes microseconds, a general solver a tenth of a millisecond.
-//! With many cables it is solved in the space of the cables instead, see [`room`].
+//! The unknown of every cable is its tension τ parallel to the chord. The balance is linear in the tensions apart from
+//! the small vertical contribution of the sag. So the balance is linearised about the last tensions, the linear problem
+//! is solved, and so on (sequential quadratic programming). The linear problem is solved in the null space of the
+//! balance, which has one or two dimensions for most robots: this takes microseconds, a general solver a tenth of a
+//! millisecond. With many cables it is solved in the space of the cables instead, see [`feasible_set`].
 
 mod active_set;
 mod bounds;
@@ -23,30 +23,30 @@ use super::ideal;
 use super::model::StaticModel;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
-use cable_at_pose::Line;
-use search::Search;
+use cable_at_pose::CableAtPose;
+use search::TensionSearch;
 
-/// Which of all possible tensions a robot with more cables than degrees of freedom shall have.
+/// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
 ///
-/// What a rule weighs is the tension τ of each cable parallel to its chord, (10a), which is between those of its ends;
-/// limits hold for the whole cable, both ends included.
+/// The rules compare the tension τ of each cable parallel to its chord, (10a), which is between those of its ends. The
+/// limits hold for the complete cable, both ends included.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum TensionRule {
-    /// As low as possible: the least sum of squares of what is above the minimum, (38).
+    /// Lowest tensions: minimum sum of squares of the excess over the minimum, (38).
     #[default]
     Lowest,
-    /// As near as possible to a wanted tension [N], one for all or one a cable, in least squares.
+    /// Tensions closest to a target [N], one for all cables or one per cable, in least squares.
     Closest(Vec<f64>),
-    /// As far as possible from the limits: the largest least [`TensionMargin::relative`](super::TensionMargin), (39).
-    /// Of equals the nearest to the middles. Needs a maximum for every cable.
+    /// Tensions farthest from the limits: maximum of the smallest [`TensionMargin::relative`](super::TensionMargin),
+    /// (39). Of equal solutions the one nearest to the middles. Needs a maximum for every cable.
     Middle,
-    /// As stiff as possible: the largest least eigenvalue of the scaled stiffness, (40), which is
-    /// [`Stability`](super::Stability)'s. Needs elastic cables and a maximum for every one.
+    /// Stiffest tensions: maximum of the minimum eigenvalue of the scaled stiffness, (40), which
+    /// [`Stability`](super::Stability) gives. Needs elastic cables and a maximum for every cable.
     Stiffest,
 }
 
 impl TensionRule {
-    /// Name on the command line.
+    /// Name in commands and files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Lowest => "lowest",
@@ -57,15 +57,17 @@ impl TensionRule {
     }
 }
 
-/// The unstrained lengths and tensions that hold the platform at a pose, the tensions within the limits of the robot
-/// file and chosen by a rule. More cables than degrees of freedom; with as many, [`inverse`](super::inverse) has the only answer.
+/// Unstrained lengths and tensions that hold the platform at a pose, the tensions within the limits of the robot file
+/// and chosen by a rule. For more cables than degrees of freedom; with as many cables [`inverse`](super::inverse) gives
+/// the unique solution.
 ///
-/// The balance holds to [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT), the limits to a millionth, and the rule's
-/// optimum to a millionth of the tensions (of the stiffness for [`TensionRule::Stiffest`], whose optimum is local where cables sag).
+/// Accuracy: the balance to [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT), the limits to a millionth, and the rule's
+/// optimum to a millionth of the tensions (for [`TensionRule::Stiffest`] of the stiffness; its optimum is local if
+/// cables sag).
 ///
 /// # Errors
-/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, limits that exclude each other, a rule that needs
-/// more than it is given, no tensions within the limits, or no convergence.
+/// [`StaticsError`]: too few cables, coinciding ends, a singular pose, a minimum not below its maximum, missing data
+/// for the rule, no tensions within the limits, or no convergence.
 ///
 /// # Example
 /// ```
@@ -101,48 +103,54 @@ pub fn distribute_tensions(
     }
 
     let coordinates = Coordinates::of(robot);
-    let lines: Vec<Line> = (0..cables).map(|i| Line::new(robot, i, pose, model, coordinates)).collect();
-    check(robot, model, rule, &lines)?;
-    let mut search = Search::new(robot, pose, lines);
+    let cables_at_pose: Vec<CableAtPose> =
+        (0..cables).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
+    check(robot, model, rule, &cables_at_pose)?;
+    let mut search = TensionSearch::new(robot, pose, cables_at_pose);
 
     match rule {
         TensionRule::Lowest => {
-            let minima: Vec<f64> = search.lines().iter().map(|line| line.range.minimum).collect();
+            let minima: Vec<f64> = search.cables().iter().map(|cable| cable.range.minimum).collect();
             search.nearest_to(&minima)?;
         }
-        TensionRule::Closest(wanted) => {
-            let wanted: Vec<f64> = wanted.iter().copied().cycle().take(cables).collect();
-            search.nearest_to(&wanted)?;
+        TensionRule::Closest(target) => {
+            let target: Vec<f64> = target.iter().copied().cycle().take(cables).collect();
+            search.nearest_to(&target)?;
         }
         TensionRule::Middle => search.middle()?,
         TensionRule::Stiffest => stiffest::search(&mut search)?,
     }
 
     let iterations = search.iterations();
-    let lines = search.into_lines();
+    let held = search.into_cables();
     if model == StaticModel::Ideal {
-        let tensions: Vec<f64> = lines.iter().map(Line::tau).collect();
+        let tensions: Vec<f64> = held.iter().map(CableAtPose::tau).collect();
         return Ok(ideal::collect(robot, *pose, &tensions, iterations));
     }
 
-    let lengths: Vec<f64> = lines.iter().map(|line| line.hanging.catenary.rope().unstrained_length).collect();
-    let hanging = lines.into_iter().map(|line| line.hanging).collect();
+    let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
+    let hanging = held.into_iter().map(|cable| cable.hanging).collect();
     Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
 }
 
-/// Most cables of the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred cables take a third
-/// of a second, two hundred some seconds.
+/// Maximum number of cables for the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred
+/// cables take a third of a second, two hundred some seconds.
 const MAX_CABLES_TO_STIFFEN: usize = 200;
 
-/// Refuses what no tension can satisfy and what a rule does not know enough for.
-fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) -> Result<(), StaticsError> {
-    if let TensionRule::Closest(wanted) = rule {
+/// Refuses limits that no tension can satisfy, and rules without the data that they need.
+fn check(
+    robot: &Robot,
+    model: StaticModel,
+    rule: &TensionRule,
+    cables_at_pose: &[CableAtPose],
+) -> Result<(), StaticsError> {
+    if let TensionRule::Closest(target) = rule {
         let cables = robot.cables.len();
-        if wanted.len() != 1 && wanted.len() != cables {
-            return Err(StaticsError::WantedCount { given: wanted.len(), cables });
+        if target.len() != 1 && target.len() != cables {
+            return Err(StaticsError::TargetCount { given: target.len(), cables });
         }
-        if let Some(value) = wanted.iter().copied().find(|value| !(*value >= 0.0 && value.is_finite())) {
-            return Err(StaticsError::Wanted { value });
+        if let Some(value) = target.iter().copied().find(|value| !(*value >= 0.0 && value.is_finite())) {
+            return Err(StaticsError::TargetTension { value });
         }
     }
 
@@ -153,8 +161,8 @@ fn check(robot: &Robot, model: StaticModel, rule: &TensionRule, lines: &[Line]) 
         return Err(StaticsError::TooManyToStiffen { cables: robot.cables.len(), limit: MAX_CABLES_TO_STIFFEN });
     }
 
-    for (cable, line) in robot.cables.iter().zip(lines) {
-        let (cable, minimum, maximum) = (cable.name.clone(), line.range.minimum, line.range.maximum);
+    for (cable, at_pose) in robot.cables.iter().zip(cables_at_pose) {
+        let (cable, minimum, maximum) = (cable.name.clone(), at_pose.range.minimum, at_pose.range.maximum);
         if minimum >= maximum {
             return Err(StaticsError::LimitsExclude { cable, minimum, maximum });
         }

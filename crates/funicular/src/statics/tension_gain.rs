@@ -1,24 +1,23 @@
-//! Nearness to a singular pose: how much tension a load may take.
+//! Nearness to a singular pose: largest tension needed per unit wrench.
 
 use super::equilibrium::Equilibrium;
 use crate::math::{DMat, Mat6, Vec6, symmetric};
 use crate::platform::Coordinates;
 use crate::robot::Robot;
 
-/// How much tension a load may take at most: the least norm of the tensions [N] that balance the worst wrench of size one
-/// (a force of 1 N, a moment of ℓ N m, or both in part), 1 over the least singular value of the scaled unit wrenches. The
-/// nearer to a singular pose, the larger.
+/// Largest tension needed per unit wrench [N/N]: 1/σ_min of the scaled unit wrenches (moments divided by ℓ), the norm
+/// of the smallest tensions that balance the worst wrench of size one. Grows without bound towards a singular pose.
 ///
-/// Slack cables balance nothing. `None` where the others are fewer than the degrees of freedom, infinite at a singular pose.
+/// Slack cables do not count. `None` if fewer cables than degrees of freedom are taut, infinite at a singular pose.
 pub fn tension_gain(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
     let n = robot.platform.motion.count();
     let (values, _) = symmetric::eigen(&wrench_gram(robot, equilibrium)?, n);
-    // Squares below the rounding of their sum are none.
+    // Squares below the rounding of their sum count as zero.
     let least = if values[0] > 1e-14 * values[n - 1] { values[0] } else { 0.0 };
     Some(1.0 / least.sqrt())
 }
 
-/// Whether [`tension_gain`] is above a limit; in a fraction of its time.
+/// True if [`tension_gain`] is above a limit; takes a fraction of its time.
 pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, limit: f64) -> bool {
     let Some(mut gram) = wrench_gram(robot, equilibrium) else { return false };
     let n = robot.platform.motion.count();
@@ -28,8 +27,8 @@ pub(crate) fn tension_gain_exceeds(robot: &Robot, equilibrium: &Equilibrium, lim
     gram.cholesky().is_none()
 }
 
-/// Least over largest singular value of the matrix of the cables' directions, moments over ℓ, in the platform's
-/// coordinates: 0 at a singular pose, 1 where all degrees of freedom are held alike.
+/// Inverse condition number: smallest over largest singular value of the matrix of the cables' directions, with moments
+/// over ℓ, in the platform's coordinates. 0 at a singular pose, 1 if all degrees of freedom are constrained equally.
 pub fn inverse_condition(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
     let coordinates = Coordinates::of(robot);
     let columns: Vec<Vec6> = (equilibrium.cables.iter())
@@ -41,8 +40,8 @@ pub fn inverse_condition(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
     if most > 0.0 { least / most } else { 0.0 }
 }
 
-/// Sum of the squares of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None`
-/// where they are fewer than the degrees of freedom.
+/// Gram matrix of the scaled unit wrenches of all cables that are not slack, in the platform's coordinates; `None` if
+/// they are fewer than the degrees of freedom.
 fn wrench_gram(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     let coordinates = Coordinates::of(robot);
     let (mut gram, mut pulling) = (Mat6::zeros(), 0);

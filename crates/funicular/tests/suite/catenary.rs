@@ -1,4 +1,4 @@
-//! The catenary against its own limits, its energy and differences.
+//! Catenary compared with its own limits, its energy and differences.
 
 use funicular::catenary::space::HangingCable;
 use funicular::catenary::{Catenary, CatenaryError, Rope};
@@ -14,7 +14,7 @@ fn assert_close(ours: f64, theirs: f64, relative: f64, what: &str) {
 
 #[test]
 fn a_vertical_taut_cable_carries_its_weight() {
-    // T_B − T_A = wL, and the stretch is the mean tension's: no approximation.
+    // T_B − T_A = wL, and the stretch is that of the mean tension: no approximation.
     let (length, ea, w) = (10.0, 1e5, 3.0);
     let rise = 10.05;
     let cable = solve(0.0, rise, length, ea, w);
@@ -22,7 +22,7 @@ fn a_vertical_taut_cable_carries_its_weight() {
     assert_close(cable.tension_at_start(), mean - 15.0, 1e-12, "lower");
     assert_close(cable.tension_at_end(), mean + 15.0, 1e-12, "upper");
     assert_close(cable.tangent()[1][1], ea / length, 1e-12, "axial");
-    // Across: 1/∫ds(1/EA + 1/T) = w/(w L/EA + ln(T_B/T_A)).
+    // Horizontal: 1/∫ds(1/EA + 1/T) = w/(w L/EA + ln(T_B/T_A)).
     let exact = w / (w * length / ea + (cable.tension_at_end() / cable.tension_at_start()).ln());
     assert_close(cable.out_of_plane_stiffness(), exact, 1e-12, "across");
     assert_close(cable.tangent()[0][0], exact, 1e-12, "across in plane");
@@ -39,7 +39,7 @@ fn a_vertical_taut_cable_carries_its_weight() {
 fn a_vertical_loop_hangs_by_both_ends() {
     let cable = solve(0.0, 2.0, 10.0, 1e6, 5.0);
     assert_eq!(cable.horizontal_force().to_bits(), 0.0_f64.to_bits());
-    // Inextensible: the lower end carries 4 m, the upper 6 m; elastic to 1e-4.
+    // Inextensible: the lower end carries 4 m, the upper end 6 m; elastic to 1e-4.
     assert_close(-cable.vertical_force_at_start(), 20.0, 1e-4, "lower end");
     assert_close(cable.vertical_force_at_end(), 30.0, 1e-4, "upper end");
     let beside = solve(1e-7, 2.0, 10.0, 1e6, 5.0);
@@ -53,7 +53,7 @@ fn strained_by_a_hundredth_and_almost_weightless_it_is_a_spring() {
         let chord = f64::hypot(span, rise);
         let (length, ea) = (chord / 1.01, 1e5);
         let tension = 1e3;
-        // Weight over tension 1e-8, and none at all.
+        // Weight over tension 1e-8, and zero.
         for w in [1e-8 * tension / length, 0.0] {
             let cable = solve(span, rise, length, ea, w);
             assert_close(cable.horizontal_force(), tension * span / chord, 3e-13, "H");
@@ -102,7 +102,7 @@ fn input_that_is_no_cable_is_refused_with_its_value() {
 fn any_cable() -> impl Strategy<Value = [f64; 5]> {
     (0.0f64..3.0, -89.99f64..89.99, -3.0f64..0.48, 3.0f64..9.0, -3.0f64..3.0).prop_map(|(size, slope, slack, ea, w)| {
         let (chord, slope) = (10f64.powf(size), slope.to_radians());
-        // −3..−0 gives strains of 1e-3..; above, lengths up to 3 times the chord.
+        // The range −3..−0 gives strains of 1e-3..; above, lengths up to 3 times the chord.
         let length =
             if slack < -1.0 { chord / (1.0 + 10f64.powf(slack * 1.5)) } else { chord * 10f64.powf(slack.max(1e-9)) };
         [chord * slope.cos(), chord * slope.sin(), length, 10f64.powf(ea), 10f64.powf(w)]
@@ -117,7 +117,7 @@ proptest! {
         let cable = solve(dx, dz, length, ea, w);
         let [x, z] = cable.point_at(length);
         let chord = f64::hypot(dx, dz);
-        // Stretched lengths far beyond the chord (weak, heavy cables) carry their own rounding.
+        // Stretched lengths far beyond the chord (weak, heavy cables) have their own rounding.
         let stretched = length * (1.0 + cable.tension_at_end().max(cable.tension_at_start()) / ea);
         prop_assert!((x - dx).abs() < 1e-11 * (chord + stretched), "x {x} {dx}");
         prop_assert!((z - dz).abs() < 1e-11 * (chord + stretched), "z {z} {dz}");
@@ -127,10 +127,10 @@ proptest! {
             let at = |k: f64| solve(dx + k * ax, dz + k * az, length, ea, w).energy();
             (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
         };
-        // Where a taut cable goes slack within the step the difference quotient says nothing.
+        // If a taut cable goes slack within the step, the difference quotient has no meaning.
         prop_assume!((chord / length - 1.0).abs() > 2e-4);
         let force = cable.tension_at_end().max(cable.tension_at_start());
-        // Energy is the difference of terms of size force × length, known to rounding.
+        // Energy is a difference of terms of size force × length, known to rounding.
         let rounding = 1e-14 * force * stretched / step;
         prop_assert!((by(0.0, 1.0) - cable.vertical_force_at_end()).abs() < 1e-6 * force + rounding);
         prop_assert!((by(1.0, 0.0) - cable.horizontal_force()).abs() < 1e-6 * force + rounding);
@@ -155,8 +155,8 @@ proptest! {
             let differenced = (a - b) / (2.0 * step);
             prop_assert!((exact - differenced).abs() < 1e-4 * (xx + zz) + rounding, "{exact} {differenced}");
         }
-        // Extrapolated (Richardson): where the tension of a steep cable all but vanishes at its lower end, the forces
-        // bend over a strain of 1e-4.
+        // Extrapolated (Richardson): if the tension of a steep cable nearly vanishes at its lower end, the forces are
+        // curved over a strain of 1e-4.
         let change = 1e-6 * length;
         let with = |k: f64| solve(dx, dz, length + k * change, ea, w);
         let by_length = |f: &dyn Fn(&Catenary) -> f64| {

@@ -33,7 +33,7 @@ fn a_force_at_the_centre_of_mass_is_weight() {
     let heavier = robot.with_mass(robot.platform.mass + more);
     for model in [StaticModel::Ideal, StaticModel::Spring, StaticModel::Catenary] {
         let [a, b] = [&loaded, &heavier].map(|robot| statics::forward(robot, &lengths, model, None).unwrap());
-        assert!(statics::distance(&robot, &a.pose, &b.pose) < 1e-10, "{model:?}");
+        assert!(statics::pose_distance(&robot, &a.pose, &b.pose) < 1e-10, "{model:?}");
         for (a, b) in a.cables.iter().zip(&b.cables) {
             assert!((a.tension_platform - b.tension_platform).abs() < 1e-7);
         }
@@ -59,7 +59,7 @@ fn a_pulled_bifilar_pendulum_swings_faster_and_its_lever_counts() {
     let rest = statics::forward(&robot, &[length], StaticModel::Spring, None).unwrap();
     let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() };
     let found = modes::below(&Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap(), 20.0);
-    // The body turns under the force alone, its centre swings under force and weight: two pendulums.
+    // The body turns under the force alone; its centre swings under force and weight: two pendulums.
     let tension: f64 = mass * 9.81 + pull;
     let mut expected = [tension / (length * mass), pull * lever / inertia].map(|x: f64| x.sqrt() / TAU);
     expected.sort_by(f64::total_cmp);
@@ -84,15 +84,15 @@ fn a_moment_is_a_force_beside_the_origin_to_statics_and_not_to_stiffness() {
     }
     let [k, l] = [(&beside, &a), (&moved, &b)].map(|(robot, at)| statics::tangent_stiffness(robot, at).unwrap());
     assert!((k - k.transpose()).amax() < 1e-8 * k.amax() && (l - l.transpose()).amax() < 1e-8 * l.amax());
-    // Theory, (48): the force turns on its lever; of the moment there is only what makes the whole symmetric.
+    // Theory, (48): the force turns on its lever; of the moment only the half that makes the sum symmetric counts.
     let skew = funicular::math::skew;
     let expected = -skew(&force_w) * skew(&(rest.pose.rot_wp * point_p)) - skew(&moment_w) * 0.5;
     let difference = (k - l).fixed_view::<3, 3>(3, 3).clone_owned();
     assert!((difference - expected).amax() < 1e-6 * k.amax(), "{difference} {expected}");
-    // And forward statics finds both again.
+    // Forward statics finds both again.
     for (robot, at) in [(&beside, &a), (&moved, &b)] {
         let back = statics::forward(robot, &lengths_of(at), StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(robot, &back.pose, &rest.pose) < 1e-8);
+        assert!(statics::pose_distance(robot, &back.pose, &rest.pose) < 1e-8);
     }
 }
 
@@ -111,7 +111,7 @@ fn forces_pull_a_point_mass_and_a_redundant_robot() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 80, failure_persistence: None, ..Default::default() })]
 
-    /// With any load the pose found balances it, the stiffness is symmetric, and its symmetric part is the differential of
+    /// Any load: the pose found balances it, the stiffness is symmetric, and its symmetric part is the derivative of
     /// the wrench.
     #[test]
     fn any_loaded_robot_balances_and_its_stiffness_is_the_differential(

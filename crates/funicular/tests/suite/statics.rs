@@ -1,4 +1,4 @@
-//! Equilibria, one file per question as in the sources, and the robots that several of them use.
+//! Equilibria, one file per topic as in the sources, and robots shared by several of them.
 
 mod energy;
 mod equilibria;
@@ -23,7 +23,7 @@ fn load(text: &str) -> (Robot, Vec<f64>) {
     (robot, lengths)
 }
 
-/// A crane's platform, 1 m by 0.6 m by 0.2 m, on `cables` of four cables to the corners of a hall.
+/// Platform of a crane, 1 m by 0.6 m by 0.2 m, on `cables` of four cables to the corners of a hall.
 pub(crate) fn crane(cables: usize, rope_mass: f64) -> Robot {
     let mut text = format!(
         "name = \"crane\"\n[platform]\nmass_kg = 60\ninertia_kg_m2 = [2.0, 5.2, 6.8]\ncenter_of_mass_m = [0.03, -0.02, -0.1]\n\

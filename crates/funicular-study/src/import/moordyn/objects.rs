@@ -107,7 +107,7 @@ impl<'a> MoorDynModel<'a> {
                     ))
                 }
                 SectionKind::ExternalLoads => {
-                    model.lost.push(format!("the external load of line {} of the file", row.line))
+                    model.lost.push(format!("the external load of line {} of the file", row.line));
                 }
                 SectionKind::Options => match row.words.get(1).copied() {
                     Some("g" | "gravity") => model.gravity = row.quantity(file, 0, "g")?,

@@ -5,7 +5,7 @@ use crate::math::Complex;
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
-/// Eight complex numbers side by side, their real and their imaginary parts each in a lane.
+/// Eight complex numbers side by side, real and imaginary parts in one lane each.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Complexes {
     pub(crate) re: Lane,
@@ -42,7 +42,7 @@ impl Complexes {
         Self { re: from_fn(|i| self.re[i] * n[i]), im: from_fn(|i| -self.im[i] * n[i]) }
     }
 
-    /// `self += factor * k`, k real.
+    /// Adds `factor * k` to `self`, k real.
     #[inline(always)]
     pub(crate) fn add_scaled(&mut self, factor: &Self, k: f64) {
         for i in 0..LANES {
@@ -82,7 +82,7 @@ impl Mul for Complexes {
 impl Div for Complexes {
     type Output = Self;
     #[inline(always)]
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "one real division a lane")]
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "one real division per lane")]
     fn div(self, other: Self) -> Self {
         self * other.inverse()
     }
@@ -110,7 +110,7 @@ impl SubAssign for Complexes {
     }
 }
 
-/// Largest |x| of [`sin_cos`]: the three-part reduction keeps every digit up to there.
+/// Maximum |x| of [`sin_cos`], up to which the three-part reduction keeps every digit.
 pub(crate) const SIN_COS_LIMIT: f64 = 1e5;
 
 /// Sine and cosine for 0 ≤ x ≤ [`SIN_COS_LIMIT`], within 2 units in the last place of 1.
@@ -120,7 +120,7 @@ pub(crate) fn sin_cos(x: Lane) -> (Lane, Lane) {
     const A: f64 = 1.570_796_326_734_125_6;
     const B: f64 = 6.077_100_506_303_966e-11;
     const C: f64 = 2.022_266_248_795_950_6e-21;
-    // Adding 1.5·2⁵² rounds to an integer, whose low bits are then those of the sum.
+    // Adding 1.5·2⁵² rounds to an integer; the low bits of the sum are those of this integer.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     const SIN: [f64; 7] = [
         -1.0 / 6.0,
@@ -173,10 +173,10 @@ pub(crate) fn sin_cos(x: Lane) -> (Lane, Lane) {
     (sine, cosine)
 }
 
-/// Largest |x| of [`tanh`].
+/// Maximum |x| of [`tanh`].
 pub(crate) const TANH_LIMIT: f64 = 1.0;
 
-/// Hyperbolic tangent for |x| ≤ 1, relative error below 1e-15: ninth convergent of Lambert's continued fraction.
+/// Hyperbolic tangent for |x| ≤ 1 with a relative error below 1e-15: ninth convergent of Lambert's continued fraction.
 #[inline(always)]
 pub(crate) fn tanh(x: Lane) -> Lane {
     from_fn(|i| {

@@ -1,4 +1,4 @@
-//! `[[cables]]`: each cable, and what has to hold between them.
+//! `[[cables]]`: each cable, and the conditions between cables.
 
 use super::limits;
 use super::materials::Materials;
@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::DeValue;
 
-/// Two points are one when they are nearer than this part of their distance from the origins: no cable of a robot is a
-/// billionth of the robot long, and rounding is a millionth of that.
+/// Distance of two points, relative to their distances from the origins, below which they count as one point: no cable
+/// is as short as a billionth of the robot, and rounding is a millionth of that.
 const COINCIDENT: f64 = 1e-9;
 
 /// Keys of `[[cables]]`.
@@ -59,9 +59,9 @@ pub(super) const KEYS: &[Key] = &[
 
 /// A cable and the places of its values.
 pub(super) struct CableEntry {
-    /// `None` when a value was refused; the issue is reported.
+    /// `None` if a value was refused; the issue has been reported.
     pub cable: Option<Cable>,
-    /// Where its length is, right or wrong.
+    /// Place of its length, valid or not.
     pub length_span: Option<Range<usize>>,
     label: String,
     header: Range<usize>,
@@ -70,7 +70,7 @@ pub(super) struct CableEntry {
     length_mistyped: bool,
 }
 
-/// All cables.
+/// Reads all cables.
 pub(super) fn read(
     reader: &mut Reader,
     root: &Section,
@@ -88,6 +88,7 @@ pub(super) fn read(
         reader.issue(value.span(), "there is no cable").help("begin every cable with [[cables]]");
         return None;
     }
+
     let mut names: BTreeMap<String, Range<usize>> = BTreeMap::new();
     let mut entries = Vec::with_capacity(array.len());
     for (i, value) in array.iter().enumerate() {
@@ -105,6 +106,7 @@ pub(super) fn read(
         let section = reader.open(label, value.span(), table, KEYS);
         entries.push(read_one(reader, &section, materials, motion, &mut names));
     }
+
     (entries.len() == array.len()).then_some(entries)
 }
 
@@ -127,9 +129,10 @@ fn read_one(
         names.insert(name.clone(), value.span());
         Some(name)
     });
+
     let material = reader.required(section, "material").and_then(|value| {
         let material = reader.text("material", value)?;
-        // Without [materials] every cable would repeat what has been said once.
+        // Without [materials] every cable would repeat an issue that has been reported once.
         let materials = materials?;
         let Some(known) = materials.get(&material) else {
             unknown_material(reader, &material, materials, value);
@@ -137,17 +140,21 @@ fn read_one(
         };
         known.clone()
     });
+
     let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector(section, "anchor_m", value));
     let attachment = attachment(reader, section, motion);
+
     let own_limits = limits::read(reader, section);
     if let (Some(own), Some(material)) = (own_limits, &material) {
-        // Against what it shares with its rope: each alone may be right and both together not.
+        // Together with the rope's limits: each may be valid alone and both together not.
         limits::check(reader, section, own.or(material.tension_limits), material.breaking_load);
     }
+
     let own_load = section.get("load_n_per_m").map(|value| reader.vector(section, "load_n_per_m", value));
     let length_value = section.get("unstrained_length_m");
     let length = length_value.and_then(|value| reader.number_of(section, "unstrained_length_m", value));
     let load = own_load.map_or_else(|| material.as_ref().map(|m| m.load_per_length_w), |own| own.map(Vec3::from));
+
     let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits.zip(load)).map(
         |(((name, material), (anchor, attachment)), (tension_limits, load_per_length_w))| Cable {
             load_per_length_w,
@@ -158,6 +165,7 @@ fn read_one(
             tension_limits,
         },
     );
+
     CableEntry {
         cable,
         label: section.label().to_owned(),
@@ -179,7 +187,7 @@ fn unknown_material(reader: &mut Reader, material: &str, materials: &Materials, 
         .help(format!("{suggestion}the file has {known}"));
 }
 
-/// The attachment; a point mass has all of them at its own point.
+/// Reads the attachment; it is the origin for a point mass.
 fn attachment(reader: &mut Reader, section: &Section, motion: Option<PlatformMotion>) -> Option<[f64; 3]> {
     let value = match motion {
         Some(PlatformMotion::Rigid | PlatformMotion::Planar(_)) => reader.required(section, "attachment_m")?,
@@ -198,7 +206,7 @@ fn attachment(reader: &mut Reader, section: &Section, motion: Option<PlatformMot
     Some(attachment)
 }
 
-/// The unstrained lengths [m]: all, or an empty list where no cable has one.
+/// Unstrained lengths of all cables [m], or an empty list if no cable has one.
 pub(super) fn lengths(reader: &mut Reader, cables: &[CableEntry]) -> Option<Vec<f64>> {
     let Some(first) = cables.iter().find_map(|cable| cable.length_span.clone()) else {
         return (!cables.iter().any(|cable| cable.length_mistyped)).then(Vec::new);
@@ -218,7 +226,7 @@ pub(super) fn lengths(reader: &mut Reader, cables: &[CableEntry]) -> Option<Vec<
     cables.iter().map(|cable| cable.length).collect()
 }
 
-/// Refuses a cable that begins where it ends: it has no direction.
+/// Refuses a cable with coinciding ends: it has no direction.
 pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry], pose: &Pose) {
     for entry in cables {
         let Some(cable) = &entry.cable else { continue };
@@ -235,11 +243,12 @@ pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry],
     }
 }
 
-/// Refuses a robot that hangs from one point. With lengths the pose is not known yet, this much is.
+/// Refuses a robot whose cables all have one anchor. With given lengths the pose is unknown here, but this can be
+/// checked.
 pub(super) fn refuse_one_anchor(reader: &mut Reader, cables: &[CableEntry]) {
     let anchors: Option<Vec<Vec3>> =
         cables.iter().map(|entry| entry.cable.as_ref().map(|c| c.anchor.reference_w())).collect();
-    // One cable is a pendulum and has one anchor.
+    // A single cable is a pendulum and has one anchor.
     let Some([first, others @ ..]) = anchors.as_deref() else {
         return;
     };

@@ -1,15 +1,16 @@
-//! What is wrong with a robot file, where, and what to do about it.
+//! Issues of a robot file: problem, place and remedy.
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
 
-/// Issues shown by [`SpecError::render`]; a file with more has one cause, and it is among the first.
+/// Maximum number of issues that [`SpecError::render`] shows. More issues usually have one cause, and it is among the
+/// first.
 const SHOWN: usize = 20;
 
-/// A robot file that cannot be used: one issue or more, in file order.
+/// Robot file that cannot be used: one or more issues, in file order.
 ///
-/// [`Display`](fmt::Display) gives one line an issue; [`render`](Self::render) shows the lines of the file.
+/// [`Display`](fmt::Display) gives one line per issue; [`render`](Self::render) shows the lines of the file.
 ///
 /// # Example
 ///
@@ -26,36 +27,36 @@ pub struct SpecError {
     issues: Vec<Issue>,
 }
 
-/// One thing that is wrong, and where.
+/// One problem and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Issue {
-    /// Bytes of the text it is about.
+    /// Range of bytes of the text that the issue refers to.
     pub span: Range<usize>,
     /// Line of the first of these bytes, from 1.
     pub line: usize,
     /// Column of the first of these bytes, in characters from 1.
     pub column: usize,
-    /// What is wrong: the value, the limit.
+    /// Message: the value and the limit.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub help: Option<String>,
-    /// Another place that belongs to it, and why.
+    /// Second place that belongs to the issue, with a label.
     pub context: Option<(Range<usize>, String)>,
 }
 
 impl Issue {
-    /// An issue whose line and column are filled in by [`SpecError::new`].
+    /// Issue whose line and column [`SpecError::new`] fills in.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
         Self { span, line: 1, column: 1, message: message.into(), help: None, context: None }
     }
 
-    /// Says what to do.
+    /// Adds the remedy.
     pub(super) fn help(&mut self, help: impl Into<String>) -> &mut Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Points at a second place.
+    /// Adds a second place.
     pub(super) fn context(&mut self, span: Range<usize>, label: impl Into<String>) -> &mut Self {
         self.context = Some((span, label.into()));
         self
@@ -74,14 +75,14 @@ impl SpecError {
         Self { issues }
     }
 
-    /// The issues, in file order; at least one.
+    /// Issues in file order; at least one.
     pub fn issues(&self) -> &[Issue] {
         &self.issues
     }
 
-    /// The issues with the lines of the file they point at, several lines an issue; at most 20 issues.
+    /// Issues with the lines of the file they point at, several lines per issue; at most 20 issues.
     ///
-    /// `text` is the text that was read, `file_name` is shown as it is; `color` adds ANSI colours.
+    /// `text` is the text that was read. `file_name` is shown unchanged; `color` adds ANSI colours.
     ///
     /// # Example
     ///
@@ -101,6 +102,7 @@ impl SpecError {
             let start = boundary(shown_text, span.start.saturating_sub(mark));
             start..boundary(shown_text, span.end.saturating_sub(mark)).max(start)
         };
+
         let mut shown: Vec<String> = Vec::new();
         for issue in self.issues.iter().take(SHOWN) {
             let mut snippet = Snippet::source(shown_text)
@@ -115,6 +117,7 @@ impl SpecError {
             }
             shown.push(renderer.render(&[group]));
         }
+
         if let Some(more) = self.issues.len().checked_sub(SHOWN).filter(|more| *more > 0) {
             shown.push(format!("and {more} more"));
         }
@@ -134,13 +137,13 @@ impl fmt::Display for SpecError {
 
 impl std::error::Error for SpecError {}
 
-/// The text without its byte-order mark, and the bytes left out: an editor counts columns without it.
+/// Text without its byte-order mark, and the number of bytes removed: an editor counts columns without the mark.
 fn without_mark(text: &str) -> (&str, usize) {
     let rest = text.strip_prefix('\u{feff}').unwrap_or(text);
     (rest, text.len() - rest.len())
 }
 
-/// The nearest place at or before `byte` that is in the text and between two characters.
+/// Nearest character boundary of the text at or before `byte`.
 fn boundary(text: &str, byte: usize) -> usize {
     let mut byte = byte.min(text.len());
     while !text.is_char_boundary(byte) {
@@ -149,7 +152,7 @@ fn boundary(text: &str, byte: usize) -> usize {
     byte
 }
 
-/// Where the lines of a text begin.
+/// Starts of the lines of a text.
 struct Lines<'t> {
     text: &'t str,
     mark: usize,
@@ -163,7 +166,7 @@ impl<'t> Lines<'t> {
         Self { text, mark, starts }
     }
 
-    /// Line and column, in characters from 1, of a byte.
+    /// Line and column of a byte, in characters from 1.
     fn place(&self, byte: usize) -> (usize, usize) {
         let byte = boundary(self.text, byte.saturating_sub(self.mark));
         // At least 1: the first line begins at 0.

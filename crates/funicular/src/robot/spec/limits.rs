@@ -1,16 +1,16 @@
-//! Limits of tension, which a rope and a cable may both have.
+//! Tension limits, which a rope and a cable may both have.
 
 use super::read::{Reader, Section};
 use crate::robot::TensionLimits;
 
-/// The limits of a table; either may be absent.
+/// Reads the limits of a table; either may be absent.
 pub(super) fn read(reader: &mut Reader, section: &Section) -> Option<TensionLimits> {
     let minimum = optional(reader, section, "minimum_tension_n");
     let maximum = optional(reader, section, "maximum_tension_n");
     Some(TensionLimits { minimum: minimum?, maximum: maximum? })
 }
 
-/// The breaking load, which may be absent.
+/// Reads the breaking load, which may be absent.
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
 pub(super) fn breaking_load(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
     optional(reader, section, "breaking_load_n")
@@ -24,11 +24,12 @@ fn optional(reader: &mut Reader, section: &Section, key: &str) -> Option<Option<
     }
 }
 
-/// Refuses limits between which there is nothing, and limits that the rope does not live to see. What is wrong is said
-/// at a value of this table; what only its rope has wrong has been said there.
+/// Refuses a minimum that is not below the maximum, and limits above the breaking load. The issue points at a value of
+/// this table; an issue of the rope's own limits is reported at the rope only.
 pub(super) fn check(reader: &mut Reader, section: &Section, limits: TensionLimits, breaking_load: Option<f64>) {
     let span_of = |key: &str| section.get(key).map(toml::Spanned::span);
     let (minimum_span, maximum_span) = (span_of("minimum_tension_n"), span_of("maximum_tension_n"));
+
     if let (Some(minimum), Some(maximum)) = (limits.minimum, limits.maximum)
         && minimum >= maximum
     {
@@ -40,6 +41,7 @@ pub(super) fn check(reader: &mut Reader, section: &Section, limits: TensionLimit
         }
         return;
     }
+
     let Some(breaking_load) = breaking_load else { return };
     let limits =
         [("minimum_tension_n", limits.minimum, minimum_span), ("maximum_tension_n", limits.maximum, maximum_span)];

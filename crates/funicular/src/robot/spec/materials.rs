@@ -1,4 +1,5 @@
-//! `[materials.NAME]`: what a rope is made of. Unused ones are welcome: a file may offer several ropes to choose from.
+//! `[materials.NAME]`: properties of a rope. Unused materials are allowed: a file may offer several ropes to choose
+//! from.
 
 use super::limits;
 use super::read::{Key, MAX_NUMBER, MIN_NUMBER, Reader, Section};
@@ -8,7 +9,8 @@ use crate::robot::{Damping, Material};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Damping ratios from here on are not material damping, and `ω² (1 − 2iξ)` turns from the real axis by 45°.
+/// Damping ratio that must not be reached: from here on it is not material damping, and `ω² (1 − 2iξ)` is turned from
+/// the real axis by 45°.
 const RATIO_LIMIT: f64 = 0.5;
 
 /// Keys of `[materials.NAME]`.
@@ -86,10 +88,10 @@ pub(super) const KEYS: &[Key] = &[
 
 const TWO_WAYS: &str = "give `youngs_modulus_pa` with one of `diameter_m` and `area_m2`, or `axial_stiffness_n` alone";
 
-/// The materials by name, `None` for one that was refused: its name is still known.
+/// Materials by name; `None` for a refused material, whose name is still known.
 pub(super) type Materials = BTreeMap<String, Option<Material>>;
 
-/// All materials.
+/// Reads all materials.
 pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
     let value = reader.required(root, "materials")?;
     let table = reader.table("materials", "[materials.NAME]", value)?;
@@ -99,6 +101,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
             .help("add a table [materials.NAME] for every rope, NAME of your choice");
         return None;
     }
+
     let mut materials = Materials::new();
     for (key, value) in table {
         let name: &str = key.get_ref();
@@ -118,16 +121,19 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     let mass_per_length =
         reader.required(section, "mass_kg_per_m").and_then(|value| reader.number_of(section, "mass_kg_per_m", value));
     let damping = damping(reader, section);
+
     let breaking_load = limits::breaking_load(reader, section);
     let tension_limits = limits::read(reader, section);
     if let Some(limits) = tension_limits {
         limits::check(reader, section, limits, breaking_load.flatten());
     }
+
     let drag_width = drag_width(reader, section, stiffness.diameter());
     let load_per_length = match section.get("load_n_per_m") {
         Some(value) => reader.vector(section, "load_n_per_m", value),
         None => Some([0.0; 3]),
     };
+
     Some(Material {
         name: name.to_owned(),
         axial_stiffness: axial_stiffness?,
@@ -140,13 +146,14 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     })
 }
 
-/// Drag coefficient times diameter [m], where there is a coefficient.
+/// Drag coefficient times diameter [m], if a coefficient is given.
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
 fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>) -> Option<Option<f64>> {
     let own = section.get("drag_diameter_m");
-    // What is wrong with the rope's own diameter has been said where its stiffness was read.
+    // An issue of the rope's own diameter has been reported together with its stiffness.
     let of_rope = section.get("diameter_m").map(|_| rope_diameter);
     let diameter = own.map(|value| reader.number_of(section, "drag_diameter_m", value)).or(of_rope);
+
     let Some(value) = section.get("drag_coefficient") else {
         if let Some(own) = own {
             reader
@@ -156,6 +163,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
         }
         return Some(None);
     };
+
     let coefficient = reader.number_of(section, "drag_coefficient", value);
     let Some(diameter) = diameter else {
         reader
@@ -166,17 +174,17 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
     Some(Some(coefficient? * diameter?))
 }
 
-/// The numbers that say how stiff a rope is, those that are given and right.
+/// Valid numbers that determine the stiffness of a rope.
 struct StiffnessKeys {
     numbers: [Option<f64>; 4],
-    /// Some number is given and wrong; the issue is reported.
+    /// True if a given number is invalid; the issue has been reported.
     wrong: bool,
 }
 
 impl StiffnessKeys {
     const NAMES: [&str; 4] = ["axial_stiffness_n", "youngs_modulus_pa", "diameter_m", "area_m2"];
 
-    /// Numbers first: a wrong number is worth a message of its own.
+    /// Reads the numbers first: each invalid number gets its own message.
     fn read(reader: &mut Reader, section: &Section) -> Self {
         let mut wrong = section.mistyped(&Self::NAMES);
         let numbers = Self::NAMES.map(|key| {
@@ -192,11 +200,12 @@ impl StiffnessKeys {
         self.numbers[2]
     }
 
-    /// EA [N], from one of the two ways to give it.
+    /// Axial stiffness EA [N], given in one of the two ways.
     fn axial_stiffness(&self, reader: &mut Reader, section: &Section) -> Option<f64> {
         let Self { numbers, wrong } = *self;
         let keys = Self::NAMES;
         let values = keys.map(|key| section.get(key));
+
         if let Some(stiffness) = values[0] {
             let mut others = keys.into_iter().zip(values).skip(1);
             if let Some((other, value)) = others.find_map(|(key, value)| Some((key, value?))) {
@@ -208,6 +217,7 @@ impl StiffnessKeys {
             }
             return numbers[0];
         }
+
         if let (Some(diameter), Some(area)) = (values[2], values[3]) {
             let mut both = [("diameter_m", diameter.span()), ("area_m2", area.span())];
             both.sort_by_key(|(_, span)| span.start);
@@ -218,9 +228,11 @@ impl StiffnessKeys {
                 .help(TWO_WAYS);
             return None;
         }
+
         if wrong {
             return None;
         }
+
         let label = section.label();
         let missing = match (numbers[1], numbers[2], numbers[3]) {
             (None, None, None) => format!("{label} has no axial stiffness"),
@@ -238,7 +250,7 @@ impl StiffnessKeys {
     }
 }
 
-/// Both factors may be in the limits and the product not.
+/// Checks the product E A: both factors may be within the limits and the product not.
 fn product_in_limits(reader: &mut Reader, section: &Section, stiffness: f64) -> Option<f64> {
     if (MIN_NUMBER..=MAX_NUMBER).contains(&stiffness) {
         return Some(stiffness);

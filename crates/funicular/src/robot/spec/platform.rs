@@ -1,4 +1,4 @@
-//! `[platform]`: mass, degrees of freedom, and an inertia tensor that a body can have.
+//! `[platform]`: mass, motion, and an inertia tensor that a body can have.
 
 use super::read::{Key, MIN_NUMBER, Reader, Section, Value, is_zero, known, shortened};
 use crate::math::{Mat3, Vec3, symmetric_part};
@@ -11,8 +11,8 @@ use toml::de::DeValue;
 /// digits of any published tensor.
 const SLACK: f64 = 1e-9;
 
-/// Largest excess of a principal moment over the sum of the others, relative to it. Of a flat body they are equal, and
-/// sources round them: 0.005208333, 0.005208333 and 0.010416667 differ by 1e-7.
+/// Largest excess of a principal moment over the sum of the others, relative to this moment. For a flat body they are
+/// equal, and sources round them: 0.005208333, 0.005208333 and 0.010416667 differ by 1e-7.
 const FLAT: f64 = 1e-6;
 
 /// Keys of `[platform]`.
@@ -75,25 +75,29 @@ pub(super) const KEYS: &[Key] = &[
     .or([0.0; 3]),
 ];
 
-/// What `motion` may be.
+/// Values of `motion`.
 const WORDS: [&str; 6] = ["rigid", "point-mass", "planar-xy", "planar-xz", "planar-yz", "planar"];
 
-/// The degrees of freedom, `None` where the file's word is unknown. Silent where there is no `[platform]`: [`read`] speaks of it.
+/// Reads the motion; `None` if the word in the file is unknown. Reports nothing if there is no `[platform]`: [`read`]
+/// does.
 pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMotion> {
     let Some(DeValue::Table(table)) = root.get("platform").map(toml::Spanned::get_ref) else {
         return Some(PlatformMotion::default());
     };
+
     let (normal, offset) = (table.get("plane_normal"), table.get("plane_offset_m"));
     let word = match table.get("motion") {
         Some(value) => known_word(reader, value)?,
         None => "rigid",
     };
+
     let axis = match word {
         "planar-xy" => Some(Vec3::z()),
         "planar-xz" => Some(Vec3::y()),
         "planar-yz" => Some(Vec3::x()),
         _ => None,
     };
+
     if word != "planar"
         && let Some(value) = normal
     {
@@ -101,15 +105,17 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
         reader.issue(value.span(), format!("`plane_normal` goes with `motion = \"planar\"`, not {word}")).help(help);
         return None;
     }
+
     if axis.is_none() && word != "planar" {
         if let Some(value) = offset {
             reader
-                .issue(value.span(), "`plane_offset_m` is of a planar platform")
+                .issue(value.span(), "`plane_offset_m` is for a planar platform only")
                 .help("remove the line, or set `motion = \"planar-xz\"`");
             return None;
         }
         return Some(if word == "rigid" { PlatformMotion::Rigid } else { PlatformMotion::PointMass });
     }
+
     let normal_w = match (axis, normal) {
         (Some(axis), _) => axis,
         (None, Some(value)) => {
@@ -130,6 +136,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
             return None;
         }
     };
+
     let offset = match offset {
         Some(value) => reader.number_as(known(KEYS, "plane_offset_m"), value)?,
         None => 0.0,
@@ -150,12 +157,14 @@ fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
     known
 }
 
-/// The platform.
+/// Reads the platform.
 pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>) -> Option<Platform> {
     let value = reader.required(root, "platform")?;
     let table = reader.table("platform", "[platform]", value)?;
     let section = reader.open("[platform]", value.span(), table, KEYS);
+
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
+
     let inertia = match motion {
         Some(PlatformMotion::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
         Some(PlatformMotion::Planar(plane)) => {
@@ -171,6 +180,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         }
         None => None,
     };
+
     let center_of_mass = match section.get("center_of_mass_m") {
         Some(value) => {
             let center = reader.vector(&section, "center_of_mass_m", value);
@@ -183,10 +193,12 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         }
         None => Some([0.0; 3]),
     };
+
     let drag_area = match section.get("drag_area_m2") {
         Some(value) => reader.number_of(&section, "drag_area_m2", value),
         None => Some(0.0),
     };
+
     let translational = damping(reader, &section, "translational_damping_n_s_m");
     let rotational = damping(reader, &section, "rotational_damping_n_m_s");
     if let Some(value) = section.get("rotational_damping_n_m_s").filter(|_| motion == Some(PlatformMotion::PointMass)) {
@@ -194,6 +206,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
             .issue(value.span(), "a point mass does not turn, `rotational_damping_n_m_s` must be absent")
             .help("remove the line, or set `motion = \"rigid\"`");
     }
+
     Some(Platform {
         translational_damping_p: translational?,
         rotational_damping_p: rotational?,
@@ -205,7 +218,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
     })
 }
 
-/// Viscous damping along the platform's three axes, none where the key is absent.
+/// Viscous damping along the platform's three axes; zero if the key is absent.
 fn damping(reader: &mut Reader, section: &Section, key: &str) -> Option<Vec3> {
     let Some(value) = section.get(key) else { return Some(Vec3::zeros()) };
     let label = format!("`{key}`");
@@ -213,7 +226,8 @@ fn damping(reader: &mut Reader, section: &Section, key: &str) -> Option<Vec3> {
     reader.three_numbers(&label, section.number(key).range, three).map(Vec3::from)
 }
 
-/// One number is the moment about the normal, all that counts; a tensor is read as that of a rigid body.
+/// Inertia of a planar platform. A single number is the moment about the normal, which is all that counts; a tensor is
+/// read as for a rigid body.
 fn planar_inertia(reader: &mut Reader, value: &Value, plane: &Plane) -> Option<Mat3> {
     if matches!(value.get_ref(), DeValue::Array(_)) {
         return inertia(reader, value);
@@ -222,11 +236,12 @@ fn planar_inertia(reader: &mut Reader, value: &Value, plane: &Plane) -> Option<M
     Some(plane.normal_w() * plane.normal_w().transpose() * moment)
 }
 
-/// Three principal moments or a full tensor; symmetric, positive definite, and possible for a body.
+/// Reads three principal moments or a full tensor, which must be symmetric, positive definite and possible for a body.
 fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
     let label = "`inertia_kg_m2`";
     let rows = reader.three(label, "three numbers or three rows of three, in kg m²", value)?;
     let full = rows.iter().any(|row| matches!(row.get_ref(), DeValue::Array(_)));
+
     let tensor = if full {
         let mut tensor = Mat3::zeros();
         let mut elements = [[value; 3]; 3];
@@ -250,11 +265,12 @@ fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
     } else {
         Mat3::from_diagonal(&Vec3::from(reader.three_numbers(label, Range::Positive, rows)?))
     };
+
     possible(reader, &tensor, value)?;
     Some(tensor)
 }
 
-/// The tensor without the rounding of its two halves.
+/// Symmetric part of the tensor, after a check that the two halves differ by rounding only.
 fn symmetric(reader: &mut Reader, tensor: &Mat3, elements: &[[&Value; 3]; 3]) -> Option<Mat3> {
     for (i, j) in [(1, 0), (2, 0), (2, 1)] {
         let [lower, upper] = [tensor[(i, j)], tensor[(j, i)]];
@@ -275,19 +291,21 @@ fn symmetric(reader: &mut Reader, tensor: &Mat3, elements: &[[&Value; 3]; 3]) ->
     Some(symmetric_part(tensor))
 }
 
-/// Whether a body can have this tensor: principal moments positive, none larger than the sum of the others.
+/// Checks that a body can have this tensor: principal moments positive, none larger than the sum of the others.
 fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     let mut moments: [f64; 3] = tensor.symmetric_eigenvalues().into();
     moments.sort_by(f64::total_cmp);
     let [least, middle, largest] = moments;
     let shown = format!("its principal moments are {}, {} and {} kg m²", short(least), short(middle), short(largest));
-    // Below 1e-12 of the largest, the sign of the least moment is rounding.
+
+    // Below 1e-12 of the largest moment, the sign of the smallest is rounding.
     if least < MIN_NUMBER * largest.max(1.0) {
         reader
             .issue(value.span(), format!("`inertia_kg_m2` is not positive definite: {shown}"))
             .help("give the tensor about the centre of mass in platform axes; its off-diagonal entries are −∫xy dm");
         return None;
     }
+
     if largest > (least + middle) * (1.0 + FLAT) {
         reader
             .issue(
@@ -300,7 +318,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     Some(())
 }
 
-/// Four significant digits, for a message.
+/// Value with four significant digits, for a message.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }

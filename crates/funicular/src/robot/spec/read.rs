@@ -1,4 +1,4 @@
-//! Reading single values: types, signs and sizes, names, known keys. Every refusal points at the value.
+//! Reading single values: types, signs and sizes, names, known keys. Every message points at the value.
 
 use super::{Issue, TABLES};
 use crate::robot::parameters::Range as Limits;
@@ -9,37 +9,38 @@ use toml::de::{DeTable, DeValue};
 
 pub(super) use crate::robot::parameters::{MAX_NUMBER, MIN_NUMBER};
 
-/// Characters of a user's text that a message repeats.
+/// Maximum number of characters of the user's text that a message repeats.
 const QUOTED: usize = 40;
 
-/// What messages call the keys outside any table.
+/// Name of the file's top level in messages.
 pub(in crate::robot) const TOP: &str = "the top of the file";
 
-/// A value and its place.
+/// Value with its place.
 pub(super) type Value<'t> = Spanned<DeValue<'t>>;
 
 /// A known key.
 pub(in crate::robot) struct Key {
-    /// As the file writes it.
+    /// Name in the file.
     pub name: &'static str,
-    /// A line for the help of "missing".
+    /// Example line for the help of a missing key.
     pub example: &'static str,
-    /// Unit, range and meaning of a key whose value is a number or numbers.
+    /// Unit, range and meaning if the value is a number or an array of numbers.
     pub number: Option<Numeric>,
 }
 
-/// Unit, range and meaning of the numbers of a key: the reader checks by them, and [`crate::robot::parameters`] lists them.
+/// Unit, range and meaning of the numbers of a key. The reader checks by them, and [`crate::robot::parameters`] lists
+/// them.
 #[derive(Clone, Copy)]
 pub(in crate::robot) struct Numeric {
     pub unit: &'static str,
     pub range: Limits,
     pub about: &'static str,
-    /// Values where the key is absent; a single number is the first of them.
+    /// Default values; a single number is the first of them.
     pub default: Option<[f64; 3]>,
     pub shape: Shape,
 }
 
-/// How the numbers of a key are arranged.
+/// Arrangement of the numbers of a key.
 #[derive(Clone, Copy, PartialEq)]
 pub(in crate::robot) enum Shape {
     /// One number.
@@ -57,12 +58,12 @@ pub(in crate::robot) enum Shape {
 pub(in crate::robot) enum Component {
     /// Element of an array of three.
     Element(usize),
-    /// Entry of a symmetric tensor; off the diagonal it has a mirror.
+    /// Entry of a symmetric tensor; an off-diagonal entry has a mirrored one.
     Entry(usize, usize),
 }
 
 impl Shape {
-    /// Names of the components, with their places.
+    /// Names and places of the components.
     pub(in crate::robot) fn components(self) -> &'static [(&'static str, Component)] {
         use Component::{Element, Entry};
         match self {
@@ -82,12 +83,12 @@ impl Shape {
 }
 
 impl Key {
-    /// A key whose value is no number.
+    /// Key whose value is not a number.
     pub(super) const fn other(name: &'static str, example: &'static str) -> Self {
         Self { name, example, number: None }
     }
 
-    /// A key with one number.
+    /// Key with one number.
     pub(super) const fn number(
         name: &'static str,
         example: &'static str,
@@ -98,7 +99,7 @@ impl Key {
         Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Number })
     }
 
-    /// A key with a vector.
+    /// Key with a vector.
     pub(super) const fn vector(
         name: &'static str,
         example: &'static str,
@@ -109,7 +110,7 @@ impl Key {
         Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Vector })
     }
 
-    /// A key with roll, pitch and yaw.
+    /// Key with roll, pitch and yaw.
     pub(super) const fn angles(
         name: &'static str,
         example: &'static str,
@@ -120,7 +121,7 @@ impl Key {
         Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Angles })
     }
 
-    /// A key with a symmetric tensor.
+    /// Key with a symmetric tensor.
     pub(super) const fn tensor(
         name: &'static str,
         example: &'static str,
@@ -140,7 +141,7 @@ impl Key {
         self.number.as_ref().expect("the reader asks for numbers of keys that have some")
     }
 
-    /// The key with the value that it has where the file leaves it out.
+    /// This key with a default value.
     pub(super) const fn or(mut self, default: [f64; 3]) -> Self {
         if let Some(number) = &mut self.number {
             number.default = Some(default);
@@ -149,29 +150,29 @@ impl Key {
     }
 }
 
-/// Key of this name in a table of keys that has it.
+/// Key of this name in a table of keys that contains it.
 pub(super) fn known(keys: &'static [Key], name: &str) -> &'static Key {
     keys.iter().find(|key| key.name == name).expect("the reader asks for keys of its tables only")
 }
 
-/// A table whose keys have been checked.
+/// Table with checked keys.
 pub(super) struct Section<'t> {
     label: String,
-    /// Its header, for what is missing.
+    /// Place of its header, to report missing keys.
     pub span: Range<usize>,
     table: &'t DeTable<'t>,
     keys: &'static [Key],
-    /// Known keys that an unknown one was taken for: reported once, as unknown, and not again as missing.
+    /// Known keys that unknown ones were probably meant to be: reported once as unknown, and not again as missing.
     mistyped: Vec<&'static str>,
 }
 
 impl<'t> Section<'t> {
-    /// The value of a key.
+    /// Value of a key.
     pub(super) fn get(&self, key: &str) -> Option<&'t Value<'t>> {
         self.table.get(key)
     }
 
-    /// Whether one of these keys was probably meant by an unknown one.
+    /// True if an unknown key was probably meant to be one of these.
     pub(super) fn mistyped(&self, keys: &[&str]) -> bool {
         self.mistyped.iter().any(|key| keys.contains(key))
     }
@@ -181,29 +182,30 @@ impl<'t> Section<'t> {
         known(self.keys, key).numbers()
     }
 
-    /// What messages call it.
+    /// Name of the table in messages.
     pub(super) fn label(&self) -> &str {
         &self.label
     }
 }
 
-/// Numbers of a text that stand beside its tree, so that they can be others.
+/// Numbers of a text, kept beside its tree so that they can be replaced.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::robot) struct Numbers<'t> {
-    /// First byte of each number in the text, ascending, and the number. Empty where the tree itself holds them.
+    /// First byte of each number in the text, in ascending order, with the number. Empty if the tree itself holds the
+    /// numbers.
     pub values: &'t [(usize, f64)],
-    /// First bytes of those that are not the text's.
+    /// First bytes of the numbers that replace those of the text.
     pub changed: &'t [usize],
 }
 
 /// Collects the issues of one reading.
 ///
-/// Its methods return `None` when, and only when, they have reported an issue.
+/// Its methods return `None` if and only if they have reported an issue.
 pub(super) struct Reader<'t> {
     text: &'t str,
-    /// Numbers in place of those of the text.
+    /// Numbers that replace those of the text.
     numbers: Numbers<'t>,
-    /// What was found so far.
+    /// Issues found so far.
     pub issues: Vec<Issue>,
 }
 
@@ -212,35 +214,35 @@ impl<'t> Reader<'t> {
         Self::with(text, Numbers::default())
     }
 
-    /// A reading with the numbers beside the tree.
+    /// Reader with numbers beside the tree.
     pub(super) fn with(text: &'t str, numbers: Numbers<'t>) -> Self {
         Self { text, numbers, issues: Vec::new() }
     }
 
-    /// The number beside the tree that stands at a place of the text.
+    /// Number beside the tree at a place of the text.
     fn beside(&self, span: &Range<usize>) -> Option<f64> {
         let values = self.numbers.values;
         values.binary_search_by_key(&span.start, |(start, _)| *start).ok().map(|at| values[at].1)
     }
 
-    /// Reports an issue; help and context can be added to what it returns.
+    /// Reports an issue; help and context can be added to the returned reference.
     pub(super) fn issue(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Issue {
         let at = self.issues.len();
         self.issues.push(Issue::new(span, message));
         &mut self.issues[at]
     }
 
-    /// What the user wrote there, short enough for a message.
+    /// Text that the user wrote there, short enough for a message.
     pub(super) fn written(&self, span: Range<usize>) -> String {
         if let Some(number) = self.beside(&span).filter(|_| self.numbers.changed.contains(&span.start)) {
-            // As a TOML file has it.
+            // In TOML notation.
             let whole = if number % 1.0 == 0.0 { ".0" } else { "" };
             return shortened(&format!("{number}{whole}").to_lowercase());
         }
         shortened(self.text.get(span).unwrap_or("?").trim())
     }
 
-    /// Checks the keys of a table.
+    /// Checks the keys of a table and reports unknown ones.
     pub(super) fn open<'v>(
         &mut self,
         label: impl Into<String>,
@@ -250,6 +252,7 @@ impl<'t> Reader<'t> {
     ) -> Section<'v> {
         let label = label.into();
         let mut mistyped = Vec::new();
+
         for key in table.keys() {
             let name: &str = key.get_ref();
             if keys.iter().any(|known| known.name == name) {
@@ -268,10 +271,11 @@ impl<'t> Reader<'t> {
             };
             self.issue(key.span(), message).help(help);
         }
+
         Section { label, span, table, keys, mistyped }
     }
 
-    /// The value of a key that has to be there.
+    /// Value of a required key.
     pub(super) fn required<'v>(&mut self, section: &Section<'v>, key: &str) -> Option<&'v Value<'v>> {
         let value = section.get(key);
         if value.is_none() && !section.mistyped(&[key]) {
@@ -284,23 +288,23 @@ impl<'t> Reader<'t> {
         value
     }
 
-    /// Reports that a value has another type than is needed.
+    /// Reports a value of the wrong type.
     pub(super) fn wrong_type(&mut self, label: &str, needed: &str, value: &Value) -> &mut Issue {
         let given = a_type(value.get_ref());
         self.issue(value.span(), format!("{label} is {given}, it must be {needed}"))
     }
 
-    /// The number of a key, within the range that the table of keys has for it.
+    /// Number of a key, within the range given by the table of keys.
     pub(super) fn number_of(&mut self, section: &Section, key: &str, value: &Value) -> Option<f64> {
         self.number_as(known(section.keys, key), value)
     }
 
-    /// The number of a key, within its range.
+    /// Number of a key, within its range.
     pub(super) fn number_as(&mut self, key: &Key, value: &Value) -> Option<f64> {
         self.number(&format!("`{}`", key.name), key.numbers().range, value)
     }
 
-    /// A number within the limits. `label` is the key in backticks, or says which element.
+    /// Number within the limits. `label` is the key in backticks, or names the element.
     pub(super) fn number(&mut self, label: &str, range: Limits, value: &Value) -> Option<f64> {
         let number = match value.get_ref() {
             DeValue::Float(_) | DeValue::Integer(_) => self.beside(&value.span()).or_else(|| parsed(value.get_ref())),
@@ -313,6 +317,7 @@ impl<'t> Reader<'t> {
                 return None;
             }
         };
+
         // Only digits beyond i128 fail to parse here.
         let number: f64 = number.unwrap_or(f64::INFINITY);
         let limit = if number.is_nan() || (number.is_infinite() && self.written(value.span()).contains("inf")) {
@@ -329,6 +334,7 @@ impl<'t> Reader<'t> {
         } else {
             None
         };
+
         if let Some(limit) = limit {
             let written = self.written(value.span());
             self.issue(value.span(), format!("{label} is {written}, {limit}"));
@@ -337,7 +343,7 @@ impl<'t> Reader<'t> {
         Some(number)
     }
 
-    /// The three elements of an array; `needed` says what they are.
+    /// Three elements of an array; `needed` describes them.
     pub(super) fn three<'v>(&mut self, label: &str, needed: &str, value: &'v Value<'v>) -> Option<[&'v Value<'v>; 3]> {
         let DeValue::Array(array) = value.get_ref() else {
             self.wrong_type(label, needed, value);
@@ -353,19 +359,19 @@ impl<'t> Reader<'t> {
         Some(three)
     }
 
-    /// Three numbers. Every wrong element is reported.
+    /// Three numbers. Reports every wrong element.
     pub(super) fn three_numbers(&mut self, label: &str, range: Limits, values: [&Value; 3]) -> Option<[f64; 3]> {
         let mut number = |i: usize| self.number(&format!("number {} of {label}", i + 1), range, values[i]);
         let [x, y, z] = [number(0), number(1), number(2)];
         Some([x?, y?, z?])
     }
 
-    /// The vector of a key.
+    /// Vector of a key of a section.
     pub(super) fn vector(&mut self, section: &Section, key: &str, value: &Value) -> Option<[f64; 3]> {
         self.vector_as(known(section.keys, key), value)
     }
 
-    /// The vector of a key.
+    /// Vector of a key.
     pub(super) fn vector_as(&mut self, key: &Key, value: &Value) -> Option<[f64; 3]> {
         let (label, numbers) = (format!("`{}`", key.name), key.numbers());
         let three = self.three(&label, &format!("three numbers [x, y, z] in {}", numbers.unit), value)?;
@@ -389,14 +395,14 @@ impl<'t> Reader<'t> {
         Some(text)
     }
 
-    /// Text that names something in tables and on the command line: not blank, no control characters.
+    /// Text that serves as a name in tables and on the command line: not blank, no control characters.
     pub(super) fn name(&mut self, key: &str, value: &Value) -> Option<String> {
         let text = self.text(key, value)?;
         self.check_name(key, &text, value.span())?;
         Some(text)
     }
 
-    /// The check of [`name`](Self::name), also for names that are keys.
+    /// Check of [`name`](Self::name), also for names that are keys.
     pub(super) fn check_name(&mut self, key: &str, name: &str, span: Range<usize>) -> Option<()> {
         if name.trim().is_empty() {
             self.issue(span, format!("`{key}` is empty"));
@@ -405,7 +411,7 @@ impl<'t> Reader<'t> {
         self.without(name.chars().find(|&c| breaks_tables(c)), key, span)
     }
 
-    /// Reports a character that must not be there.
+    /// Reports a character that is not allowed.
     fn without(&mut self, bad: Option<char>, key: &str, span: Range<usize>) -> Option<()> {
         let Some(bad) = bad else { return Some(()) };
         let code = u32::from(bad);
@@ -414,7 +420,7 @@ impl<'t> Reader<'t> {
         None
     }
 
-    /// A table; `header` is how the file writes it.
+    /// Table; `header` is its notation in the file.
     pub(super) fn table<'v>(&mut self, key: &str, header: &str, value: &'v Value<'v>) -> Option<&'v DeTable<'v>> {
         let DeValue::Table(table) = value.get_ref() else {
             self.wrong_type(&format!("`{key}`"), &format!("a table, {header}"), value);
@@ -424,11 +430,11 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// A number of the file; `None` for digits beyond `i128` in another base than ten, and for what is no number.
+/// Number of the file; `None` for digits beyond `i128` in another base than ten, and for a value that is not a number.
 pub(in crate::robot) fn parsed(value: &DeValue) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
-        // Through text, so that any length is read; a hexadecimal mass is odd but legal.
+        // Parsed as text, so that any length is read; a hexadecimal mass is unusual but legal.
         DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
         DeValue::Integer(integer) => {
             i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64)
@@ -437,23 +443,23 @@ pub(in crate::robot) fn parsed(value: &DeValue) -> Option<f64> {
     }
 }
 
-/// A table's label, as the place of a key.
+/// Place of a key inside a table, for messages.
 fn inside(label: &str) -> String {
     format!("{} {label}", if label == TOP { "at" } else { "in" })
 }
 
-/// Whether all three are zero, of either sign.
+/// True if all three numbers are zero, of either sign.
 pub(super) fn is_zero(vector: &[f64; 3]) -> bool {
     vector.iter().all(|number| *number == 0.0)
 }
 
-/// Control characters, and those that turn or hide text in a terminal.
+/// True for control characters, and for characters that turn or hide text in a terminal.
 fn breaks_tables(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }
 
-/// The user's text for a message: escaped, and cut where it is long.
+/// User's text for a message: escaped, and shortened if it is long.
 pub(super) fn shortened(text: &str) -> String {
     let mut shown: String = text.chars().take(QUOTED).flat_map(char::escape_debug).collect();
     if text.chars().nth(QUOTED).is_some() {
@@ -462,7 +468,7 @@ pub(super) fn shortened(text: &str) -> String {
     shown
 }
 
-/// The type of a value, with its article.
+/// Type of a value, with its article.
 fn a_type(value: &DeValue) -> &'static str {
     match value {
         DeValue::String(_) => "text",

@@ -1,9 +1,11 @@
-//! The search for slack cables that hold a pose, from many starts: where the iteration from straight cables fails.
+//! Search for slack cables that hold a pose, from many starts, for poses where the iteration from straight cables
+//! fails.
 //!
-//! Next to a pose that straight cables cannot hold, or hold only with enormous tensions, slack ones may rest stably. Their
-//! forces bend away from the chord, so that neither the straight tensions nor their derivatives point to the solution.
+//! Near a pose that straight cables cannot hold, or hold only with enormous tensions, slack cables may have a stable
+//! equilibrium. Their forces point away from the chord, so neither the straight tensions nor their derivatives lead to
+//! the solution.
 
-use super::{Balanced, MIN_STRAIN, at_tension, balanced, lengthened, tightened, unbalanced};
+use super::{CableSearch, MIN_STRAIN, at_tension, lengthened, newton, tightened, wrench_residual};
 use crate::catenary::space::HangingCable;
 use crate::math::Mat6;
 use crate::platform::{Coordinates, load_size};
@@ -11,48 +13,48 @@ use crate::robot::{Pose, Robot};
 use crate::statics::equilibrium::RESIDUAL_LIMIT;
 use crate::statics::loaded_cable::LoadedCable;
 
-/// Limit of starts. Of 60,000 random robots that rest with slack cables, 190 needed this search: 150 of them found
-/// tensions from the first two starts, all from 31.
+/// Maximum number of starts. Of 60,000 random robots in equilibrium with slack cables, 190 needed this search: for 150
+/// of them the first two starts found tensions, for all of them 31 starts.
 pub(super) const MAX_STARTS: usize = 40;
 
-/// After so many starts the search goes on only if one of them came near, see [`NEAR`].
+/// Number of starts after which the search continues only if one of them came near, see [`NEAR`].
 const FEW_STARTS: usize = 8;
 
-/// Scaled residual below which a start that failed came near.
+/// Scaled residual below which a failed start came near.
 const NEAR: f64 = 0.03;
 
-/// Limit of damped steps from one start. Half as many find 9 in 10 of what these find.
+/// Maximum number of damped steps from one start. Half as many find 9 of 10 solutions that these find.
 const MAX_STEPS: usize = 60;
 
-/// A step that leaves more than this part of the imbalance ends the way from a start: it has come to rest at the least
-/// imbalance around, which is none of balance. At 0.99 half of what is found with 0.9999 is lost.
+/// Ratio of the imbalance after a step to that before, above which the search from a start ends: it has reached a local
+/// minimum of the imbalance, not a balance. With 0.99 half of the solutions found with 0.9999 are lost.
 const SLOW: f64 = 0.9999;
 
 /// Scaled residual at which the undamped iteration takes over.
 const HANDED_OVER: f64 = 1e-4;
 
-/// Limits of the damping, in parts of the mean square of the derivatives.
+/// Limits of the damping, relative to the mean square of the derivatives.
 const MIN_DAMPING: f64 = 1e-15;
 const MAX_DAMPING: f64 = 1e6;
 
-/// The damping at first, and its factors after a step that does not gain and one that does. From far less the first step
-/// leaves the place where its derivatives hold; from far more the first ten are wasted.
+/// Initial damping, and its factors after a step that does not gain and one that does. From a far smaller value the
+/// first step leaves the region where its derivatives hold; from a far larger one the first ten steps are wasted.
 const FIRST_DAMPING: f64 = 1e-2;
-const MORE_DAMPING: f64 = 5.0;
-const LESS_DAMPING: f64 = 0.2;
+const DAMPING_AFTER_FAILURE: f64 = 5.0;
+const DAMPING_AFTER_GAIN: f64 = 0.2;
 
-/// Residual over [`HANDED_OVER`] at which a way ends for the undamped iteration to go on.
+/// Residual over [`HANDED_OVER`] at which the damped search ends and the undamped iteration goes on.
 const WELL_HANDED_OVER: f64 = 0.01;
 
-/// Range of tensions at the start over the cable's weight, where the platform weighs less: a level cable sags by its whole
-/// chord at the lower end, by a sixteenth at the upper one.
+/// Range of start tensions over the cable's weight, if the platform weighs less: a level cable sags by its full chord
+/// at the lower end, by a sixteenth of it at the upper one.
 const DEEPEST: f64 = 0.2;
 const TAUTEST: f64 = 2.0;
 
 /// Largest change of the logarithm of a tension or of a length in one step.
 const MAX_CHANGE: f64 = 2.0;
 
-/// Irrational numbers whose multiples spread over [0, 1) without pattern (Weyl), one for each cable.
+/// Irrational numbers, one per cable, whose multiples spread over [0, 1) without pattern (Weyl).
 const SPREAD: [f64; 6] = [
     std::f64::consts::SQRT_2,
     1.732_050_807_568_877,
@@ -62,40 +64,40 @@ const SPREAD: [f64; 6] = [
     3.605_551_275_463_989,
 ];
 
-/// What the search found.
+/// Result of the search.
 pub(super) struct Searched {
-    /// The balance found, if one was accepted; else the nearest to balance.
-    pub best: Balanced,
+    /// Accepted balance, or else the cables nearest to balance.
+    pub best: CableSearch,
     /// Number of starts.
     pub starts: usize,
 }
 
-/// Searches from many starts for cables that balance the platform and that `accept` takes.
+/// Searches from many starts for cables that balance the platform and satisfy `accept`.
 pub(super) fn search(
     robot: &Robot,
     pose: &Pose,
     loaded: &[LoadedCable<'_>],
-    accept: impl Fn(&Balanced) -> bool,
+    accept: impl Fn(&CableSearch) -> bool,
 ) -> Option<Searched> {
-    // Straight cables decide where no cable sags.
+    // Without sag, straight cables decide.
     if loaded.iter().all(|cable| cable.load.size == 0.0) {
         return None;
     }
 
-    let mut best: Option<Balanced> = None;
+    let mut best: Option<CableSearch> = None;
     let (mut iterations, mut starts) = (0, 0);
     for k in 0..MAX_STARTS {
         if k == FEW_STARTS && best.as_ref().is_none_or(|best| best.residual > NEAR) {
             break;
         }
         starts += 1;
-        let mut found = damped(robot, pose, start(robot, pose, loaded, k));
+        let mut found = levenberg_marquardt(robot, pose, start(robot, pose, loaded, k));
         iterations += found.iterations;
 
-        // The last digits are those of the undamped iteration.
+        // The undamped iteration gives the last digits.
         if found.residual < HANDED_OVER {
             for step in [lengthened, tightened] {
-                let polished = balanced(robot, pose, found.hanging.clone(), step);
+                let polished = newton(robot, pose, found.hanging.clone(), step);
                 iterations += polished.iterations;
                 if polished.residual <= RESIDUAL_LIMIT {
                     found = polished;
@@ -117,7 +119,8 @@ pub(super) fn search(
     Some(Searched { best, starts })
 }
 
-/// Cables of the `k`-th start: tensions from a fifth of their weight, a deep sag, to all that the platform weighs.
+/// Cables of the `k`-th start: tensions from a fifth of their weight, which is a deep sag, up to the total weight of
+/// the platform.
 fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Vec<HangingCable> {
     let cables = loaded.iter().zip(SPREAD);
     let hung = cables.map(|(cable, spread)| {
@@ -130,25 +133,25 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
     hung.collect()
 }
 
-/// Least squares of what is left of the balance, by the method of Levenberg and Marquardt.
+/// Least squares of the remaining wrench by the method of Levenberg and Marquardt.
 ///
-/// The unknowns are logarithms, see [`Unit`]: damping then means the same for a taut cable and for a slack one.
-fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balanced {
+/// The unknowns are logarithms, see [`Unit`]: so damping has the same meaning for a taut and for a slack cable.
+fn levenberg_marquardt(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> CableSearch {
     let coordinates = Coordinates::of(robot);
-    let (mut wrench, mut residual) = unbalanced(robot, &coordinates, pose, &hanging);
+    let (mut wrench, mut residual) = wrench_residual(robot, &coordinates, pose, &hanging);
     let mut damping = FIRST_DAMPING;
     let mut iterations = 0;
     while iterations < MAX_STEPS && residual > WELL_HANDED_OVER * HANDED_OVER {
         iterations += 1;
 
-        // Derivatives of the wrench by the logarithms.
+        // Derivatives of the wrench with respect to the logarithms.
         let mut columns = Mat6::zeros();
         for (i, cable) in hanging.iter().enumerate() {
             let force = cable.force_by_length_w() * Unit::of(cable).length();
             columns.set_column(i, &coordinates.reduce_force(&force, &(cable.start_w - pose.position_w)));
         }
 
-        // The damped step, limited.
+        // Limited damped step.
         let left = coordinates.reduce(&wrench);
         let mut normal = columns.transpose() * columns;
         let shift = damping * normal.trace().max(f64::MIN_POSITIVE) / hanging.len() as f64;
@@ -159,27 +162,27 @@ fn damped(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> Balance
         let next: Vec<HangingCable> =
             (hanging.iter().zip(&change)).map(|(cable, change)| Unit::of(cable).moved(cable, *change)).collect();
 
-        // Taken if it is a gain.
-        let (next_wrench, next_residual) = unbalanced(robot, &coordinates, pose, &next);
+        // Take it if it is a gain.
+        let (next_wrench, next_residual) = wrench_residual(robot, &coordinates, pose, &next);
         let (before, after) = (left.norm(), coordinates.reduce(&next_wrench).norm());
         if after < before {
             (hanging, wrench, residual) = (next, next_wrench, next_residual);
-            damping = (LESS_DAMPING * damping).max(MIN_DAMPING);
+            damping = (DAMPING_AFTER_GAIN * damping).max(MIN_DAMPING);
             if after > SLOW * before {
                 break;
             }
         } else {
-            damping *= MORE_DAMPING;
+            damping *= DAMPING_AFTER_FAILURE;
             if damping > MAX_DAMPING {
                 break;
             }
         }
     }
-    Balanced { hanging, residual, iterations }
+    CableSearch { hanging, residual, iterations }
 }
 
-/// The change of length [m] by which a cable's logarithm grows by one: that of its tension where it is taut, downwards,
-/// that of its length where it is slack. The shorter of the two is the one in which its forces bend less.
+/// Change of length [m] that changes a cable's logarithm by one: that of its tension (falling) if it is taut, that of
+/// its length if it is slack. The shorter of the two is used: the forces are less curved in it.
 enum Unit {
     Tension(f64),
     Length(f64),

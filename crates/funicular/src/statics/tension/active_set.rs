@@ -1,8 +1,8 @@
-//! The point of a polyhedron nearest to a given one; with it, the highest point of a polyhedron.
+//! Nearest point of a polyhedron to a given one, and from it the highest point of a polyhedron.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Inequalities `normal · x ≥ level`, few unknowns.
+/// Polyhedron of inequalities `normal · x ≥ level` in few unknowns.
 #[derive(Debug, Default)]
 pub(super) struct Polyhedron {
     dimension: usize,
@@ -10,29 +10,30 @@ pub(super) struct Polyhedron {
     levels: Vec<f64>,
 }
 
-/// An inequality that holds the nearest point, and how hard it has to.
+/// Active inequality at the nearest point, with its multiplier.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Active<M = f64> {
-    /// Its number, in the order in which it was added.
+    /// Number of the inequality, in the order of addition.
     pub row: usize,
     /// Multiplier, not negative.
     pub multiplier: M,
 }
 
-/// Normals shorter than this, of columns of an orthogonal matrix, are rounding: the unknowns do not reach the quantity.
+/// Length of a normal, made of columns of an orthogonal matrix, below which it is rounding: the unknowns do not affect
+/// the quantity.
 pub(super) const NO_NORMAL: f64 = 1e-12;
 
-/// Violation that is rounding, in parts of the terms that it is the difference of.
+/// Rounding of a violation, relative to the terms that it is the difference of.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A normal that the others make up to this part of its length adds nothing.
+/// Relative length of the component outside the span of the active normals below which a normal counts as dependent.
 pub(super) const DEPENDENT: f64 = 1e-10;
 
-/// Slopes and parts of multipliers that are rounding.
+/// Relative rounding of slopes and of parts of multipliers.
 const FLAT: f64 = 1e-14;
 
 impl Polyhedron {
-    /// Everything, in a space of this dimension.
+    /// Complete space of this dimension.
     pub(super) fn new(dimension: usize) -> Self {
         Self { dimension, ..Self::default() }
     }
@@ -46,7 +47,7 @@ impl Polyhedron {
         &self.normals[row * self.dimension..(row + 1) * self.dimension]
     }
 
-    /// Adds `normal · x ≥ level`; the normal may be given in parts.
+    /// Adds `normal · x ≥ level`; the normal is given as components times `sign` and a last component.
     pub(super) fn add<'a>(&mut self, normal: impl Iterator<Item = &'a f64>, sign: f64, last: Option<f64>, level: f64) {
         let from = self.normals.len();
         self.normals.extend(normal.map(|x| sign * x).chain(last));
@@ -62,59 +63,60 @@ impl Polyhedron {
         nearest(&mut Dense::of(self), x, tolerance)
     }
 
-    /// Moves `x` to a point whose last component is greatest, see [`highest`].
+    /// Moves `x` to a point with the maximum last component, see [`highest`].
     pub(super) fn highest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
         highest(&mut Dense::of(self), x, tolerance)
     }
 }
 
-/// Inequalities, and those of them that hold a point: everything that the active-set method has to know of them.
-pub(super) trait Walls {
+/// Inequalities with their active subset: the interface of the active-set method.
+pub(super) trait ConstraintSet {
     /// Number of independent directions in which a point may move.
     fn dimension(&self) -> usize;
 
-    /// The inequality that is violated most, by more than `tolerance` and rounding, and by how much.
+    /// Inequality with the largest violation above `tolerance` and rounding, and this violation.
     fn most_violated<M: Magnitude>(&self, x: &[M], tolerance: f64) -> Option<(usize, M)>;
 
-    /// Splits the normal of an inequality into its parts inside and outside the span of the active ones; whether there
-    /// is any outside.
+    /// Splits the normal of an inequality into its parts inside and outside the span of the active ones; true if there
+    /// is a part outside.
     fn split(&mut self, row: usize) -> bool;
 
-    /// Splits the last unit vector in this way.
+    /// Splits the last unit vector in the same way.
     fn split_vertical(&mut self);
 
-    /// The part outside of the normal that was split last, …
+    /// Outside part of the normal that was split last, …
     fn rest(&self) -> &[f64];
 
-    /// … and how much of each active normal makes its part inside.
+    /// … and the coefficients of the active normals in its inside part.
     fn shares(&self) -> &[f64];
 
     /// Makes the inequality active whose normal was split last.
     fn hold(&mut self, row: usize);
 
-    /// Drops the active inequality at this place of their list.
+    /// Drops the active inequality at this index of their list.
     fn release(&mut self, at: usize);
 
-    /// Puts a point that rounding has moved back to where it may be; whether it had to.
+    /// Moves a point back to where the constraints allow it, if rounding has moved it; true if that was necessary.
     fn restore<M: Magnitude>(&mut self, x: &mut [M]) -> bool;
 }
 
-/// Moves `x` to the nearest point in which no inequality is violated by more than `tolerance` and rounding, and returns what
-/// holds it there; `None` if there is no such point.
-pub(super) fn nearest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+/// Moves `x` to the nearest point at which no inequality is violated by more than `tolerance` and rounding. Returns the
+/// active inequalities; `None` if there is no such point.
+pub(super) fn nearest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
     let tolerance = tolerance.max(rounding(x));
-    approach(walls, x, tolerance)
+    approach(constraints, x, tolerance)
 }
 
-/// Moves `x` to a point whose last component is greatest, of all these the one nearest to where `x` was, and
-/// returns what holds it up there (the solution of the dual linear problem; multipliers of walls only passed on the
-/// way are zero). `None` if the polyhedron has no points or no highest one.
+/// Moves `x` to a point with the maximum last component; of all these to the one nearest to the original `x`. Returns
+/// the inequalities that limit it (the solution of the dual linear problem; inequalities only passed on the way have
+/// zero multipliers). `None` if the polyhedron is empty or unbounded in this direction.
 ///
-/// The point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see [`Far`].
-pub(super) fn highest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+/// The result is the point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see
+/// [`Far`].
+pub(super) fn highest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
     let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
     point.last_mut()?.far = 1.0;
-    let held = approach(walls, &mut point, tolerance.max(rounding(x)))?;
+    let held = approach(constraints, &mut point, tolerance.max(rounding(x)))?;
     if point.iter().any(|x| x.far != 0.0) {
         return None;
     }
@@ -122,29 +124,33 @@ pub(super) fn highest(walls: &mut impl Walls, x: &mut [f64], tolerance: f64) -> 
     Some(held.into_iter().map(|Active { row, multiplier }| Active { row, multiplier: multiplier.far }).collect())
 }
 
-/// The dual active-set method of Goldfarb and Idnani (1983) for the identity: from the free optimum, the most
-/// violated inequality is made active until none is violated; each step raises the dual objective, so it ends.
-fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) -> Option<Vec<Active<M>>> {
-    let mut active: Vec<Active<M>> = Vec::with_capacity(walls.dimension() + 1);
-    // Each pass makes an inequality active for good or drops some on the way; seen: at most 3 per unknown.
-    for _ in 0..100 * (walls.dimension() + 1) {
-        // The most violated inequality.
-        let Some((row, mut lack)) = walls.most_violated(x, tolerance) else {
-            if walls.restore(x) {
+/// Dual active-set method of Goldfarb and Idnani (1983) for the identity. From the free optimum, the most violated
+/// inequality is made active until none is violated. Each step raises the dual objective, so the method ends.
+fn approach<W: ConstraintSet, M: Magnitude>(
+    constraints: &mut W,
+    x: &mut [M],
+    tolerance: f64,
+) -> Option<Vec<Active<M>>> {
+    let mut active: Vec<Active<M>> = Vec::with_capacity(constraints.dimension() + 1);
+    // Each pass makes an inequality active for good or drops some on the way; observed: at most 3 passes per unknown.
+    for _ in 0..100 * (constraints.dimension() + 1) {
+        // Find the most violated inequality.
+        let Some((row, mut lack)) = constraints.most_violated(x, tolerance) else {
+            if constraints.restore(x) {
                 continue;
             }
             return Some(active);
         };
 
-        // Towards it, dropping what blocks the way.
+        // Move towards it, dropping inequalities that block the way.
         let mut multiplier = M::ZERO;
         loop {
-            let free = walls.split(row);
-            let squared: f64 = walls.rest().iter().map(|z| z * z).sum();
+            let free = constraints.split(row);
+            let squared: f64 = constraints.rest().iter().map(|z| z * z).sum();
 
-            // How far until a multiplier vanishes, and until the inequality holds.
+            // Step until a multiplier vanishes, and until the inequality is satisfied.
             let mut blocking: Option<(M, usize)> = None;
-            for (at, (held, share)) in active.iter().zip(walls.shares()).enumerate() {
+            for (at, (held, share)) in active.iter().zip(constraints.shares()).enumerate() {
                 if *share > 0.0 {
                     let until = held.multiplier / *share;
                     if blocking.is_none_or(|(first, _)| until < first) {
@@ -157,58 +163,58 @@ fn approach<W: Walls, M: Magnitude>(walls: &mut W, x: &mut [M], tolerance: f64) 
             let blocked = blocking.filter(|(until, _)| full.is_none_or(|full| *until < full));
             let step = blocked.map(|(until, _)| until).or(full)?;
 
-            // The step.
-            for (held, share) in active.iter_mut().zip(walls.shares()) {
+            // Take the step.
+            for (held, share) in active.iter_mut().zip(constraints.shares()) {
                 held.multiplier = held.multiplier.less(step * *share);
             }
             multiplier = multiplier + step;
             if free {
-                x.iter_mut().zip(walls.rest()).for_each(|(x, z)| *x = *x + step * *z);
+                x.iter_mut().zip(constraints.rest()).for_each(|(x, z)| *x = *x + step * *z);
                 lack = lack - step * squared;
             }
 
-            // It holds, or the one that blocks is dropped.
+            // The inequality is satisfied, or the blocking one is dropped.
             let Some((_, at)) = blocked else {
-                walls.hold(row);
+                constraints.hold(row);
                 active.push(Active { row, multiplier });
-                M::settle(x, walls);
+                M::settle(x, constraints);
                 break;
             };
             active.remove(at);
-            walls.release(at);
+            constraints.release(at);
         }
     }
     None
 }
 
-/// What a point has of rounding where it starts, and keeps.
+/// Rounding of a point at the start, which stays.
 fn rounding(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |most, x| most.max(ROUNDING * x.abs()))
 }
 
-/// What coordinates, violations and multipliers are counted in: numbers, or numbers of two sizes.
+/// Number type of coordinates, violations and multipliers: plain numbers, or numbers of two magnitudes.
 pub(super) trait Magnitude:
     Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + Div<f64, Output = Self>
 {
     const ZERO: Self;
 
-    /// What the sum of terms, factor times coordinate, lacks of `level`, if it is more than `tolerance` and rounding or
-    /// is not a number: then there is no such point.
+    /// Violation: the amount by which the sum of terms, factor times coordinate, is below `level`, if it is more than
+    /// `tolerance` and rounding, or NaN: then there is no such point.
     fn lack(terms: impl Iterator<Item = (f64, Self)>, level: f64, tolerance: f64) -> Option<Self>;
 
-    /// What is left of a multiplier, at least nothing.
+    /// Multiplier reduced by `by`, at least zero.
     fn less(self, by: Self) -> Self;
 
     fn is_nan(&self) -> bool;
 
-    /// The number, or of two sizes the smaller part.
+    /// The number itself, or the smaller part of two magnitudes.
     fn near(self) -> f64;
 
-    /// That part larger by a number.
+    /// Adds a number to this part.
     fn plus_near(self, by: f64) -> Self;
 
-    /// Takes rounding from a point that lies on all active inequalities.
-    fn settle(x: &mut [Self], walls: &mut impl Walls);
+    /// Removes rounding from a point that lies on all active inequalities.
+    fn settle(x: &mut [Self], constraints: &mut impl ConstraintSet);
 }
 
 impl Magnitude for f64 {
@@ -239,13 +245,13 @@ impl Magnitude for f64 {
         self + by
     }
 
-    fn settle(_: &mut [Self], _: &mut impl Walls) {}
+    fn settle(_: &mut [Self], _: &mut impl ConstraintSet) {}
 }
 
-/// `far · L + near` with an L larger than every number: what is far is compared first.
+/// Number `far · L + near` with an L larger than every number: the far parts are compared first.
 ///
-/// The highest point of a polyhedron is the one nearest to a point high enough above. How high that is depends on the
-/// flattest edge, and a number so large would leave nothing of the digits of the others; so it stays a letter.
+/// The highest point of a polyhedron is the point nearest to one high enough above. The necessary height depends on the
+/// flattest edge, and so large a number would leave no digits to the others; so L stays a symbol.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) struct Far {
     far: f64,
@@ -287,7 +293,7 @@ impl Magnitude for Far {
         let (mut lack, mut sizes) = (Self { far: 0.0, near: level }, Self { far: 0.0, near: level.abs() });
         for (a, x) in terms {
             lack = lack - x * a;
-            // What is far has been a unit vector: its rounding stays that of one.
+            // The far part was a unit vector at the start: its rounding stays that of one.
             sizes = sizes + Self { far: a.abs(), near: (a * x.near).abs() };
         }
         if lack.far.abs() <= FLAT * sizes.far {
@@ -317,14 +323,14 @@ impl Magnitude for Far {
         Self { far: self.far, near: self.near + by }
     }
 
-    /// The far part is what the vertical has outside of the active normals.
-    fn settle(x: &mut [Self], walls: &mut impl Walls) {
-        walls.split_vertical();
-        x.iter_mut().zip(walls.rest()).for_each(|(x, rest)| x.far = *rest);
+    /// The far part is the component of the vertical outside the span of the active normals.
+    fn settle(x: &mut [Self], constraints: &mut impl ConstraintSet) {
+        constraints.split_vertical();
+        x.iter_mut().zip(constraints.rest()).for_each(|(x, rest)| x.far = *rest);
     }
 }
 
-/// A polyhedron with a basis of those of its normals that are active.
+/// Polyhedron with a basis of its active normals.
 struct Dense<'a> {
     set: &'a Polyhedron,
     active: Vec<usize>,
@@ -337,7 +343,7 @@ impl<'a> Dense<'a> {
     }
 }
 
-impl Walls for Dense<'_> {
+impl ConstraintSet for Dense<'_> {
     fn dimension(&self) -> usize {
         self.set.dimension
     }
@@ -379,13 +385,13 @@ impl Walls for Dense<'_> {
         self.basis.rebuild(self.active.iter().map(|row| self.set.normal(*row)));
     }
 
-    /// Every point of the space is one.
+    /// Every point of the space is allowed.
     fn restore<M: Magnitude>(&mut self, _: &mut [M]) -> bool {
         false
     }
 }
 
-/// The greatest lack and its number; one that is not a number goes before all others.
+/// Largest violation and its index; NaN comes before all others.
 pub(super) fn worst<M: Magnitude>(lacks: impl Iterator<Item = Option<M>>) -> Option<(usize, M)> {
     let mut worst: Option<(usize, M)> = None;
     for (row, lack) in lacks.enumerate() {
@@ -398,16 +404,16 @@ pub(super) fn worst<M: Magnitude>(lacks: impl Iterator<Item = Option<M>>) -> Opt
     worst
 }
 
-/// Orthonormal basis of the active normals, and the triangle that makes them of it.
+/// Orthonormal basis of the active normals, and the triangle that expresses them in it.
 struct Basis {
     dimension: usize,
     vectors: Vec<f64>,
     triangle: Vec<Vec<f64>>,
-    /// Of the last normal split: components along the basis, …
+    /// Components of the last split normal along the basis, …
     along: Vec<f64>,
-    /// … its part outside, …
+    /// … its outside part, …
     rest: Vec<f64>,
-    /// … and what the active normals make its part inside of.
+    /// … and the coefficients of the active normals in its inside part.
     shares: Vec<f64>,
 }
 
@@ -417,14 +423,15 @@ impl Basis {
         Self { dimension, vectors: Vec::new(), triangle: Vec::new(), along: Vec::new(), rest, shares: Vec::new() }
     }
 
-    /// Splits a normal into its parts inside and outside the span of the active ones; whether there is any outside.
+    /// Splits a normal into its parts inside and outside the span of the active ones; true if there is a part outside.
     fn split(&mut self, normal: &[f64]) -> bool {
         let count = self.triangle.len();
         self.rest.copy_from_slice(normal);
         self.along.clear();
         self.along.resize(count, 0.0);
         let size = dot(normal, normal).sqrt();
-        // Twice: the second time takes away the rounding of the first.
+
+        // Twice: the second pass removes the rounding of the first.
         for _ in 0..2 {
             for (k, vector) in self.vectors.chunks_exact(self.dimension).enumerate() {
                 let part = dot(vector, &self.rest);
@@ -432,6 +439,7 @@ impl Basis {
                 self.rest.iter_mut().zip(vector).for_each(|(rest, v)| *rest -= part * v);
             }
         }
+
         self.shares.clear();
         self.shares.extend_from_slice(&self.along);
         for k in (0..count).rev() {
@@ -441,6 +449,7 @@ impl Basis {
                 self.shares[j] -= share * self.triangle[k][j];
             }
         }
+
         let outside = dot(&self.rest, &self.rest).sqrt() > DEPENDENT * size && count < self.dimension;
         if !outside {
             self.rest.fill(0.0);
@@ -448,7 +457,7 @@ impl Basis {
         outside
     }
 
-    /// Takes the normal that was split last.
+    /// Adds the normal that was split last.
     fn push(&mut self) {
         let length = dot(&self.rest, &self.rest).sqrt();
         self.vectors.extend(self.rest.iter().map(|z| z / length));
@@ -503,20 +512,20 @@ mod tests {
         assert!(beyond_reach.nearest(&mut [0.0], 1e-12).is_none());
     }
 
-    /// A corner of three walls that no number hits exactly, far from the origin.
+    /// Corner of three constraints that no number hits exactly, far from the origin.
     #[test]
     fn a_tolerance_below_the_rounding_of_the_levels_hides_no_point() {
         for i in 1..200 {
             let (x, y) = (60.0 / f64::from(i), -47.0 / f64::from(i + 1));
             let wall = |a: f64, b: f64| (vec![a, b], a * x + b * y);
-            let walls = [wall(0.3, 0.7), wall(-0.9, 0.1), wall(0.6, -0.8)];
-            assert!(polyhedron(2, &walls).nearest(&mut [0.0, 0.0], 1e-300).is_some(), "{walls:?}");
+            let constraints = [wall(0.3, 0.7), wall(-0.9, 0.1), wall(0.6, -0.8)];
+            assert!(polyhedron(2, &constraints).nearest(&mut [0.0, 0.0], 1e-300).is_some(), "{constraints:?}");
         }
     }
 
     #[test]
     fn of_equally_high_points_the_nearest_is_taken() {
-        // A roof with a level ridge: y ≤ 1, and a wall at x ≥ 3.
+        // Roof with a level ridge: y ≤ 1, and a constraint x ≥ 3.
         let roof = polyhedron(2, &[(vec![0.0, -1.0], -1.0), (vec![1.0, 0.0], 3.0), (vec![-1.0, -0.001], -9.0)]);
         let mut x = [4.0, 0.0];
         roof.highest(&mut x, 1e-12).unwrap();
@@ -525,7 +534,7 @@ mod tests {
 
     type Rows = [(Vec<f64>, f64)];
 
-    /// The point that is deepest inside of all walls or least outside, its depth (at most 1) last.
+    /// Point deepest inside of all constraints, or least outside; its depth (at most 1) is the last component.
     fn deepest(rows: &Rows, start: &[f64]) -> (Vec<f64>, Vec<Active>) {
         let mut lifted = Polyhedron::new(4);
         for (normal, level) in rows {
@@ -559,8 +568,8 @@ mod tests {
         Ok(())
     }
 
-    /// An edge that rises by 2e-6 over a length of 1. Corners by elimination in fractions: the upper one is
-    /// (-0.108, -0.278, -0.486) at a depth of -0.114 641 518 089 681 27.
+    /// Edge that rises by 2e-6 over a length of 1. Corners by elimination in fractions: the upper one is (-0.108,
+    /// -0.278, -0.486) at a depth of -0.114 641 518 089 681 27.
     #[test]
     #[expect(clippy::unreadable_literal, reason = "found by chance")]
     fn of_nearly_level_edges_the_higher_end_is_found() {
@@ -587,7 +596,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
 
-        /// Optimality without a second solver: the point is inside, and the way back is made of active normals.
+        /// Optimality without a second solver: the point is inside, and the way back is a combination of active
+        /// normals.
         #[test]
         fn the_nearest_point_satisfies_the_conditions_of_kuhn_and_tucker(
             rows in prop::collection::vec((prop::collection::vec(-1.0f64..1.0, 3), -1.0f64..0.5), 1..24),
@@ -608,14 +618,14 @@ mod tests {
                     prop_assert!(dot(normal, &x) >= level - 1e-10);
                 }
             } else {
-                // Farkas, by another way: the least common violation is positive.
+                // Farkas' lemma checked in another way: the minimum common violation is positive.
                 let (point, _) = deepest(&rows, &start);
                 prop_assert!(point[3] < 1e-9, "{point:?}");
             }
         }
 
-        /// Optimality without a second solver: the point is inside, and what holds it is on its walls and balances the
-        /// lift.
+        /// Optimality without a second solver: the point is inside, and the active constraints are satisfied with
+        /// equality and balance the lift.
         #[test]
         fn the_highest_point_solves_the_linear_problem_and_its_dual(
             rows in prop::collection::vec((prop::collection::vec(-1.0f64..1.0, 3), -1.0f64..0.5), 1..24),
@@ -624,12 +634,12 @@ mod tests {
             check_deepest(&rows, &start)?;
         }
 
-        /// Against all corners, in the plane.
+        /// Comparison with all corners, in the plane.
         #[test]
         fn the_highest_point_is_the_highest_corner(
             rows in prop::collection::vec((-1.0f64..1.0, 0.2f64..1.0, 0.0f64..3.0), 2..12),
         ) {
-            // Roofs: every row bounds the height, and walls bound the breadth.
+            // Roofs: every row bounds the height, and two constraints bound the width.
             let mut all: Vec<(Vec<f64>, f64)> =
                 rows.iter().map(|(slope, down, level)| (vec![*slope, -down], -level)).collect();
             all.extend([(vec![1.0, 0.0], -4.0), (vec![-1.0, 0.0], -4.0)]);

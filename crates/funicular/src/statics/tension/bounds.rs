@@ -1,51 +1,52 @@
-//! The walls of tensions within limits, for many cables.
+//! Bounds of tensions within limits, for many cables.
 //!
-//! Every wall bounds one tension (and a height common to all), so nothing of the size of the null space is needed: what
-//! the active-set method asks for are projections, and a projection on the balance of the tensions that are not held
-//! is a system of as many equations as degrees of freedom. A step costs time in proportion to the number of cables; with a basis
-//! of the null space it costs its square, and a wall dropped its cube. Theory, equations (40a) and (40b).
+//! Every inequality bounds one tension (and a height common to all), so nothing of the size of the null space is
+//! needed. The active-set method needs projections only, and a projection on the balance of the free tensions is a
+//! system with as many equations as degrees of freedom. A step costs time in proportion to the number of cables; with a
+//! basis of the null space a step costs its square, and a dropped inequality its cube. Theory, equations (40a) and
+//! (40b).
 
-use super::active_set::{DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, Walls, worst};
+use super::active_set::{ConstraintSet, DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, worst};
 use super::null_space::Solutions;
 use crate::math::{Mat6, Vec6, symmetric};
 
 /// Inequalities `sign σ_i + lift t ≥ level` for tensions σ that satisfy the balance, and a height t.
 pub(super) struct Bounds {
-    /// For each cable its row of an orthonormal basis of the balance.
+    /// Row of each cable in an orthonormal basis of the balance.
     balance: Vec<Vec6>,
     dof: usize,
-    /// There is a height, the last component of a point.
+    /// True if there is a height, the last component of a point.
     lifted: bool,
     rows: Vec<Row>,
     /// Active rows.
     active: Vec<usize>,
-    /// For each cable the place in `active` of the row that holds its tension, …
+    /// Index in `active` of the row that holds the tension of each cable, …
     holder: Vec<Option<usize>>,
-    /// … and the place of the one row more that then holds the height.
+    /// … and index of the one further row, which then holds the height.
     pin: Option<usize>,
     rest: Vec<f64>,
     shares: Vec<f64>,
-    /// What the basis of the balance makes of every solution.
+    /// Product of the balance's basis with every solution.
     right: Vec6,
-    /// How often in a row a point has been put back on the balance.
+    /// Number of consecutive corrections of a point to the balance.
     restored: usize,
 }
 
-/// What may still move, and the matrix (40b) inverted.
+/// Free unknowns, and the inverse of the matrix (40b).
 struct Free {
-    /// The height is not held.
+    /// True if the height is free.
     rises: bool,
     following: Vec6,
     weight: f64,
     inverse: Mat6,
 }
 
-/// Each time takes away all but rounding of what is left.
+/// Maximum number of consecutive corrections; each removes all but the rounding of the remainder.
 const MAX_RESTORED: usize = 3;
 
 #[derive(Debug, Clone, Copy)]
 struct Row {
-    /// None where only the height is bounded.
+    /// None if only the height is bounded.
     cable: Option<usize>,
     sign: f64,
     lift: f64,
@@ -73,12 +74,12 @@ impl Bounds {
         }
     }
 
-    /// Adds `sign σ_i + lift t ≥ level`; without a cable `lift t ≥ level`.
+    /// Adds `sign σ_i + lift t ≥ level`, or without a cable `lift t ≥ level`.
     pub(super) fn add(&mut self, cable: Option<usize>, sign: f64, lift: f64, level: f64) {
         self.rows.push(Row { cable, sign, lift, level });
     }
 
-    /// The place of the last active row is that of a holder, or the pin.
+    /// Records the active row `at` as a holder or as the pin.
     fn place(&mut self, at: usize) {
         match self.rows[self.active[at]].cable {
             Some(i) if self.holder[i].is_none() => self.holder[i] = Some(at),
@@ -86,13 +87,13 @@ impl Bounds {
         }
     }
 
-    /// What a held tension changes by when the height changes by one.
+    /// Change of a held tension per unit of height.
     fn slope(&self, at: usize) -> f64 {
         let row = self.rows[self.active[at]];
         -row.lift * row.sign
     }
 
-    /// What may still move: the tensions that are not held, and the height with all tensions that follow it.
+    /// Free unknowns: the tensions that are not held, and the height with all tensions that follow it.
     fn free(&self) -> Free {
         let rises = self.lifted && self.pin.is_none();
         let mut gram = Mat6::from_fn(|i, j| if i == j && i >= self.dof { 1.0 } else { 0.0 });
@@ -123,7 +124,7 @@ impl Bounds {
         let held = cable.and_then(|i| self.holder[i]);
         let upward = lift + held.map_or(0.0, |at| self.slope(at) * sign);
 
-        // The projection on the balance of all that; repeated, which takes away the rounding of the first time.
+        // Projection on the balance; repeated to remove the rounding of the first pass.
         let (mut multipliers, mut height) = (Vec6::zeros(), 0.0);
         for pass in 0..3 {
             height = if rises { (upward - following.dot(&multipliers)) / weight } else { 0.0 };
@@ -147,7 +148,8 @@ impl Bounds {
             self.rest[cables] = height;
         }
 
-        // What is left of the vector is made up of the active rows, cable by cable, and of the height by the pin.
+        // The remainder of the vector is a combination of the active rows, cable by cable, and of the pin for the
+        // height.
         self.shares.clear();
         self.shares.resize(self.active.len(), 0.0);
         let mut lacking = lift - height;
@@ -160,7 +162,7 @@ impl Bounds {
         }
         if let Some(at) = self.pin {
             let pin = self.rows[self.active[at]];
-            // On a cable that another row holds, the pin takes over a part of it.
+            // On a cable held by another row, the pin takes over a part of it.
             let holder = pin.cable.and_then(|i| self.holder[i]);
             let exchange = holder.map_or(0.0, |at| pin.sign * self.rows[self.active[at]].sign);
             let by_holder = holder.map_or(0.0, |at| self.rows[self.active[at]].lift);
@@ -171,7 +173,7 @@ impl Bounds {
             }
         }
 
-        // Whether there is any part outside.
+        // Check for a part outside.
         let reach = cable.map_or(0.0, |i| (1.0 - self.balance[i].norm_squared()).max(0.0));
         let size = (reach + lift * lift).sqrt();
         let length = self.rest.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -183,7 +185,7 @@ impl Bounds {
     }
 }
 
-impl Walls for Bounds {
+impl ConstraintSet for Bounds {
     fn dimension(&self) -> usize {
         self.balance.len() - self.dof + usize::from(self.lifted)
     }
@@ -214,8 +216,8 @@ impl Walls for Bounds {
         &self.shares
     }
 
-    /// Long steps take a point off the balance by their rounding, and the height follows with the multipliers of the
-    /// balance, which may be large: all is put back but the rounding of the point itself.
+    /// Long steps move a point off the balance by their rounding, and the height follows with the multipliers of the
+    /// balance, which may be large. All is corrected but the rounding of the point itself.
     fn restore<M: Magnitude>(&mut self, x: &mut [M]) -> bool {
         let cables = self.balance.len();
         let rounding = x.iter().fold(0.0, |most: f64, x| most.max(ROUNDING * x.near().abs()));
@@ -228,7 +230,7 @@ impl Walls for Bounds {
         }
         self.restored += 1;
 
-        // The least motion along the active walls that does it.
+        // Smallest correcting motion along the active inequalities.
         let Free { rises, following, weight, inverse } = self.free();
         let multipliers = inverse * lacking;
         let height = if rises { following.dot(&multipliers) / weight } else { 0.0 };
@@ -261,7 +263,7 @@ impl Walls for Bounds {
     }
 }
 
-/// The inverse of a positive matrix; of one that rounding has made singular, that of its part which is not.
+/// Inverse of a positive matrix; if rounding has made it singular, the inverse of its regular part.
 fn inverse_of(matrix: &Mat6) -> Mat6 {
     if let Some(factor) = matrix.cholesky() {
         return factor.inverse();
@@ -274,22 +276,23 @@ fn inverse_of(matrix: &Mat6) -> Mat6 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::feasible_set::{Found, Room};
+    use super::super::feasible_set::{FeasiblePoint, FeasibleSet};
     use super::super::null_space::Solutions;
     use crate::math::Vec6;
     use proptest::prelude::*;
 
-    /// Bounds of one cable: lower and upper, how fast both draw in with the height, and a floor that does not.
-    type Bound = (f64, f64, f64, f64, f64);
+    /// Bounds of one cable: lower bound, width, the rates at which both approach with the height, and the depth of a
+    /// floor that stays.
+    type CableBounds = (f64, f64, f64, f64, f64);
 
     fn solutions(columns: &[[f64; 6]], right: &[f64; 6], dof: usize, directions: bool) -> Option<Solutions> {
         let columns: Vec<Vec6> = columns.iter().map(|column| Vec6::from_column_slice(column)).collect();
         Solutions::of(&columns, &vec![1.0; columns.len()], &Vec6::from_column_slice(right), dof, directions)
     }
 
-    /// The walls of tensions with a height as the rules build them: floors, and a ceiling of the height.
-    fn room<'a>(solutions: &'a Solutions, bounds: &[Bound], lifted: bool) -> Room<'a> {
-        let mut room = Room::new(solutions, lifted);
+    /// Bounds of tensions with a height as the rules build them: with floors, and a ceiling of the height.
+    fn room<'a>(solutions: &'a Solutions, bounds: &[CableBounds], lifted: bool) -> FeasibleSet<'a> {
+        let mut room = FeasibleSet::new(solutions, lifted);
         for (i, (lower, width, by_lower, by_upper, floor)) in bounds.iter().enumerate() {
             let lift = |by: &f64| if lifted { -by } else { 0.0 };
             room.add(Some(i), 1.0, lift(by_lower), *lower);
@@ -302,10 +305,10 @@ mod tests {
         room
     }
 
-    /// What the method in the null space finds, and what the one in the space of the cables does.
+    /// Compares the results of the method in the null space and of the one in the space of the cables.
     fn compare(
-        few: Option<Found>,
-        many: Option<Found>,
+        few: Option<FeasiblePoint>,
+        many: Option<FeasiblePoint>,
         start: &[f64],
         height: Option<f64>,
     ) -> Result<(), TestCaseError> {
@@ -313,20 +316,21 @@ mod tests {
         let (Some(few), Some(many)) = (few, many) else { return Ok(()) };
         let size = 1.0 + few.height.abs();
         let Some(height) = height else {
-            // The optimum is promised to a millionth. Seen: 1e-12 mostly; where edges are nearly level either way may end
-            // at a corner beside the highest, up to 1e-7 below it. Which of equally high points is taken, rounding says.
+            // The optimum is promised to a millionth. Observed: mostly 1e-12; with nearly level edges either way may
+            // end at a corner beside the highest, up to 1e-7 below it. Rounding decides which of equally high points is
+            // taken.
             prop_assert!((few.height - many.height).abs() < 1e-6 * size, "{} {}", few.height, many.height);
             return Ok(());
         };
         prop_assert!((few.height - many.height).abs() < 1e-9 * size, "{} {}", few.height, many.height);
-        let distance = |found: &Found| {
+        let distance = |found: &FeasiblePoint| {
             let cables: f64 = found.sigma.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
             (cables + (found.height - height) * (found.height - height)).sqrt()
         };
         prop_assert!((distance(&many) - distance(&few)).abs() < 1e-9 * size, "{} {}", distance(&few), distance(&many));
 
-        // What holds the nearest point is the same.
-        let multipliers = |found: &Found| {
+        // The active inequalities of the nearest point agree.
+        let multipliers = |found: &FeasiblePoint| {
             let mut sum = std::collections::BTreeMap::new();
             for held in found.held.iter().filter(|held| held.multiplier > 1e-7) {
                 *sum.entry(held.row).or_insert(0.0) += held.multiplier;
@@ -342,15 +346,15 @@ mod tests {
         Ok(())
     }
 
-    /// All walls and the balance hold.
+    /// Checks all bounds and the balance.
     fn check(
-        found: Option<&Found>,
+        found: Option<&FeasiblePoint>,
         columns: &[[f64; 6]],
         right: &[f64],
-        bounds: &[Bound],
+        bounds: &[CableBounds],
         lifted: bool,
     ) -> Result<(), TestCaseError> {
-        let Some(Found { sigma, height, .. }) = found else { return Ok(()) };
+        let Some(FeasiblePoint { sigma, height, .. }) = found else { return Ok(()) };
         for (k, right) in right.iter().enumerate() {
             let sum: f64 = columns.iter().zip(sigma).map(|(column, sigma)| column[k] * sigma).sum();
             prop_assert!((sum - right).abs() < 1e-10, "{sum} for {right}");
@@ -367,8 +371,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
 
-        /// Oracle: the method in the null space, whose directions are formed. Bounds of all widths, so that some problems
-        /// have no solution.
+        /// Oracle: the method in the null space, whose directions are formed. Bounds of all widths, so that some
+        /// problems have no solution.
         #[test]
         fn in_the_space_of_the_cables_the_same_point_is_found_as_in_the_null_space(
             columns in prop::collection::vec(prop::array::uniform6(-1.0f64..1.0), 24),

@@ -1,4 +1,4 @@
-//! A cable between two given points as a function of one number, its tension parallel to the chord.
+//! Cable between two given points as a function of one number, its tension parallel to the chord.
 
 use crate::catenary::space::HangingCable;
 use crate::catenary::{Catenary, Rope};
@@ -9,36 +9,36 @@ use crate::statics::limits::TensionRange;
 use crate::statics::loaded_cable::LoadedCable;
 use crate::statics::model::StaticModel;
 
-/// A cable at the pose.
+/// Cable at the pose.
 ///
-/// At a given geometry the tension τ parallel to the chord, (10a), says everything: the horizontal force is τ cos α
-/// exactly, the vertical one nearly linear in τ, and above [`Catenary::SLACKEST`] every tension in the cable grows
-/// with τ, so that limits at the ends are limits of τ.
+/// At a given geometry the tension τ parallel to the chord, (10a), determines the cable: the horizontal force is
+/// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::SLACKEST`] every tension in the
+/// cable grows with τ. So limits at the ends are limits of τ.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub(super) struct CableAtPose {
     pub hanging: HangingCable,
     lever_w: Vec3,
     coordinates: Coordinates,
     span: f64,
     rise: f64,
-    /// Limits of its tension.
+    /// Limits of the tension.
     pub range: TensionRange,
-    /// Least τ that is considered at all [N].
+    /// Minimum τ that is considered [N].
     pub slackest: f64,
     tau: f64,
-    /// dL0/dτ.
+    /// Derivative dL0/dτ [m/N].
     length_rate: f64,
 }
 
-/// A tension somewhere in the cable and its derivative by τ.
+/// Tension at a point of the cable and its derivative with respect to τ.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Tension {
+pub(super) struct TensionByTau {
     pub value: f64,
     pub slope: f64,
 }
 
-impl Line {
-    /// Cable `i`, taut enough for its slope to be that of a taut cable; its ends must not coincide.
+impl CableAtPose {
+    /// Cable `i`, taut enough for its derivatives to be those of a taut cable; its ends must not coincide.
     pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, coordinates: Coordinates) -> Self {
         let cable = LoadedCable::at(robot, i, pose, model);
         let attachment_w = pose.point_w(&cable.cable.attachment_p);
@@ -60,7 +60,7 @@ impl Line {
         }
     }
 
-    /// Hangs it with another τ [N].
+    /// Hangs the cable with another τ [N].
     pub(super) fn set(&mut self, tau: f64) {
         let rope = self.hanging.catenary.rope();
         self.hanging.catenary = Catenary::with_parallel_tension(self.span, self.rise, rope, tau);
@@ -68,14 +68,15 @@ impl Line {
         self.tau = tau;
     }
 
-    /// The τ at which the least tension is the minimum, or the slackest where that is above.
+    /// Value of τ at which the minimum tension in the cable is at its limit, or the slackest τ if that is higher. Hangs
+    /// the cable with it.
     pub(super) fn at_minimum(&mut self) -> f64 {
         let mut tau = self.range.minimum.max(self.slackest);
-        // The least tension is nearly linear in τ; 2 or 3 passes. The rest is a guard.
+        // The minimum tension is nearly linear in τ: 2 or 3 passes. The limit is a guard.
         for _ in 0..30 {
             self.set(tau);
-            let least = self.least();
-            let next = (tau + (self.range.minimum - least.value) / least.slope).max(self.slackest);
+            let min = self.min_tension();
+            let next = (tau + (self.range.minimum - min.value) / min.slope).max(self.slackest);
             if (next - tau).abs() <= 1e-12 * next {
                 break;
             }
@@ -84,19 +85,19 @@ impl Line {
         tau
     }
 
-    /// Hangs it with the τ at which the greatest tension is the maximum; without a maximum, with its axial stiffness,
-    /// which stretches it to twice its length.
+    /// Hangs the cable with the τ at which its maximum tension is at the limit; without a limit, with a τ equal to its
+    /// axial stiffness, which stretches it to twice its length.
     pub(super) fn at_maximum(&mut self) {
         if self.range.maximum.is_infinite() {
             self.set(self.rope().axial_stiffness);
             return;
         }
         let mut tau = self.range.maximum.max(self.slackest);
-        // As for the least tension.
+        // As for the minimum tension.
         for _ in 0..30 {
             self.set(tau);
-            let greatest = self.greatest();
-            let next = (tau + (self.range.maximum - greatest.value) / greatest.slope).max(self.slackest);
+            let max = self.max_tension();
+            let next = (tau + (self.range.maximum - max.value) / max.slope).max(self.slackest);
             if (next - tau).abs() <= 1e-12 * next {
                 break;
             }
@@ -108,12 +109,12 @@ impl Line {
         self.hanging.catenary.rope()
     }
 
-    /// τ [N].
+    /// Parallel tension τ [N].
     pub(super) fn tau(&self) -> f64 {
         self.tau
     }
 
-    /// The unstrained length [m] and its derivative by τ [m/N].
+    /// Unstrained length [m] and its derivative with respect to τ [m/N].
     pub(super) fn length(&self) -> [f64; 2] {
         [self.rope().unstrained_length, self.length_rate]
     }
@@ -123,7 +124,7 @@ impl Line {
         self.rope().weight_per_length
     }
 
-    /// Sine of the chord's slope, positive if the anchor is above the platform.
+    /// Sine of the chord's inclination, positive if the anchor is above the platform.
     pub(super) fn sin(&self) -> f64 {
         self.rise / self.hanging.chord_w().norm()
     }
@@ -133,40 +134,40 @@ impl Line {
         (self.hanging.force_on_start_w(), self.lever_w)
     }
 
-    /// Derivative of its wrench by τ; moments over ℓ.
+    /// Derivative of the cable's wrench with respect to τ; moments over ℓ.
     pub(super) fn column(&self) -> Vec6 {
         wrench_of(&(self.hanging.force_by_length_w() * self.length_rate), &(self.lever_w / self.coordinates.ell()))
     }
 
-    /// The least tension anywhere in the cable.
-    pub(super) fn least(&self) -> Tension {
+    /// Minimum tension anywhere in the cable.
+    pub(super) fn min_tension(&self) -> TensionByTau {
         let [lower, _] = self.ends();
         let cos = self.span / self.hanging.chord_w().norm();
         let catenary = &self.hanging.catenary;
         if catenary.vertical_force_at_start() < 0.0 && catenary.vertical_force_at_end() > 0.0 {
-            Tension { value: catenary.horizontal_force(), slope: cos }
+            TensionByTau { value: catenary.horizontal_force(), slope: cos }
         } else {
             lower
         }
     }
 
-    /// The greatest tension anywhere in the cable.
-    pub(super) fn greatest(&self) -> Tension {
+    /// Maximum tension anywhere in the cable.
+    pub(super) fn max_tension(&self) -> TensionByTau {
         self.ends()[1]
     }
 
-    /// The tensions at the lower and at the upper end.
-    fn ends(&self) -> [Tension; 2] {
+    /// Tensions at the lower and at the upper end.
+    fn ends(&self) -> [TensionByTau; 2] {
         let catenary = &self.hanging.catenary;
         if self.rope().weight_per_length == 0.0 {
-            return [Tension { value: self.tau, slope: 1.0 }; 2];
+            return [TensionByTau { value: self.tau, slope: 1.0 }; 2];
         }
         let [h_by_length, v_by_length] = catenary.start_force_by_length();
         let tension = |vertical: f64, by_length: f64| {
             let horizontal = catenary.horizontal_force();
             let value = (horizontal * horizontal + vertical * vertical).sqrt();
             let slope = (horizontal * h_by_length + vertical * by_length) * self.length_rate / value;
-            Tension { value, slope }
+            TensionByTau { value, slope }
         };
         let start = tension(catenary.vertical_force_at_start(), v_by_length);
         let end = tension(catenary.vertical_force_at_end(), v_by_length + self.rope().weight_per_length);
@@ -178,7 +179,7 @@ impl Line {
         wrench_of(force_w, &(self.lever_w / self.coordinates.ell()))
     }
 
-    /// What a share of the stiffness makes of a scaled motion of the platform: the wrench, scaled, of its symmetric part.
+    /// Wrench, scaled, that the symmetric part of a stiffness contribution gives for a scaled motion of the platform.
     pub(super) fn applied(&self, share: &Share, motion: &Vec6) -> Vec6 {
         let lever = self.lever_w / self.coordinates.ell();
         let turn: Vec3 = motion.fixed_rows::<3>(3).into();
@@ -192,9 +193,10 @@ impl Line {
         wrench
     }
 
-    /// First and second derivative of its share by τ, by central differences.
+    /// First and second derivative of the cable's stiffness contribution with respect to τ, by central differences.
     pub(super) fn rates(&self) -> Rates {
-        // The error of the differences is its square, the rounding of the second ones over its square: they are alike.
+        // The error of the differences grows with the square of the step, the rounding of the second ones with its
+        // inverse square: here they are about equal.
         let step = 1e-4 * self.tau.abs().max(1e-9 * self.rope().axial_stiffness);
         let [less, more] = [-step, step].map(|step| Share::of(&self.hanging.at_parallel_tension(self.tau + step)));
         let (here, once, twice) = (Share::of(&self.hanging), 0.5 / step, 1.0 / (step * step));
@@ -210,7 +212,7 @@ impl Line {
         }
     }
 
-    /// Derivative of its share of the scaled stiffness of the platform by τ.
+    /// Derivative of the cable's contribution to the scaled stiffness of the platform with respect to τ.
     pub(super) fn stiffness_by_tension(&self) -> Mat6 {
         let Share { stiffness_w, force_w } = self.rates().first;
         let mut total = Mat6::zeros();
@@ -220,7 +222,8 @@ impl Line {
     }
 }
 
-/// What a cable adds to the platform's stiffness: the stiffness of its end and the force at its lever arm, world axes.
+/// Stiffness contribution of a cable to the platform: the stiffness of its end and the force at its lever arm, world
+/// axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
     pub stiffness_w: Mat3,
@@ -233,7 +236,7 @@ impl Share {
     }
 }
 
-/// Derivatives of a [`Share`] by τ.
+/// Derivatives of a [`Share`] with respect to τ.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rates {
     pub first: Share,

@@ -1,50 +1,50 @@
-//! The tensions that satisfy the linearised balance within linear bounds, whichever way they are searched.
+//! Tensions that satisfy the linearised balance within linear bounds, in one of two representations.
 
 use super::active_set::{self, Active, Polyhedron};
 use super::bounds::Bounds;
 use super::null_space::Solutions;
 
-/// Directions of the balance from which on the search is made in the space of the cables. With few the null space has
-/// shorter vectors and nothing to solve; with hundreds the space of the cables takes a small part of the time. Both ways
-/// end at the same point, so that the number between matters to the time alone.
-pub(super) const MANY: usize = 34;
+/// Number of null-space directions from which on the search is made in the space of the cables. With few directions the
+/// null space has shorter vectors and no system to solve; with hundreds the space of the cables takes a small fraction
+/// of the time. Both ways end at the same point, so the value affects only the time.
+pub(super) const MIN_DIRECTIONS_IN_CABLE_SPACE: usize = 34;
 
 /// Bounds of tensions (scaled, σ) that satisfy the balance, and of a height if there is one.
-pub(super) struct Room<'a> {
+pub(super) struct FeasibleSet<'a> {
     solutions: &'a Solutions,
     lifted: bool,
-    walls: Walls,
+    constraints: Constraints,
 }
 
-enum Walls {
-    Few(Polyhedron),
-    Many(Bounds),
+enum Constraints {
+    InNullSpace(Polyhedron),
+    InCableSpace(Bounds),
 }
 
-/// Where a search has ended.
-pub(super) struct Found {
+/// Result of a search.
+pub(super) struct FeasiblePoint {
     pub sigma: Vec<f64>,
-    /// Zero without a height.
+    /// Height; zero if there is none.
     pub height: f64,
     pub held: Vec<Active>,
 }
 
-impl<'a> Room<'a> {
-    /// Without bounds as yet.
+impl<'a> FeasibleSet<'a> {
+    /// Feasible set without bounds yet.
     pub(super) fn new(solutions: &'a Solutions, lifted: bool) -> Self {
-        let walls = if solutions.has_directions() {
-            Walls::Few(Polyhedron::new(solutions.redundancy() + usize::from(lifted)))
+        let constraints = if solutions.has_directions() {
+            Constraints::InNullSpace(Polyhedron::new(solutions.redundancy() + usize::from(lifted)))
         } else {
-            Walls::Many(Bounds::new(solutions, lifted))
+            Constraints::InCableSpace(Bounds::new(solutions, lifted))
         };
-        Self { solutions, lifted, walls }
+        Self { solutions, lifted, constraints }
     }
 
-    /// Adds `sign σ_i + lift t ≥ level`; without a cable `lift t ≥ level`.
+    /// Adds `sign σ_i + lift t ≥ level`, or without a cable `lift t ≥ level`.
     pub(super) fn add(&mut self, cable: Option<usize>, sign: f64, lift: f64, level: f64) {
-        match &mut self.walls {
-            Walls::Many(bounds) => bounds.add(cable, sign, lift, level),
-            Walls::Few(set) => {
+        match &mut self.constraints {
+            Constraints::InCableSpace(bounds) => bounds.add(cable, sign, lift, level),
+            Constraints::InNullSpace(set) => {
                 let last = self.lifted.then_some(lift);
                 match cable {
                     Some(i) => set.add(self.solutions.part(i), sign, last, level - sign * self.solutions.particular[i]),
@@ -56,19 +56,19 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// The tensions nearest to `start` that satisfy balance and bounds, see [`active_set::nearest`].
-    pub(super) fn nearest(self, start: impl Fn(usize) -> f64, height: f64, tolerance: f64) -> Option<Found> {
-        self.search(start, height, |walls, x| match walls {
-            Walls::Few(set) => set.nearest(x, tolerance),
-            Walls::Many(bounds) => active_set::nearest(bounds, x, tolerance),
+    /// Feasible tensions nearest to `start`, see [`active_set::nearest`].
+    pub(super) fn nearest(self, start: impl Fn(usize) -> f64, height: f64, tolerance: f64) -> Option<FeasiblePoint> {
+        self.search(start, height, |constraints, x| match constraints {
+            Constraints::InNullSpace(set) => set.nearest(x, tolerance),
+            Constraints::InCableSpace(bounds) => active_set::nearest(bounds, x, tolerance),
         })
     }
 
-    /// The tensions of the greatest height, see [`active_set::highest`].
-    pub(super) fn highest(self, start: impl Fn(usize) -> f64, tolerance: f64) -> Option<Found> {
-        self.search(start, 0.0, |walls, x| match walls {
-            Walls::Few(set) => set.highest(x, tolerance),
-            Walls::Many(bounds) => active_set::highest(bounds, x, tolerance),
+    /// Feasible tensions with the maximum height, see [`active_set::highest`].
+    pub(super) fn highest(self, start: impl Fn(usize) -> f64, tolerance: f64) -> Option<FeasiblePoint> {
+        self.search(start, 0.0, |constraints, x| match constraints {
+            Constraints::InNullSpace(set) => set.highest(x, tolerance),
+            Constraints::InCableSpace(bounds) => active_set::highest(bounds, x, tolerance),
         })
     }
 
@@ -76,16 +76,16 @@ impl<'a> Room<'a> {
         mut self,
         start: impl Fn(usize) -> f64,
         height: f64,
-        end: impl FnOnce(&mut Walls, &mut [f64]) -> Option<Vec<Active>>,
-    ) -> Option<Found> {
-        let few = matches!(self.walls, Walls::Few(_));
-        let mut point = if few { self.solutions.along(start) } else { self.solutions.projected(start) };
+        end: impl FnOnce(&mut Constraints, &mut [f64]) -> Option<Vec<Active>>,
+    ) -> Option<FeasiblePoint> {
+        let in_null_space = matches!(self.constraints, Constraints::InNullSpace(_));
+        let mut point = if in_null_space { self.solutions.along(start) } else { self.solutions.projected(start) };
         if self.lifted {
             point.push(height);
         }
-        let held = end(&mut self.walls, &mut point)?;
+        let held = end(&mut self.constraints, &mut point)?;
         let height = if self.lifted { point.pop()? } else { 0.0 };
-        let sigma = if few { self.solutions.at(&point) } else { point };
-        Some(Found { sigma, height, held })
+        let sigma = if in_null_space { self.solutions.at(&point) } else { point };
+        Some(FeasiblePoint { sigma, height, held })
     }
 }

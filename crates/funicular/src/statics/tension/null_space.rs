@@ -1,30 +1,31 @@
-//! All tensions that satisfy linear equations of balance: one of them, and the directions in which they may change.
+//! All tensions that satisfy the linear balance: one solution, and the directions in which it may change.
 
 use crate::math::Vec6;
 
 /// Condition number of the balance beyond which the cables do not span the degrees of freedom.
 const SINGULAR: f64 = 1e10;
 
-/// The solutions σ of `Cᵀ σ = b`, C with a row a cable and a column a degree of freedom: `σ = particular + N z`, N orthonormal.
+/// Solutions σ of `Cᵀ σ = b`, C with a row per cable and a column per degree of freedom: `σ = particular + N z`, N
+/// orthonormal.
 pub(super) struct Solutions {
     cables: usize,
     dof: usize,
-    /// Orthogonal, by columns; the first ones span the rows of the balance, the others, if they are there, are N.
+    /// Orthogonal matrix, by columns: the first ones span the rows of the balance; the others, if present, are N.
     basis: Vec<f64>,
     /// Upper triangle R of `C = basis R`, by columns.
     triangle: [[f64; 6]; 6],
-    /// The solution of least norm.
+    /// Solution of minimum norm.
     pub particular: Vec<f64>,
 }
 
 impl Solutions {
-    /// From the wrench per unit of every cable, its first `motion` components, each divided by its scale, and the
-    /// wrench `b`. `None` at a singular pose. The `directions` N take memory in proportion to the square of the cables'
-    /// number.
+    /// Solutions from the wrench per unit tension of every cable (its first `dof` components), each divided by its
+    /// scale, and the wrench b in `right`. `None` at a singular pose. The `directions` N take memory in proportion to
+    /// the square of the number of cables.
     pub(super) fn of(columns: &[Vec6], scales: &[f64], right: &Vec6, dof: usize, directions: bool) -> Option<Self> {
         let cables = columns.len();
 
-        // The columns of the transposed balance.
+        // Columns of the transposed balance.
         let mut reflectors = vec![0.0; cables * dof];
         for j in 0..dof {
             for i in 0..cables {
@@ -81,20 +82,20 @@ impl Solutions {
         self.dof
     }
 
-    /// Whether N is there, which [`Self::part`], [`Self::direction`], [`Self::along`] and [`Self::at`] need.
+    /// True if N has been formed; [`Self::part`], [`Self::direction`], [`Self::along`] and [`Self::at`] need it.
     pub(super) fn has_directions(&self) -> bool {
         self.basis.len() == self.cables * self.cables
     }
 
-    /// What cable `i` takes part in the balance with: a row of an orthonormal basis of C's columns.
+    /// Participation of cable `i` in the balance: a row of an orthonormal basis of C's columns.
     pub(super) fn balance(&self, i: usize) -> Vec6 {
         Vec6::from_fn(|k, _| if k < self.dof { self.basis[k * self.cables + i] } else { 0.0 })
     }
 
-    /// The solution nearest to a vector.
+    /// Solution nearest to a vector.
     pub(super) fn projected(&self, sigma: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut nearest: Vec<f64> = (0..self.cables).map(sigma).collect();
-        // Twice: the second time takes away the rounding of the first.
+        // Twice: the second pass removes the rounding of the first.
         for _ in 0..2 {
             for column in self.basis.chunks_exact(self.cables).take(self.dof) {
                 let along: f64 = column.iter().zip(&nearest).map(|(q, s)| q * s).sum();
@@ -110,7 +111,7 @@ impl Solutions {
         self.cables - self.dof
     }
 
-    /// What cable `i` takes part in each of the directions with: a row of N.
+    /// Participation of cable `i` in each of the directions: a row of N.
     pub(super) fn part(&self, i: usize) -> impl Iterator<Item = &f64> {
         self.basis[self.dof * self.cables + i..].iter().step_by(self.cables)
     }
@@ -128,7 +129,7 @@ impl Solutions {
             .collect()
     }
 
-    /// The solution with these components.
+    /// Solution with these components.
     pub(super) fn at(&self, z: &[f64]) -> Vec<f64> {
         let mut sigma = self.particular.clone();
         for (z, column) in z.iter().zip(self.basis[self.dof * self.cables..].chunks_exact(self.cables)) {
@@ -137,7 +138,8 @@ impl Solutions {
         sigma
     }
 
-    /// The y of the least `|g − C y|`: what a change of the balance costs when g is the slope of the cost.
+    /// Vector y that minimises `|g − C y|`: the Lagrange multipliers of the balance if g is the gradient of the
+    /// objective.
     pub(super) fn multipliers(&self, g: impl Fn(usize) -> f64) -> Vec6 {
         let mut y = Vec6::zeros();
         for k in (0..self.dof).rev() {
@@ -150,13 +152,13 @@ impl Solutions {
     }
 }
 
-/// `(I − v vᵀ) x` for a v of length √2.
+/// Reflection `(I − v vᵀ) x` for a v of length √2.
 fn reflect(v: &[f64], x: &mut [f64]) {
     let along: f64 = v.iter().zip(&*x).map(|(v, x)| v * x).sum();
     x.iter_mut().zip(v).for_each(|(x, v)| *x -= along * v);
 }
 
-/// `|R| |R⁻¹|` in Frobenius norms.
+/// Condition number `|R| |R⁻¹|` in Frobenius norms.
 fn condition(triangle: &[[f64; 6]; 6], n: usize) -> f64 {
     let mut squared = 0.0;
     for k in 0..n {

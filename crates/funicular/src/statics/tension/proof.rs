@@ -1,100 +1,102 @@
-//! Proof that no tensions within the limits balance the platform: a wrench direction in which they cannot reach it.
+//! Proof that no tensions within the limits balance the platform: a wrench direction in which the cables cannot reach
+//! balance.
 //!
-//! For any direction y, balance needs `y·e + Σ y·w_i(τ_i) = 0`, e being the load and w_i the wrench of a cable. If the sum
-//! of the load's share and the greatest share that every cable can have within its limits is negative, no tensions
-//! within the limits balance the platform, however the cables sag: (39a). The greatest shares are each a search in one
+//! For any direction y, balance requires `y·e + Σ y·w_i(τ_i) = 0`, e being the load and w_i the wrench of a cable. Take
+//! the load's contribution plus the maximum contribution of every cable within its limits. If this sum is negative, no
+//! tensions within the limits balance the platform, however the cables sag: (39a). Each maximum is a search in one
 //! variable, along the true curve of the cable.
 
 use super::active_set::Polyhedron;
-use super::cable_at_pose::Line;
+use super::cable_at_pose::CableAtPose;
 use crate::math::{Vec3, Vec6};
 use crate::robot::PlatformMotion;
 
-/// Limit of intervals that are halved for one direction.
+/// Maximum number of intervals halved for one direction.
 const MAX_HALVINGS: usize = 100;
 
-/// Limit of directions that are tried after the first.
+/// Maximum number of directions tried after the first.
 const MAX_CUTS: usize = 60;
 
-/// Sine of a chord's slope up to which the unstrained length is a convex function of the tension; it is up to 0.98.
+/// Sine of a chord's inclination up to which the unstrained length counts as a convex function of the tension; it is
+/// one up to 0.98.
 const STEEP: f64 = 0.95;
 
-/// Rounding of the sum of all shares, in parts of their sizes.
+/// Rounding of the sum of all contributions, relative to their magnitudes.
 const ROUNDING: f64 = 1e-12;
 
-/// Where a cable's tension may be.
+/// Range of a cable's tension.
 #[derive(Debug, Clone)]
 pub(super) struct Reach {
-    /// The cable at the least τ within its limits, not slacker than (37), and at the greatest.
-    ends: [Line; 2],
+    /// Cable at the minimum τ within its limits, not slacker than (37), and at the maximum.
+    ends: [CableAtPose; 2],
 }
 
 impl Reach {
-    /// From a cable in any state; `minimum` is its [`Line::at_minimum`].
-    pub(super) fn of(line: &Line, minimum: f64) -> Self {
-        let mut ends = [line.clone(), line.clone()];
+    /// Range of a cable in any state; `minimum` is its [`CableAtPose::at_minimum`].
+    pub(super) fn of(cable: &CableAtPose, minimum: f64) -> Self {
+        let mut ends = [cable.clone(), cable.clone()];
         ends[0].set(minimum);
         ends[1].at_maximum();
-        // Limits that are no wider than the bend of a heavy rope.
+        // The limits may be narrower than the variation of tension along a heavy rope.
         if ends[1].tau() < minimum {
             ends[1].set(minimum);
         }
         Self { ends }
     }
 
-    fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> Seen {
-        let line = &self.ends[0];
-        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&line.wrench(force_w)));
-        let upward = in_direction(&line.hanging.axes_w().1);
-        let sin = line.sin();
-        Seen {
-            along: in_direction(&line.hanging.chord_w().normalize()),
-            of_length: -0.5 * upward * line.weight_per_length(),
+    fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> DirectionalShare {
+        let cable = &self.ends[0];
+        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&cable.wrench(force_w)));
+        let upward = in_direction(&cable.hanging.axes_w().1);
+        let sin = cable.sin();
+        DirectionalShare {
+            along: in_direction(&cable.hanging.chord_w().normalize()),
+            of_length: -0.5 * upward * cable.weight_per_length(),
             convex_bend: upward * sin >= 0.0,
             steep: sin.abs() > STEEP,
         }
     }
 
-    /// The least and the greatest τ [N].
+    /// Minimum and maximum τ [N].
     pub(super) fn limits(&self) -> [f64; 2] {
         [self.ends[0].tau(), self.ends[1].tau()]
     }
 }
 
-/// A cable seen in one direction: its share is `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
+/// Contribution of a cable in one direction: `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
 #[derive(Debug, Clone, Copy)]
-struct Seen {
-    /// What the share is per τ of a straight cable.
+struct DirectionalShare {
+    /// Contribution per τ of a straight cable.
     along: f64,
-    /// The factor of the length, `−½ b w` [N/m in parts of y].
+    /// Factor of the length, `−½ b w` [N/m, in the unit of y].
     of_length: f64,
-    /// D enters it as a convex function.
+    /// True if D enters as a convex function.
     convex_bend: bool,
-    /// The length is no convex function of the tension.
+    /// True if the length may not be a convex function of the tension.
     steep: bool,
 }
 
-/// A point of a cable's share.
+/// Contribution of a cable at one τ.
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct SharePoint {
     tau: f64,
-    /// The cable's wrench, scaled, in the platform's coordinates.
+    /// Wrench of the cable, scaled, in the platform's coordinates.
     wrench: Vec6,
-    /// `along τ`.
+    /// Straight part, `along τ`.
     straight: f64,
-    /// The part of D and that of the length, each with its derivative by τ.
+    /// Contributions of D and of the length, each with its derivative with respect to τ.
     bend: [f64; 2],
     length: [f64; 2],
 }
 
-impl Point {
-    fn of(line: &Line, y: &Vec6, seen: &Seen, motion: &PlatformMotion) -> Self {
-        let wrench = motion.reduced(&line.wrench(&line.force().0));
-        let straight = seen.along * line.tau();
-        let length = line.length().map(|value| seen.of_length * value);
-        let slope = y.dot(&motion.reduced(&line.column()));
+impl SharePoint {
+    fn of(cable: &CableAtPose, y: &Vec6, seen: &DirectionalShare, motion: &PlatformMotion) -> Self {
+        let wrench = motion.reduced(&cable.wrench(&cable.force().0));
+        let straight = seen.along * cable.tau();
+        let length = cable.length().map(|value| seen.of_length * value);
+        let slope = y.dot(&motion.reduced(&cable.column()));
         let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
-        Self { tau: line.tau(), wrench, straight, bend, length }
+        Self { tau: cable.tau(), wrench, straight, bend, length }
     }
 
     fn share(&self) -> f64 {
@@ -102,16 +104,16 @@ impl Point {
     }
 }
 
-/// A part of a cable's reach.
+/// Interval of a cable's τ.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct TauInterval {
     cable: usize,
-    ends: [Point; 2],
+    ends: [SharePoint; 2],
 }
 
-impl Part {
-    /// Nothing between the ends is above: (39b).
-    fn bound(&self, seen: &Seen) -> f64 {
+impl TauInterval {
+    /// Upper bound of the contribution between the ends: (39b).
+    fn bound(&self, seen: &DirectionalShare) -> f64 {
         let [from, to] = &self.ends;
         let width = to.tau - from.tau;
 
@@ -122,13 +124,13 @@ impl Part {
         };
         let bends = lines([from.bend, to.bend], seen.convex_bend);
         let lengths = if seen.steep {
-            // All that is known is that the length falls.
+            // It is only known that the length falls.
             [[from.length[0].max(to.length[0]); 2]; 2]
         } else {
             lines([from.length, to.length], seen.of_length >= 0.0)
         };
 
-        // The least of the sums.
+        // Minimum of the sums.
         let above = |bend: &[f64; 2], length: &[f64; 2]| {
             (from.straight + bend[0] + length[0]).max(to.straight + bend[1] + length[1])
         };
@@ -136,51 +138,52 @@ impl Part {
         sums.fold(f64::INFINITY, f64::min)
     }
 
-    fn best(&self) -> Point {
+    fn best(&self) -> SharePoint {
         let [from, to] = self.ends;
         if from.share() > to.share() { from } else { to }
     }
 }
 
-/// What the directions that were tried say.
+/// Result of the directions tried.
 pub(super) struct Verdict {
-    /// No tensions within the limits balance the platform.
+    /// True if it is proved that no tensions within the limits balance the platform.
     pub proved: bool,
-    /// The tensions with the greatest shares in the first direction [N].
-    pub farthest: Vec<f64>,
+    /// Tensions with the maximum contributions in the first direction [N].
+    pub max_shares: Vec<f64>,
 }
 
-/// A load that cables are to balance, within their reaches; in the platform's coordinates, scaled.
-pub(super) struct Claim<'a> {
+/// Load to be balanced by cables within their ranges; in the platform's coordinates, scaled.
+pub(super) struct Infeasibility<'a> {
     pub reaches: &'a [Reach],
     pub load: Vec6,
     pub motion: PlatformMotion,
 }
 
-impl Claim<'_> {
-    /// Whether a direction proves that the load is not balanced: the first one, or one of those that follow from it.
+impl Infeasibility<'_> {
+    /// Tries to prove that the load cannot be balanced, with the first direction and with those that follow from it.
     ///
-    /// Every direction that proves nothing has a set of tensions within the limits on the wrong side of its plane. The
-    /// next direction has all of these sets on the right side, with the widest least angle (cutting planes). There is
-    /// none if the load lies in the convex hull of what these tensions balance; then no direction is a proof.
-    pub(super) fn refuted(&self, first: &Vec6) -> Verdict {
+    /// Every direction that proves nothing comes with a set of tensions within the limits on the wrong side of its
+    /// plane. The next direction has all of these sets on the right side, with the largest minimum angle (cutting
+    /// planes). There is no such direction if the load lies in the convex hull of the wrenches that these tensions
+    /// balance; then no direction is a proof.
+    pub(super) fn prove(&self, first: &Vec6) -> Verdict {
         let n = self.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
-        let mut verdict = Verdict { proved: false, farthest: Vec::new() };
+        let mut verdict = Verdict { proved: false, max_shares: Vec::new() };
 
         for _ in 0..=MAX_CUTS {
-            let (proved, farthest) = self.examine(&y);
+            let (proved, max_shares) = self.test_direction(&y);
             if seen.is_empty() {
-                verdict.farthest = farthest.iter().map(|point| point.tau).collect();
+                verdict.max_shares = max_shares.iter().map(|point| point.tau).collect();
             }
             if proved {
                 verdict.proved = true;
                 break;
             }
 
-            // The cut of this direction.
-            let wrench = farthest.iter().fold(self.load, |sum, point| sum + point.wrench);
+            // Cut of this direction.
+            let wrench = max_shares.iter().fold(self.load, |sum, point| sum + point.wrench);
             let Some(unit) = wrench.try_normalize(0.0) else { break };
             seen.push(std::array::from_fn(|k| unit[k]));
 
@@ -193,7 +196,7 @@ impl Claim<'_> {
                 break;
             }
             let next = Vec6::from(next).normalize();
-            // Where the last direction comes again, rounding decides.
+            // If the last direction repeats, rounding decides.
             if (next - y).amax() < 1e-12 {
                 break;
             }
@@ -202,21 +205,21 @@ impl Claim<'_> {
         verdict
     }
 
-    /// Whether one direction proves it, and the points of the cables with the greatest shares in it.
-    fn examine(&self, y: &Vec6) -> (bool, Vec<Point>) {
-        let mut parts: Vec<Part> = Vec::with_capacity(self.reaches.len());
-        let seen: Vec<Seen> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
+    /// True if one direction is a proof, with the points of maximum contribution of the cables in it.
+    fn test_direction(&self, y: &Vec6) -> (bool, Vec<SharePoint>) {
+        let mut parts: Vec<TauInterval> = Vec::with_capacity(self.reaches.len());
+        let seen: Vec<DirectionalShare> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
         for (cable, reach) in self.reaches.iter().enumerate() {
-            let end = |k: usize| Point::of(&reach.ends[k], y, &seen[cable], &self.motion);
-            parts.push(Part { cable, ends: [end(0), end(1)] });
+            let end = |k: usize| SharePoint::of(&reach.ends[k], y, &seen[cable], &self.motion);
+            parts.push(TauInterval { cable, ends: [end(0), end(1)] });
         }
-        let mut best: Vec<Point> = parts.iter().map(Part::best).collect();
+        let mut best: Vec<SharePoint> = parts.iter().map(TauInterval::best).collect();
         let own = y.dot(&self.load);
         let size = own.abs() + best.iter().map(|point| point.share().abs()).sum::<f64>();
 
         for _ in 0..=MAX_HALVINGS {
-            // The sum of all bounds decides, …
-            let mut bounds: Vec<f64> = best.iter().map(Point::share).collect();
+            // The sum of all upper bounds decides, …
+            let mut bounds: Vec<f64> = best.iter().map(SharePoint::share).collect();
             for part in &parts {
                 bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable]));
             }
@@ -224,24 +227,24 @@ impl Claim<'_> {
                 return (true, best);
             }
 
-            // … or that of shares that the cables do have.
-            if own + best.iter().map(Point::share).sum::<f64>() >= -ROUNDING * size {
+            // … or the sum of contributions that the cables do reach.
+            if own + best.iter().map(SharePoint::share).sum::<f64>() >= -ROUNDING * size {
                 break;
             }
 
-            // Between both the part that is least known is halved.
-            let excess = |part: &Part| part.bound(&seen[part.cable]) - best[part.cable].share();
+            // Between the two, halve the interval with the largest uncertainty.
+            let excess = |part: &TauInterval| part.bound(&seen[part.cable]) - best[part.cable].share();
             let widest = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])));
             let Some(widest) = widest else { break };
-            let Part { cable, ends: [from, to] } = parts[widest];
-            let mut line = self.reaches[cable].ends[0].clone();
-            line.set((from.tau * to.tau).sqrt());
-            let middle = Point::of(&line, y, &seen[cable], &self.motion);
+            let TauInterval { cable, ends: [from, to] } = parts[widest];
+            let mut there = self.reaches[cable].ends[0].clone();
+            there.set((from.tau * to.tau).sqrt());
+            let middle = SharePoint::of(&there, y, &seen[cable], &self.motion);
             if middle.share() > best[cable].share() {
                 best[cable] = middle;
             }
             parts[widest].ends = [from, middle];
-            parts.push(Part { cable, ends: [middle, to] });
+            parts.push(TauInterval { cable, ends: [middle, to] });
         }
         (false, best)
     }

@@ -1,10 +1,11 @@
-//! The iteration: linearise the balance and the limits, solve the linear problem exactly, repeat.
+//! Iteration of the tension distribution: linearise the balance and the limits, solve the linear problem exactly,
+//! repeat.
 
 use super::active_set::Active;
-use super::cable_at_pose::{Line, Tension};
-use super::feasible_set::{Found, MANY, Room};
+use super::cable_at_pose::{CableAtPose, TensionByTau};
+use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
-use super::proof::{Claim, Reach};
+use super::proof::{Infeasibility, Reach};
 use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
@@ -12,89 +13,91 @@ use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::residual::scaled_residual;
 
-/// Limit of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more up to 20.
+/// Maximum number of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more
+/// up to 20.
 const MAX_ITERATIONS: usize = 100;
 
 /// Change of the tensions, over their size, at which the iteration ends.
 const STILL: f64 = 1e-10;
 
-/// Scaled residual at which it may end; one more step squares it.
+/// Scaled residual at which the iteration may end; one more step squares it.
 const BALANCED: f64 = 1e-12;
 
-/// Violation of a limit, over the size of the tensions, that is rounding.
+/// Violation of a limit, over the size of the tensions, that counts as rounding.
 const VIOLATION: f64 = 1e-9;
 
-/// Least slope of a tension by τ. At the slackest (v up to 1.2) the greatest tension of a level cable is about at its
-/// minimum (v = 1.1997), its slope next to zero or below, and a limit by it would be on the wrong side.
+/// Minimum derivative of a tension with respect to τ. At the slackest (v up to 1.2) the maximum tension of a level
+/// cable is about at its minimum (v = 1.1997). Its derivative is near zero or negative there, and a limit computed from
+/// it would be on the wrong side.
 const MIN_SLOPE: f64 = 1e-3;
 
-/// Limit of further starts where neither tensions within the limits nor a proof that there are none is found.
+/// Maximum number of further starts if neither tensions within the limits nor a proof of their absence is found.
 const MAX_STARTS: usize = 12;
 
-/// Tensions at a pose, on their way to the best.
-pub(super) struct Search<'a> {
+/// Search for the best tensions at a pose.
+pub(super) struct TensionSearch<'a> {
     robot: &'a Robot,
     pose: &'a Pose,
-    lines: Vec<Line>,
-    /// What tensions are compared with [N].
+    cables: Vec<CableAtPose>,
+    /// Reference size of the tensions [N].
     size: f64,
     iterations: usize,
-    /// Tensions within the limits that a search from other starts has found.
+    /// Tensions within the limits found by a search from other starts.
     rescued: Option<Vec<f64>>,
 }
 
-/// The problem linearised about the present tensions.
+/// Problem linearised about the present tensions.
 pub(super) struct Linear {
-    /// Derivatives of the wrench by the tensions, scaled, in the platform's coordinates.
+    /// Derivatives of the wrench with respect to the tensions, scaled, in the platform's coordinates.
     pub columns: Vec<Vec6>,
-    /// `columns · τ` of balanced tensions.
+    /// Value of `columns · τ` for balanced tensions.
     pub right: Vec6,
-    /// Scaled size of the wrench that is left now.
+    /// Scaled size of the remaining wrench.
     pub residual: f64,
-    /// The limits in τ.
-    pub limits: Vec<[Bound; 2]>,
+    /// Limits in τ.
+    pub limits: Vec<[TauBound; 2]>,
 }
 
-/// A limit of τ [N].
+/// Limit of τ [N].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bound {
-    /// Where it is.
+pub(super) struct TauBound {
+    /// Value.
     pub at: f64,
-    /// How far it moves when the tension that is limited may change by 1 N.
+    /// Change of this limit per newton of change of the limited tension.
     pub rate: f64,
 }
 
-/// Tensions proposed, and what holds them there.
-struct Step {
+/// Proposed tensions, with the multipliers of the balance.
+struct TensionStep {
     tau: Vec<f64>,
     /// Multipliers of the balance.
     multipliers: Vec6,
 }
 
-/// Tensions whose least distance from the limits is greatest.
-struct Level {
+/// Tensions with the maximum of the smallest distance from the limits.
+struct MarginOptimum {
     tau: Vec<f64>,
-    /// That distance, in units of the widths, …
+    /// This distance, in units of the widths, …
     distance: f64,
-    /// … and in those of tensions [N].
+    /// … and in newtons.
     height: f64,
     held_by: Vec<(usize, Limit)>,
-    /// Multipliers of the balance; zero where the distance is in units of the widths.
+    /// Multipliers of the balance; zero if the distance is in units of the widths.
     multipliers: Vec6,
 }
 
-/// A limited growth of the least distance from the limits [N].
+/// Limited growth of the smallest distance from the limits [N].
 #[derive(Debug, Clone, Copy)]
 struct ProximalStep {
     from: f64,
     by: f64,
 }
 
-/// How far the tensions may move in one step towards the largest distance.
+/// Step control of the search for the maximum distance.
 ///
-/// Where the optimum is no corner of the linear problem, the corners on both sides take turns. Then the steps are made
-/// smaller: the distance may climb by a limited amount only, which the least move of the tensions provides (a proximal
-/// step). Its fixed points are the same.
+/// If the optimum is not a corner of the linear problem, the corners on both sides take turns. Then the steps are made
+/// smaller: the distance may grow by a limited amount only, with the smallest possible move of the tensions (a proximal
+/// step). The fixed points are the same.
 #[derive(Debug)]
 struct Stride {
     climb: Option<ProximalStep>,
@@ -124,12 +127,12 @@ impl Stride {
     }
 }
 
-impl<'a> Search<'a> {
-    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, lines: Vec<Line>) -> Self {
+impl<'a> TensionSearch<'a> {
+    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, cables: Vec<CableAtPose>) -> Self {
         let weight = load_size(robot);
-        let minima: f64 = lines.iter().map(|line| line.range.minimum + line.slackest).sum();
+        let minima: f64 = cables.iter().map(|cable| cable.range.minimum + cable.slackest).sum();
         let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
-        Self { robot, pose, lines, size, iterations: 0, rescued: None }
+        Self { robot, pose, cables, size, iterations: 0, rescued: None }
     }
 
     pub(super) fn robot(&self) -> &Robot {
@@ -140,12 +143,12 @@ impl<'a> Search<'a> {
         self.pose
     }
 
-    pub(super) fn lines(&self) -> &[Line] {
-        &self.lines
+    pub(super) fn cables(&self) -> &[CableAtPose] {
+        &self.cables
     }
 
-    pub(super) fn into_lines(self) -> Vec<Line> {
-        self.lines
+    pub(super) fn into_cables(self) -> Vec<CableAtPose> {
+        self.cables
     }
 
     pub(super) fn iterations(&self) -> usize {
@@ -161,22 +164,22 @@ impl<'a> Search<'a> {
         self.size
     }
 
-    /// The present tensions.
+    /// Present tensions.
     pub(super) fn tensions(&self) -> Vec<f64> {
-        self.lines.iter().map(Line::tau).collect()
+        self.cables.iter().map(CableAtPose::tau).collect()
     }
 
     /// Hangs all cables with other tensions.
     pub(super) fn set(&mut self, tau: &[f64]) {
-        for (line, &tau) in self.lines.iter_mut().zip(tau) {
-            line.set(tau.max(line.slackest));
+        for (cable, &tau) in self.cables.iter_mut().zip(tau) {
+            cable.set(tau.max(cable.slackest));
         }
     }
 
-    /// The largest change to other tensions, over their size.
+    /// Largest change to other tensions, over their size.
     fn change(&self, tau: &[f64]) -> f64 {
-        let change = self.lines.iter().zip(tau).fold(0.0, |most: f64, (line, tau)| {
-            let change = (tau.max(line.slackest) - line.tau()).abs();
+        let change = self.cables.iter().zip(tau).fold(0.0, |most: f64, (cable, tau)| {
+            let change = (tau.max(cable.slackest) - cable.tau()).abs();
             if change.is_nan() { f64::INFINITY } else { most.max(change) }
         });
         change / self.size
@@ -184,28 +187,28 @@ impl<'a> Search<'a> {
 
     pub(super) fn linearise(&self) -> Linear {
         let coordinates = Coordinates::of(self.robot);
-        let (wrench, scale) = balance(self.robot, self.pose, self.lines.iter().map(Line::force));
+        let (wrench, scale) = balance(self.robot, self.pose, self.cables.iter().map(CableAtPose::force));
         let residual = scaled_residual(&coordinates, &wrench, scale);
         let motion = &self.robot.platform.motion;
         let mut right = -coordinates.reduce(&wrench);
-        let columns: Vec<Vec6> = self.lines.iter().map(|line| motion.reduced(&line.column())).collect();
-        for (column, line) in columns.iter().zip(&self.lines) {
-            right += column * line.tau();
+        let columns: Vec<Vec6> = self.cables.iter().map(|cable| motion.reduced(&cable.column())).collect();
+        for (column, cable) in columns.iter().zip(&self.cables) {
+            right += column * cable.tau();
         }
-        let limits = self.lines.iter().map(|line| {
-            let [least, greatest] = [line.least(), line.greatest()]
-                .map(|tension| Tension { slope: tension.slope.max(MIN_SLOPE), ..tension });
-            let lower = line.tau() + (line.range.minimum - least.value) / least.slope;
-            let upper = line.tau() + (line.range.maximum - greatest.value) / greatest.slope;
-            [Bound { at: lower, rate: 1.0 / least.slope }, Bound { at: upper, rate: 1.0 / greatest.slope }]
+        let limits = self.cables.iter().map(|cable| {
+            let [min, max] = [cable.min_tension(), cable.max_tension()]
+                .map(|tension| TensionByTau { slope: tension.slope.max(MIN_SLOPE), ..tension });
+            let lower = cable.tau() + (cable.range.minimum - min.value) / min.slope;
+            let upper = cable.tau() + (cable.range.maximum - max.value) / max.slope;
+            [TauBound { at: lower, rate: 1.0 / min.slope }, TauBound { at: upper, rate: 1.0 / max.slope }]
         });
         Linear { limits: limits.collect(), columns, right, residual }
     }
 
-    /// The lower limit of cable `i`, or its slackest τ if that is above.
-    fn floor(&self, i: usize, lower: Bound) -> Bound {
-        let slackest = self.lines[i].slackest;
-        if lower.at < slackest { Bound { at: slackest, rate: 1.0 } } else { lower }
+    /// Lower limit of cable `i`, or its slackest τ if that is higher.
+    fn floor(&self, i: usize, lower: TauBound) -> TauBound {
+        let slackest = self.cables[i].slackest;
+        if lower.at < slackest { TauBound { at: slackest, rate: 1.0 } } else { lower }
     }
 
     pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
@@ -213,27 +216,27 @@ impl<'a> Search<'a> {
         Solutions::of(&linear.columns, scales, &linear.right, dof, true).ok_or(StaticsError::Singular)
     }
 
-    /// The same for [`Room`], which can do without directions where they are many.
-    fn room_for(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
+    /// Solutions for [`FeasibleSet`], which needs no directions if they are many.
+    fn solutions_for_feasible_set(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let dof = self.robot.platform.motion.count();
-        let few = self.lines.len() < MANY + dof;
-        Solutions::of(&linear.columns, scales, &linear.right, dof, few).ok_or(StaticsError::Singular)
+        let in_null_space = self.cables.len() < MIN_DIRECTIONS_IN_CABLE_SPACE + dof;
+        Solutions::of(&linear.columns, scales, &linear.right, dof, in_null_space).ok_or(StaticsError::Singular)
     }
 
-    /// Violation of inequalities that is rounding.
+    /// Violation of inequalities that counts as rounding.
     pub(super) fn tolerance(&self, solutions: &Solutions) -> f64 {
         1e-13 * solutions.particular.iter().fold(self.size, |most, p| most.max(p.abs()))
     }
 
-    /// Tensions within the limits nearest to `target` in least squares.
+    /// Moves to the tensions within the limits nearest to `target` in least squares.
     ///
-    /// The curvature of the balance enters the second derivative, cable by cable, by the change of its slope in the last
-    /// step; it matters where cables sag deeply.
+    /// The curvature of the balance enters the second derivative, cable by cable, by the change of its slope in the
+    /// last step. It matters if cables sag deeply.
     pub(super) fn nearest_to(&mut self, target: &[f64]) -> Result<(), StaticsError> {
-        let count = self.lines.len();
+        let count = self.cables.len();
         let mut scales = vec![1.0; count];
         let mut last: Option<(Vec<f64>, Vec<Vec6>, Vec6)> = None;
-        // Deeply sagging cables that overstep go on by shorter steps, until the last setback is well behind.
+        // If deeply sagging cables overstep, steps are shortened until the last setback is well behind.
         let (mut part, mut last_change, mut setback) = (1.0_f64, f64::INFINITY, f64::INFINITY);
 
         for _ in 0..MAX_ITERATIONS {
@@ -241,10 +244,10 @@ impl<'a> Search<'a> {
 
             let linear = self.linearise();
 
-            // Bend of each cable's line, from the last step.
+            // Curvature of each cable, from the last step.
             if let Some((tau, columns, multipliers)) = &last {
-                for (i, line) in self.lines.iter().enumerate() {
-                    let moved = line.tau() - tau[i];
+                for (i, cable) in self.cables.iter().enumerate() {
+                    let moved = cable.tau() - tau[i];
                     if moved.abs() > 1e-7 * self.size {
                         let bend = (linear.columns[i] - columns[i]).dot(multipliers) / moved;
                         scales[i] = (1.0 - bend).clamp(0.1, 100.0).sqrt();
@@ -252,24 +255,24 @@ impl<'a> Search<'a> {
                 }
             }
 
-            // The linear problem.
+            // Solve the linear problem.
             let Some(step) = self.step(&linear, target, &scales)? else {
                 self.min_violation()?;
                 last = None;
                 if self.rescued.is_some() {
-                    // From where another start has led, shorter steps.
+                    // From the result of another start, with shorter steps.
                     part = (0.5 * part).max(0.05);
                 }
                 continue;
             };
 
-            // The end.
+            // End if nothing changes.
             let change = self.change(&step.tau);
             if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
             }
 
-            // How much of the step is taken.
+            // Choose the fraction of the step.
             if change > 0.9 * last_change {
                 (part, setback) = ((0.5 * part).max(0.05), change);
             } else if change < 0.3 * setback {
@@ -282,141 +285,144 @@ impl<'a> Search<'a> {
             last = Some((before, linear.columns, step.multipliers));
             self.set(&after);
         }
-        Err(self.unsettled(last_change, STILL))
+        Err(self.not_converged(last_change, STILL))
     }
 
-    fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<Step>, StaticsError> {
-        let solutions = self.room_for(linear, scales)?;
-        // The least of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
+    fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<TensionStep>, StaticsError> {
+        let solutions = self.solutions_for_feasible_set(linear, scales)?;
+        // The minimum of ½ Δᵀ D Δ + (τ − target)·Δ is at τ − (τ − target)/D.
         let aim = |i: usize| {
-            let tau = self.lines[i].tau();
+            let tau = self.cables[i].tau();
             scales[i] * (tau - (tau - target[i]) / (scales[i] * scales[i]))
         };
 
         // The limits.
-        let mut room = Room::new(&solutions, false);
+        let mut feasible = FeasibleSet::new(&solutions, false);
         let mut rows = Vec::with_capacity(2 * scales.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let lower = self.floor(i, *lower);
-            room.add(Some(i), 1.0, 0.0, scales[i] * lower.at);
+            feasible.add(Some(i), 1.0, 0.0, scales[i] * lower.at);
             rows.push((i, 1.0));
             if upper.at.is_finite() {
-                room.add(Some(i), -1.0, 0.0, -(scales[i] * upper.at));
+                feasible.add(Some(i), -1.0, 0.0, -(scales[i] * upper.at));
                 rows.push((i, -1.0));
             }
         }
 
-        // The nearest point within them, and the multipliers of the balance.
-        let found = room.nearest(aim, 0.0, self.tolerance(&solutions));
-        let Some(Found { sigma, held: active, .. }) = found else { return Ok(None) };
+        // Nearest point within them, and the multipliers of the balance.
+        let found = feasible.nearest(aim, 0.0, self.tolerance(&solutions));
+        let Some(FeasiblePoint { sigma, held: active, .. }) = found else { return Ok(None) };
         let mut pressed = vec![0.0; scales.len()];
         for held in active {
             let (i, sign) = rows[held.row];
             pressed[i] += sign * held.multiplier;
         }
         let multipliers = solutions.multipliers(|i| sigma[i] - aim(i) - pressed[i]);
-        Ok(Some(Step { tau: sigma.iter().zip(scales).map(|(sigma, scale)| sigma / scale).collect(), multipliers }))
+        Ok(Some(TensionStep {
+            tau: sigma.iter().zip(scales).map(|(sigma, scale)| sigma / scale).collect(),
+            multipliers,
+        }))
     }
 
-    /// Tensions as far from the limits as possible, in parts of the distance between them.
+    /// Moves to the tensions as far from the limits as possible, relative to the distance between the limits.
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
-        let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
+        let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
         let mut stride = Stride::default();
         let mut reach = 1.0;
 
         for _ in 0..MAX_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
-            let level = self.level(&linear, Some(&widths), &self.tensions(), stride.climb)?;
+            let optimum = self.margin_optimum(&linear, Some(&widths), &self.tensions(), stride.climb)?;
 
-            if level.distance < -VIOLATION {
+            if optimum.distance < -VIOLATION {
                 self.min_violation()?;
                 stride = Stride::default();
                 if self.rescued.is_some() {
-                    // From where another start has led, next to the limits, shorter steps each time.
+                    // From the result of another start, next to the limits, with shorter steps each time.
                     reach *= 0.3;
                     stride.climb = Some(ProximalStep { from: 0.0, by: reach * self.size });
                 }
                 continue;
             }
 
-            let change = self.change(&level.tau);
+            let change = self.change(&optimum.tau);
             if change <= STILL && linear.residual <= BALANCED {
                 return Ok(());
             }
-            stride.next(change, self.size, level.height);
-            self.set(&level.tau);
+            stride.next(change, self.size, optimum.height);
+            self.set(&optimum.tau);
         }
-        Err(self.unsettled(stride.last_change, STILL))
+        Err(self.not_converged(stride.last_change, STILL))
     }
 
-    /// Puts tensions that nearly hold the platform within the limits right; whether it succeeds.
+    /// Corrects tensions that nearly hold the platform within the limits; true if it succeeds.
     pub(super) fn settle(&mut self) -> bool {
         let linear = self.linearise();
         let slack = VIOLATION * self.size;
-        let within = |(line, [lower, upper]): (&Line, &[Bound; 2])| {
-            line.tau() >= lower.at - slack && line.tau() <= upper.at + slack
+        let within = |(cable, [lower, upper]): (&CableAtPose, &[TauBound; 2])| {
+            cable.tau() >= lower.at - slack && cable.tau() <= upper.at + slack
         };
-        let settled = linear.residual <= BALANCED && self.lines.iter().zip(&linear.limits).all(within);
+        let settled = linear.residual <= BALANCED && self.cables.iter().zip(&linear.limits).all(within);
         settled || self.nearest_to(&self.tensions()).is_ok()
     }
 
-    /// Tensions within the limits, somewhere in the middle of them, that nearly hold the platform.
+    /// Moves to tensions within the limits, near their middle, that nearly hold the platform.
     pub(super) fn near_middle(&mut self) -> Result<(), StaticsError> {
         self.count();
-        let widths: Vec<f64> = self.lines.iter().map(|line| line.range.maximum - line.range.minimum).collect();
-        let level = self.level(&self.linearise(), Some(&widths), &self.tensions(), None)?;
-        if level.distance < 0.0 {
+        let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
+        let optimum = self.margin_optimum(&self.linearise(), Some(&widths), &self.tensions(), None)?;
+        if optimum.distance < 0.0 {
             return self.middle();
         }
-        self.set(&level.tau);
+        self.set(&optimum.tau);
         Ok(())
     }
 
-    /// Moves to tensions that violate the limits least; an error if they do violate them.
+    /// Moves to the tensions with the minimum violation of the limits; an error if they do violate them.
     ///
-    /// A cable below its minimum is continued by its tangent there, so that one that would have to push has a violation
-    /// as well, and the forces no kink on which linearisations could disagree. If no cable has to push after all, the
-    /// violation is found once more with the cables as they hang.
+    /// Below its minimum a cable is continued by its tangent there. So a cable that would need negative tension has a
+    /// violation as well, and the forces have no kink on which linearisations could disagree. If no tension is negative
+    /// after all, the violation is computed once more with the cables as they hang.
     ///
-    /// What violates the limits least may be a local optimum where cables sag. The pose is refused for good only if a
-    /// direction proves it, see [`Claim`]; else the search begins again elsewhere.
+    /// The minimum violation may be a local one if cables sag. The pose is refused for good only if a direction proves
+    /// it, see [`Infeasibility`]; otherwise the search begins again elsewhere.
     fn min_violation(&mut self) -> Result<(), StaticsError> {
         if let Some(tau) = self.rescued.clone() {
             self.set(&tau);
             return Ok(());
         }
 
-        let minima: Vec<f64> = self.lines.iter_mut().map(Line::at_minimum).collect();
-        let mut level = self.min_violation_above(&minima)?;
-        if level.distance >= -VIOLATION * self.size {
-            // There are such tensions; the next linear problem knows.
+        let minima: Vec<f64> = self.cables.iter_mut().map(CableAtPose::at_minimum).collect();
+        let mut optimum = self.min_violation_above(&minima)?;
+        if optimum.distance >= -VIOLATION * self.size {
+            // Such tensions exist; the next linear problem will find them.
             return Ok(());
         }
 
-        let slackest: Vec<f64> = self.lines.iter().map(|line| line.slackest).collect();
-        if level.tau.iter().zip(&slackest).all(|(tau, slackest)| tau > slackest)
+        let slackest: Vec<f64> = self.cables.iter().map(|cable| cable.slackest).collect();
+        if optimum.tau.iter().zip(&slackest).all(|(tau, slackest)| tau > slackest)
             && let Ok(hung) = self.min_violation_above(&slackest)
             && hung.distance < -VIOLATION * self.size
         {
-            level = hung;
+            optimum = hung;
         }
 
-        // The direction of the limits' multipliers proves it nearly always.
-        let reaches: Vec<Reach> = self.lines.iter().zip(&minima).map(|(line, tau)| Reach::of(line, *tau)).collect();
+        // The direction of the limits' multipliers is nearly always a proof.
+        let reaches: Vec<Reach> = self.cables.iter().zip(&minima).map(|(cable, tau)| Reach::of(cable, *tau)).collect();
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
-        let claim = Claim { reaches: &reaches, load, motion };
-        let verdict = claim.refuted(&level.multipliers);
+        let claim = Infeasibility { reaches: &reaches, load, motion };
+        let verdict = claim.prove(&optimum.multipliers);
         if verdict.proved {
-            return Err(StaticsError::BeyondLimits(self.miss(&level)));
+            return Err(StaticsError::BeyondLimits(self.miss(&optimum)));
         }
 
-        // Other starts: where the cables reach farthest in that direction, and all over between the limits.
+        // Other starts: the tensions with the maximum contributions in that direction, and others between the limits.
         let mut starts = 1;
         for k in 0..MAX_STARTS {
             starts += 1;
-            let start = if k == 0 { verdict.farthest.clone() } else { self.spread(&reaches, k) };
+            let start = if k == 0 { verdict.max_shares.clone() } else { self.spread(&reaches, k) };
             self.set(&start);
             let Ok(found) = self.min_violation_above(&slackest) else { continue };
             if found.distance >= -VIOLATION * self.size {
@@ -424,20 +430,20 @@ impl<'a> Search<'a> {
                 self.rescued = Some(found.tau);
                 return Ok(());
             }
-            if found.distance > level.distance {
-                level = found;
+            if found.distance > optimum.distance {
+                optimum = found;
             }
         }
-        Err(StaticsError::NotFoundWithinLimits { miss: self.miss(&level), starts })
+        Err(StaticsError::NotFoundWithinLimits { miss: self.miss(&optimum), starts })
     }
 
-    /// The `k`-th of tensions that spread over what the limits allow, even in their logarithms.
+    /// Start number `k` of tensions that spread over the range between the limits, evenly in their logarithms.
     fn spread(&self, reaches: &[Reach], k: usize) -> Vec<f64> {
-        let cables = reaches.iter().zip(&self.lines).enumerate();
-        let tensions = cables.map(|(i, (reach, line))| {
+        let cables = reaches.iter().zip(&self.cables).enumerate();
+        let tensions = cables.map(|(i, (reach, cable))| {
             let [low, high] = reach.limits();
-            // Without a maximum the reach is no tension that a start should have.
-            let high = if line.range.maximum.is_infinite() { high.min(self.size.max(2.0 * low)) } else { high };
+            // Without a maximum, the upper end of the range is too high for a start.
+            let high = if cable.range.maximum.is_infinite() { high.min(self.size.max(2.0 * low)) } else { high };
             let low = low.max(f64::MIN_POSITIVE);
             // Multiples of irrational numbers have no pattern (Weyl).
             let part = ((k as f64 + 1.0) * (i as f64 + 2.0).sqrt() * std::f64::consts::E).fract();
@@ -446,100 +452,102 @@ impl<'a> Search<'a> {
         tensions.collect()
     }
 
-    /// The least violation when cables are continued by their tangents below these tensions.
-    fn min_violation_above(&mut self, floors: &[f64]) -> Result<Level, StaticsError> {
+    /// Minimum violation if cables are continued by their tangents below these tensions.
+    fn min_violation_above(&mut self, floors: &[f64]) -> Result<MarginOptimum, StaticsError> {
         let mut here = self.tensions();
         let mut stride = Stride::default();
-        let mut mildest: Option<Level> = None;
+        let mut mildest: Option<MarginOptimum> = None;
 
         for iteration in 0..MAX_ITERATIONS {
             self.iterations += 1;
             let hung: Vec<f64> = here.iter().zip(floors).map(|(tau, floor)| tau.max(*floor)).collect();
             self.set(&hung);
 
-            // The linear problem, from where cables hang at all.
+            // Linear problem about tensions at which the cables can hang.
             let linear = self.linearise();
-            let level = self.level(&linear, None, &here, stride.climb)?;
+            let optimum = self.margin_optimum(&linear, None, &here, stride.climb)?;
 
             let change =
-                here.iter().zip(&level.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
+                here.iter().zip(&optimum.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
             if change <= VIOLATION {
-                return Ok(level);
+                return Ok(optimum);
             }
 
-            stride.next(change, self.size, level.height);
-            here.clone_from(&level.tau);
-            if iteration > MAX_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| level.height > mildest.height) {
-                mildest = Some(level);
+            stride.next(change, self.size, optimum.height);
+            here.clone_from(&optimum.tau);
+            if iteration > MAX_ITERATIONS / 2 && mildest.as_ref().is_none_or(|mildest| optimum.height > mildest.height)
+            {
+                mildest = Some(optimum);
             }
         }
-        // Very heavy and soft ropes may wander without end. If every linear problem has been impossible, so is the pose;
-        // the mildest of them says by how much, roughly.
+        // Very heavy and soft ropes may wander without end. If every linear problem has been infeasible, so is the
+        // pose; the smallest violation among them is an estimate.
         mildest
-            .filter(|level| level.distance < -VIOLATION * self.size)
-            .ok_or_else(|| self.unsettled(stride.last_change, VIOLATION))
+            .filter(|optimum| optimum.distance < -VIOLATION * self.size)
+            .ok_or_else(|| self.not_converged(stride.last_change, VIOLATION))
     }
 
-    /// The largest least distance from the limits: over their `widths`, or, without, in N and at most zero.
+    /// Maximum of the smallest distance from the limits: over their `widths`, or, without widths, in N and at most
+    /// zero.
     ///
     /// With a `climb` the distance grows by a limited amount instead, and the tensions `here` move little.
-    fn level(
+    fn margin_optimum(
         &self,
         linear: &Linear,
         widths: Option<&[f64]>,
         here: &[f64],
         climb: Option<ProximalStep>,
-    ) -> Result<Level, StaticsError> {
-        let solutions = self.room_for(linear, &vec![1.0; self.lines.len()])?;
-        // The height is in N either way.
+    ) -> Result<MarginOptimum, StaticsError> {
+        let solutions = self.solutions_for_feasible_set(linear, &vec![1.0; self.cables.len()])?;
+        // The height is in N in both cases.
         let unit = widths.map_or(1.0, |widths| widths.iter().sum::<f64>() / widths.len() as f64);
 
         // The limits.
-        let mut room = Room::new(&solutions, true);
-        let mut rows = Vec::with_capacity(3 * self.lines.len());
+        let mut feasible = FeasibleSet::new(&solutions, true);
+        let mut rows = Vec::with_capacity(3 * self.cables.len());
         for (i, [lower, upper]) in linear.limits.iter().enumerate() {
             let width = widths.map_or(1.0, |widths| widths[i] / unit);
             let lower = if widths.is_some() { *lower } else { self.floor(i, *lower) };
-            room.add(Some(i), 1.0, -width * lower.rate, lower.at);
+            feasible.add(Some(i), 1.0, -width * lower.rate, lower.at);
             rows.push(Some((i, Limit::Minimum)));
             if upper.at.is_finite() {
-                room.add(Some(i), -1.0, -width * upper.rate, -upper.at);
+                feasible.add(Some(i), -1.0, -width * upper.rate, -upper.at);
                 rows.push(Some((i, Limit::Maximum)));
             }
             if widths.is_some() {
-                room.add(Some(i), 1.0, 0.0, self.lines[i].slackest);
+                feasible.add(Some(i), 1.0, 0.0, self.cables[i].slackest);
                 rows.push(None);
             }
         }
         if widths.is_none() {
-            room.add(None, 1.0, -1.0, 0.0);
+            feasible.add(None, 1.0, -1.0, 0.0);
             rows.push(None);
         }
 
-        // The highest point.
+        // Highest point.
         let tolerance = self.tolerance(&solutions);
         let found = match (climb, widths) {
-            (Some(climb), _) => room.nearest(|i| here[i], climb.from + climb.by, tolerance),
-            (None, None) => room.highest(|i| here[i], tolerance),
-            (None, Some(_)) => room.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance),
+            (Some(climb), _) => feasible.nearest(|i| here[i], climb.from + climb.by, tolerance),
+            (None, None) => feasible.highest(|i| here[i], tolerance),
+            (None, Some(_)) => feasible.highest(|i| 0.5 * (linear.limits[i][0].at + linear.limits[i][1].at), tolerance),
         };
 
-        let Some(Found { sigma: tau, height, held }) = found else {
-            // Only the slackest cables can be in the way here: they bind harder than the limits.
+        let Some(FeasiblePoint { sigma: tau, height, held }) = found else {
+            // Only the slackest cables can prevent a solution here: they bind more strictly than the limits.
             return match widths {
-                Some(_) => self.level(linear, None, here, None),
-                None => Err(self.unsettled(f64::INFINITY, STILL)),
+                Some(_) => self.margin_optimum(linear, None, here, None),
+                None => Err(self.not_converged(f64::INFINITY, STILL)),
             };
         };
 
-        // Which limits hold it.
+        // Limits that hold it.
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
         let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
         held_by.sort_by_key(|(i, _)| *i);
         let mut multipliers = Vec6::zeros();
         if widths.is_none() {
-            let mut pressed = vec![0.0; self.lines.len()];
+            let mut pressed = vec![0.0; self.cables.len()];
             for held in &held {
                 if let Some((i, limit)) = rows[held.row] {
                     pressed[i] += if limit == Limit::Minimum { held.multiplier } else { -held.multiplier };
@@ -547,15 +555,15 @@ impl<'a> Search<'a> {
             }
             multipliers = solutions.multipliers(|i| -pressed[i]);
         }
-        Ok(Level { tau, height, distance: height / unit, held_by, multipliers })
+        Ok(MarginOptimum { tau, height, distance: height / unit, held_by, multipliers })
     }
 
-    fn miss(&mut self, level: &Level) -> LimitViolation {
-        let mut held_by = level.held_by.clone();
+    fn miss(&mut self, optimum: &MarginOptimum) -> LimitViolation {
+        let mut held_by = optimum.held_by.clone();
         if held_by.is_empty() {
-            // The last step was a short one, which no limit has stopped: those that bind there are asked for again.
-            self.set(&level.tau);
-            if let Ok(there) = self.level(&self.linearise(), None, &level.tau, None) {
+            // The last step was a short one that no limit has stopped: compute the binding limits again.
+            self.set(&optimum.tau);
+            if let Ok(there) = self.margin_optimum(&self.linearise(), None, &optimum.tau, None) {
                 held_by = there.held_by;
             }
         }
@@ -563,10 +571,10 @@ impl<'a> Search<'a> {
             let of = held_by.iter().filter(|(_, which)| *which == limit);
             of.map(|(i, _)| self.robot.cables[*i].name.clone()).collect()
         };
-        LimitViolation { by: -level.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
+        LimitViolation { by: -optimum.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
     }
 
-    fn unsettled(&self, change: f64, limit: f64) -> StaticsError {
+    fn not_converged(&self, change: f64, limit: f64) -> StaticsError {
         let (p, residual) = (self.pose.position_w, self.linearise().residual);
         StaticsError::TensionsNotConverged {
             iterations: self.iterations,

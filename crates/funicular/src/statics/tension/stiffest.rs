@@ -1,41 +1,43 @@
-//! The stiffest tensions: the largest least eigenvalue of the scaled stiffness.
+//! Stiffest tensions: maximum of the minimum eigenvalue of the scaled stiffness.
 //!
-//! The least eigenvalue has a second-order model that costs the eigenvectors of one 6×6 matrix, see [`model`]; so the
-//! optimum is found by Newton's method, one small program a step. Where that does not arrive, cutting planes do.
+//! The minimum eigenvalue has a second-order model that costs the eigenvectors of one 6×6 matrix, see [`model`]. So the
+//! optimum is found by Newton's method, with one small optimisation problem per step. If that does not converge,
+//! cutting planes are used.
 
 mod cutting_planes;
 mod model;
 
-use super::search::Search;
+use super::search::TensionSearch;
 use crate::math::{Mat6, symmetric, symmetric_part};
 use crate::platform::Coordinates;
 use crate::statics::error::StaticsError;
 use crate::statics::stiffness::assembled;
-use model::{Model, Step};
+use model::{Model, StiffeningStep};
 
-/// Gain of stiffness, relative, that is not worth a step.
+/// Relative gain of stiffness that is not worth a step.
 const GAIN: f64 = 3e-8;
 
-/// Most steps of Newton's method, which takes a handful, more where eigenvalues meet.
+/// Maximum number of Newton steps; a handful is usual, more if eigenvalues meet.
 const MAX_STEPS: usize = 40;
 
-/// Least part of a step that is tried.
+/// Minimum fraction of a step that is tried.
 const MIN_STEP: f64 = 1e-3;
 
-/// Tensions within the limits that make the robot stiffest.
-pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
+/// Moves to the tensions within the limits with the maximum stiffness.
+pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     search.near_middle()?;
     survey(search)?;
     if climb(search) { Ok(()) } else { cutting_planes::search(search) }
 }
 
-/// Moves to the stiffest of a few tensions: the present ones and those half-way from them to the limits, forth and back
-/// along every direction. Where ropes sag there are several optima; this begins near a high one.
-fn survey(search: &mut Search<'_>) -> Result<(), StaticsError> {
+/// Moves to the stiffest of a few tensions: the present ones and those half-way from them to the limits, both ways
+/// along every direction. With sagging ropes there are several optima; this starts near a high one.
+fn survey(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     let linear = search.linearise();
     let middle = search.tensions();
     let solutions = search.solutions(&linear, &vec![1.0; middle.len()])?;
     let mut best = (min_eigenvalue(search), middle.clone());
+
     for k in 0..solutions.redundancy() {
         for sign in [1.0, -1.0] {
             let direction: Vec<f64> = solutions.direction(k).iter().map(|n| sign * n).collect();
@@ -52,38 +54,42 @@ fn survey(search: &mut Search<'_>) -> Result<(), StaticsError> {
             }
         }
     }
+
     search.set(&best.1);
     Ok(())
 }
 
-/// Where a step began.
+/// Start of a step.
 struct Start {
     tau: Vec<f64>,
     value: f64,
-    step: Step,
+    step: StiffeningStep,
 }
 
 impl Start {
-    /// Restores the balance and makes this part of the rest of the step.
-    fn go(&self, search: &mut Search<'_>, part: f64) {
+    /// Restores the balance and adds this fraction of the stiffening part of the step.
+    fn go(&self, search: &mut TensionSearch<'_>, part: f64) {
         let step = self.step.restoring.iter().zip(&self.step.stiffening);
         let tau: Vec<f64> = self.tau.iter().zip(step).map(|(from, (to, on))| from + to + part * on).collect();
         search.set(&tau);
     }
 }
 
-/// Newton's method from the present tensions; whether it arrives.
-fn climb(search: &mut Search<'_>) -> bool {
+/// Newton's method from the present tensions; true if it converges.
+fn climb(search: &mut TensionSearch<'_>) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut last: Option<Start> = None;
     let mut part = 1.0;
+
     for _ in 0..MAX_STEPS {
         search.count();
         let stiffness = present(search);
         let eigen = symmetric::eigen(&stiffness, dof);
-        // A loss this large is not the balance's, which is still off by a little: the model need not be made.
+
+        // A loss this large does not come from the small imbalance: the model need not be made.
         let lost = last.as_ref().is_some_and(|last| eigen.0[0] < last.value - last.step.gain);
         let here = if lost { None } else { Model::here(search, &stiffness, eigen) };
+
         let enough = |last: &Start, value: f64| value >= last.value + 0.1 * part * last.step.gain;
         let Some(here) = here.filter(|here| last.as_ref().is_none_or(|last| enough(last, here.value))) else {
             part *= 0.3;
@@ -91,12 +97,14 @@ fn climb(search: &mut Search<'_>) -> bool {
             last.go(search, part);
             continue;
         };
+
         let weights = here.weights(last.as_ref().map(|last| &last.step.weights));
         let Some(step) = here.step(search, &weights) else { return false };
         let arrived = step.gain <= GAIN * here.value.abs() + here.rounding;
+
         let start = Start { tau: search.tensions(), value: here.value, step };
         part = 1.0;
-        // Where the step's own rounding is all that it changes, only the balance is restored.
+        // If the step's change is only rounding, restore the balance alone.
         start.go(search, if start.step.gain > 0.0 { part } else { 0.0 });
         if arrived {
             return search.settle();
@@ -106,22 +114,22 @@ fn climb(search: &mut Search<'_>) -> bool {
     false
 }
 
-/// The scaled stiffness of the robot at the present tensions, in the platform's coordinates.
-fn present(search: &Search<'_>) -> Mat6 {
-    let cables = search.lines().iter().map(|line| {
-        let (force, lever) = line.force();
-        (line.hanging.tangent_w(), force, lever)
+/// Scaled stiffness of the robot at the present tensions, in the platform's coordinates.
+fn present(search: &TensionSearch<'_>) -> Mat6 {
+    let cables = search.cables().iter().map(|cable| {
+        let (force, lever) = cable.force();
+        (cable.hanging.tangent_w(), force, lever)
     });
     let total = Coordinates::of(search.robot()).scale_matrix(&assembled(search.robot(), search.pose(), cables));
     search.robot().platform.motion.reduced_matrix(&symmetric_part(&total))
 }
 
-fn min_eigenvalue(search: &Search<'_>) -> f64 {
+fn min_eigenvalue(search: &TensionSearch<'_>) -> f64 {
     symmetric::eigenvalues(&present(search), search.robot().platform.motion.count())[0]
 }
 
-/// Whether the least eigenvalue is above a value; in a fraction of its time.
-fn is_above(search: &Search<'_>, value: f64) -> bool {
+/// True if the minimum eigenvalue is above a value; takes a fraction of its time.
+fn is_above(search: &TensionSearch<'_>, value: f64) -> bool {
     let dof = search.robot().platform.motion.count();
     let mut above = present(search);
     for k in 0..6 {
@@ -135,13 +143,13 @@ mod tests {
     use super::*;
     use crate::robot::{Pose, Robot, TensionLimits};
     use crate::statics::StaticModel;
-    use crate::statics::tension::Line;
+    use crate::statics::tension::CableAtPose;
 
     const COGIRO: &str = funicular_robots::COGIRO;
     const CAROCA: &str = funicular_robots::CAROCA;
     const POINT: &str = funicular_robots::SAP2000_8_CABLE_POINT_MASS;
 
-    /// The robots with other ropes, masses per length [kg/m] and stiffnesses [N], and poses without pattern.
+    /// Robots with other ropes, masses per length [kg/m] and stiffnesses [N], and poses without pattern.
     fn cases(ropes: [(f64, f64); 3]) -> impl Iterator<Item = (Robot, Pose)> {
         let boxes = [
             (COGIRO, [50.0, 1500.0], [0.0, 0.0, 2.0], [6.0, 4.0, 1.5], 10.0),
@@ -165,15 +173,15 @@ mod tests {
         )
     }
 
-    fn begun<'a>(robot: &'a Robot, pose: &'a Pose) -> Option<Search<'a>> {
+    fn begun<'a>(robot: &'a Robot, pose: &'a Pose) -> Option<TensionSearch<'a>> {
         let coordinates = Coordinates::of(robot);
-        let line = |i| Line::new(robot, i, pose, StaticModel::Catenary, coordinates);
-        let mut search = Search::new(robot, pose, (0..robot.cables.len()).map(line).collect());
+        let cable = |i| CableAtPose::new(robot, i, pose, StaticModel::Catenary, coordinates);
+        let mut search = TensionSearch::new(robot, pose, (0..robot.cables.len()).map(cable).collect());
         search.middle().ok()?;
         Some(search)
     }
 
-    /// Straight cables have one optimum; soft ones, of rubber, where eigenvalues meet.
+    /// Straight cables have one optimum; with soft ones, of rubber, eigenvalues meet there.
     #[test]
     fn newtons_method_finds_what_cutting_planes_find() {
         let (mut tried, mut meeting) = (0, 0);
@@ -191,7 +199,7 @@ mod tests {
         assert!(tried > 300 && meeting > 10, "{tried} {meeting}");
     }
 
-    /// Sagging ones may have several optima, and either method may end in the lower one.
+    /// Sagging cables may have several optima, and either method may end in the lower one.
     #[test]
     fn with_sagging_ropes_newtons_method_arrives_no_lower_than_cutting_planes_on_the_whole() {
         let (mut tried, mut ratios) = (0, 0.0);

@@ -1,4 +1,4 @@
-//! Platforms that move in a plane: hand formulas, mirrored copies, a rigid robot restricted to a plane.
+//! Platforms that move in a plane: hand formulas, mirrored copies, and a rigid robot restricted to a plane.
 
 use crate::random::any_robot;
 use funicular::cable::CableModel;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
-/// The platform of a robot in the plane through a pose.
+/// Robot whose platform moves in the plane through a pose.
 fn in_plane(robot: &Robot, normal: Vec3, pose: &Pose) -> Robot {
     let mut planar = robot.clone();
     let offset = normal.normalize().dot(&pose.position_w);
@@ -21,7 +21,7 @@ fn in_plane(robot: &Robot, normal: Vec3, pose: &Pose) -> Robot {
     planar
 }
 
-/// A plate in the xz plane on two cables of mass `rope_mass` [kg/m].
+/// Plate in the xz plane on two cables of mass `rope_mass` [kg/m].
 fn plate(rope_mass: f64) -> String {
     format!(
         "name = \"plate\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
@@ -32,7 +32,7 @@ fn plate(rope_mass: f64) -> String {
     )
 }
 
-/// A rigid body that is two such plates, one at y = ±b.
+/// Rigid body made of two such plates, one at y = ±b.
 fn two_plates(rope_mass: f64, b: f64) -> Robot {
     let mut text = plate(rope_mass)
         .replace("motion = \"planar-xz\"\n", "")
@@ -63,7 +63,7 @@ fn a_plate_on_two_upright_springs_has_the_frequencies_of_the_hand_formula() {
     let robot = Robot::from_toml(&text).unwrap();
     let tension = mass * 9.81 / 2.0;
     let unstrained = length / (1.0 + tension / stiffness);
-    // Two cables, three degrees of freedom: the lengths alone say where it hangs.
+    // Two cables, three degrees of freedom: the lengths alone determine the pose.
     let rest = statics::forward(&robot, &[unstrained; 2], StaticModel::Spring, None).unwrap();
     assert!(rest.pose.position_w.norm() < 1e-9, "{}", rest.pose.position_w);
     let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() };
@@ -93,7 +93,7 @@ fn a_planar_platform_has_a_plane_and_one_moment_of_inertia() {
         ("\"planar-xz\"", "\"planar\"", "needs the normal of its plane", 3),
         ("\"planar-xz\"", "\"planar-xz\"\nplane_normal = [0, 1, 0]", "`plane_normal` goes with `motion", 4),
         ("\"planar-xz\"", "\"planar\"\nplane_normal = [0, 0, 0]", "has no direction", 4),
-        ("\"planar-xz\"", "\"rigid\"\nplane_offset_m = 1", "`plane_offset_m` is of a planar platform", 4),
+        ("\"planar-xz\"", "\"rigid\"\nplane_offset_m = 1", "`plane_offset_m` is for a planar platform only", 4),
         ("\"planar-xz\"", "\"planar-zx\"", "`motion` is \"planar-zx\", which is unknown", 3),
         ("m2 = 0.3", "m2 = -0.3", "`inertia_kg_m2` is -0.3, it must be positive", 5),
         ("attachment_m = [-0.3, 0.0, 0.1]\n", "", "has no `attachment_m`", 10),
@@ -128,19 +128,19 @@ fn a_plate_is_the_symmetric_half_of_two_rigidly_joined_ones() {
         let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
         let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
         let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(&robot, &pose, &back.pose) < 1e-9);
+        assert!(statics::pose_distance(&robot, &pose, &back.pose) < 1e-9);
 
         let joined = two_plates(rope_mass, 0.25);
         let twice = [lengths.clone(), lengths].concat();
         let rest = statics::forward(&joined, &twice, StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(&joined, &pose, &rest.pose) < 1e-8);
+        assert!(statics::pose_distance(&joined, &pose, &rest.pose) < 1e-8);
 
         let linearisation = Linearisation { cable_model: model, ..Default::default() };
         let (below, about) = (25.0, Dynamics::about);
         let half = modes::below(&about(&robot, &held, linearisation, below).unwrap(), below);
         let whole = modes::below(&about(&joined, &rest, linearisation, below).unwrap(), below);
         assert!(half.certified && whole.certified, "{model}");
-        // Beside a cable's own frequency, symmetric and antisymmetric modes of the joined plates may mix.
+        // Near a cable's own frequency, symmetric and antisymmetric modes of the joined plates may mix.
         let counts = |mode: &&Mode| mode.platform_energy_fraction > 1e-3;
         let symmetric = |mode: &Mode| [1, 3, 5].iter().all(|&i| mode.shape[i].abs() < 1e-6);
         let ours: Vec<&Mode> = moving(&half.modes).into_iter().filter(counts).collect();
@@ -149,7 +149,7 @@ fn a_plate_is_the_symmetric_half_of_two_rigidly_joined_ones() {
         for (half, whole) in ours.iter().zip(theirs) {
             assert!((half.frequency_hz / whole.frequency_hz - 1.0).abs() < 1e-8, "{model}");
             assert!((half.damping_ratio - whole.damping_ratio).abs() < 1e-9);
-            // Each has its own ℓ, so that their shapes may be scaled differently.
+            // Each robot has its own ℓ, so their shapes may be scaled differently.
             let k = [0, 2, 4].into_iter().max_by(|&i, &j| half.shape[i].abs().total_cmp(&half.shape[j].abs())).unwrap();
             let masses = half.modal_mass / whole.modal_mass * 2.0 * (whole.shape[k] / half.shape[k]).powi(2);
             assert!((masses - 1.0).abs() < 1e-5, "{model}: {masses} at {} Hz", half.frequency_hz);
@@ -167,7 +167,8 @@ fn cables_in_the_plane_vibrate_across_it_with_the_platform_at_rest() {
     assert!(found.certified && found.modes.len() == found.count_below);
     let resting: Vec<f64> =
         found.modes.iter().filter(|m| m.shape.iter().all(|x| *x == 0.0)).map(|m| m.frequency_hz).collect();
-    // The string's, k √(τ/m)/(2 l), which a sagging cable keeps across its plane to the order of its sag squared.
+    // Frequencies of the string, k √(τ/m)/(2 l), which a sagging cable keeps out of its plane to the order of its sag
+    // squared.
     let mut strings: Vec<f64> = (0..3)
         .flat_map(|i| {
             let first = funicular::cable::Sag::of(&robot, i, &held.cables[i]).string_frequency_hz();
@@ -179,13 +180,13 @@ fn cables_in_the_plane_vibrate_across_it_with_the_platform_at_rest() {
     for (ours, string) in resting.iter().zip(&strings) {
         assert!((ours / string - 1.0).abs() < 2e-3, "{ours} {string}");
     }
-    // Only the plane: they are not there.
+    // These modes are out of the plane; restricted to the plane they do not exist.
     let only = Linearisation { in_plane_only: true, ..linearisation };
     let found = modes::below(&Dynamics::about(&robot, &held, only, 30.0).unwrap(), 30.0);
     assert!(found.certified && moving(&found.modes).len() == found.modes.len());
 }
 
-/// Columns of a plane's motions, written out: two directions and the turn.
+/// Columns of a plane's motions, written out: two directions and the rotation.
 fn motions(first: Vec3, second: Vec3) -> DMat {
     let mut columns = DMat::zeros(6, 3);
     for i in 0..3 {
@@ -261,7 +262,7 @@ fn tensions_of_a_planar_robot_with_four_cables_are_chosen_within_limits() {
             assert!(TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).distance() > -1e-6 * 400.0);
         }
         let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        assert!(statics::distance(&robot, &pose, &back.pose) < 1e-8, "{}", rule.name());
+        assert!(statics::pose_distance(&robot, &pose, &back.pose) < 1e-8, "{}", rule.name());
     }
 }
 
@@ -273,7 +274,7 @@ fn a_pose_off_the_plane_is_refused_and_gravity_across_it_is_the_guides() {
     assert!(refused(Pose::new([0.0, 0.0, 0.4], [3.0, 0.0, 0.0])).contains("tilted out of its plane by 3"));
     let start = Pose::new([0.0, 0.0, 0.4], [0.0, 0.0, 1.0]);
     assert!(statics::forward(&robot, &[3.0; 3], StaticModel::Catenary, Some(&start)).is_err());
-    // On a table: the cables sag out of the plane, the platform stays in it.
+    // On a table: the cables sag out of the plane, but the platform stays in it.
     let mut table = in_plane(&robot, Vec3::y(), &Pose::new([0.0; 3], [0.0; 3]));
     table.gravity_w = Vec3::new(0.0, -9.81, 0.0);
     for cable in &mut table.cables {
@@ -289,8 +290,8 @@ fn a_pose_off_the_plane_is_refused_and_gravity_across_it_is_the_guides() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
 
-    /// A spatial robot in a guide of any plane: its static stiffness is the differential of the wrench, its list of
-    /// modes is complete, and an inverse solution leads back.
+    /// Spatial robot in a guide of any plane: its static stiffness is the derivative of the wrench, its list of modes
+    /// is complete, and an inverse solution leads back.
     #[test]
     fn any_robot_in_any_plane_is_consistent(
         (robot, lengths) in any_robot(), normal in prop::array::uniform3(-1.0f64..1.0), redundant in any::<bool>(),
@@ -303,7 +304,7 @@ proptest! {
         }
         let lengths = &lengths[..planar.cables.len()];
         let rest = statics::forward(&planar, lengths, StaticModel::Catenary, None);
-        // Slack robots on a slope may have no bottom within reach of the search; that is another test's matter.
+        // Slack robots on a slope may have no minimum within reach of the search; another test treats that.
         prop_assume!(rest.is_ok());
         let rest = rest.unwrap();
         prop_assert!(planar.platform.motion.check(&rest.pose).is_ok());

@@ -2,7 +2,7 @@
 
 use funicular::robot::{PlatformMotion, Robot};
 
-/// A file with lengths; the broken files below are this one with one change. Line 1 is `name`.
+/// File with lengths; each broken file below is this one with one change. Line 1 is `name`.
 const ROBOT: &str = r#"name = "test robot"
 source = "none"
 gravity_m_s2 = [0.0, 0.0, -9.81]
@@ -36,7 +36,7 @@ attachment_m = [0.2, 0.0, 0.0]
 unstrained_length_m = 4.0
 "#;
 
-/// The same with a pose; `[state]` is line 30.
+/// File with a pose instead; `[state]` is line 30.
 fn robot_with_pose() -> String {
     let mut text = ROBOT.replace("unstrained_length_m = 4.0\n", "");
     text.push_str("[state]\nposition_m = [0.0, 0.0, 1.0]\nroll_pitch_yaw_deg = [0.0, 0.0, 0.0]\n");
@@ -45,7 +45,7 @@ fn robot_with_pose() -> String {
 
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
-/// A point mass with a pose; `motion` is line 4, `[state]` line 13.
+/// Point mass with a pose; `motion` is line 4, `[state]` line 13.
 const POINT: &str = r#"name = "point"
 [platform]
 mass_kg = 1.0
@@ -62,7 +62,7 @@ anchor_m = [0.0, 0.0, 2.0]
 position_m = [0.0, 0.0, 1.0]
 "#;
 
-/// One broken file: the text to replace (its first occurrence), the new text, part of the message, the line.
+/// Broken file: the text to replace (its first occurrence), the new text, part of the message, the line.
 type Case = (&'static str, &'static str, &'static str, &'static str, usize);
 
 /// Changes `base` and checks that there is one message, with this text, at this line.
@@ -478,7 +478,7 @@ fn limits_of_tension_are_read_and_those_of_a_cable_come_first() {
     assert_eq!(robot.cables[0].material.breaking_load, Some(5e3));
     let none = robot.cables[1].limits();
     assert_eq!((none.minimum, none.maximum), (None, None));
-    // Nothing is pulled beyond what it breaks at.
+    // The breaking load is the maximum.
     let text = ROBOT.replace("damping_ratio = 0.003", "breaking_load_n = 5e3");
     assert_eq!(Robot::from_toml(&text).unwrap().cables[0].limits().maximum, Some(5e3));
 }

@@ -1,4 +1,4 @@
-//! Loads along the cables: weight by another name, wind, and what both do to stiffness and vibration.
+//! Loads along the cables: weight replaced by an equal load, wind, and their effect on stiffness and vibration.
 
 use funicular::cable::{CableModel, Sag};
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -10,7 +10,7 @@ use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 const COGIRO: &str = funicular_robots::COGIRO;
 
-/// The paper's robot with a rope that the wind pulls at and a platform of a third of a square metre.
+/// Robot of the paper with a rope that has drag and a platform of a third of a square metre.
 fn in_wind(velocity_w: Vec3) -> Robot {
     let text = YUAN
         .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2")
@@ -34,8 +34,8 @@ fn frequencies(robot: &Robot, rest: &Equilibrium, cable_model: CableModel, below
     found.modes.iter().map(|mode| mode.frequency_hz).collect()
 }
 
-/// Everything turned by the same rotation: gravity down becomes gravity sideways, and that a cable load sideways
-/// without gravity. The dynamics has to be the same to the last digits, since only q counts (theory, section 2).
+/// The complete robot is rotated: gravity down becomes gravity sideways, and then a cable load sideways without
+/// gravity. The dynamics must agree to the last digits, since only q counts (theory, section 2).
 #[test]
 fn a_load_along_the_cables_is_weight_by_another_name() {
     let robot = Robot::from_toml(YUAN).unwrap();
@@ -46,7 +46,7 @@ fn a_load_along_the_cables_is_weight_by_another_name() {
     loaded.load.point_p = robot.platform.center_of_mass_p;
     let lengths = lengths(&robot);
     let [a, b] = [&robot, &loaded].map(|r| statics::forward(r, &lengths, StaticModel::Catenary, None).unwrap());
-    assert!(statics::distance(&robot, &a.pose, &b.pose) < 1e-10);
+    assert!(statics::pose_distance(&robot, &a.pose, &b.pose) < 1e-10);
     for (i, (x, y)) in a.cables.iter().zip(&b.cables).enumerate() {
         assert!((x.tension_anchor - y.tension_anchor).abs() < 1e-8);
         let (x, y) = (Sag::of(&robot, i, x), Sag::of(&loaded, i, y));
@@ -59,8 +59,8 @@ fn a_load_along_the_cables_is_weight_by_another_name() {
     }
 }
 
-/// An independent balance: chains of bars would do, but the finite catenary already is one, so the sum of all forces on
-/// robot and cables is taken: anchors carry weight, wind on the platform and drag, and nothing else.
+/// Independent balance of the sum of all forces on robot and cables: the anchors carry weight, wind on the platform and
+/// drag, and nothing else. (The catenary is finite already, so no chain of bars is needed.)
 #[test]
 fn the_anchors_carry_weight_and_drag() {
     let velocity = Vec3::new(9.0, 4.0, -1.0);
@@ -74,14 +74,15 @@ fn the_anchors_carry_weight_and_drag() {
         let drag = pressure(velocity - e * e.dot(&velocity)) * (1.2 * 0.004);
         let per_metre = robot.gravity_w * cable.material.mass_per_length + drag;
         outside += per_metre * state.unstrained_length;
-        // The curve's own end force at the anchor, from its horizontal and vertical parts.
+        // End force of the curve at the anchor, from its horizontal and vertical parts.
         let hanging = state.hanging.as_ref().unwrap();
         let (along, up) = hanging.axes_w();
         held -= along * -hanging.catenary.horizontal_force() - up * hanging.catenary.vertical_force_at_end();
         assert!((up + per_metre.normalize()).norm() < 1e-14, "up is against the whole load");
     }
     assert!((outside + held).norm() < 1e-8 * outside.norm(), "{outside} {held}");
-    // 9.9 m/s press 18 N onto the platform, which hangs from cables 5 m long with 10 kg: it goes with the wind.
+    // A wind of 9.9 m/s pushes the platform with 18 N. It has 10 kg and hangs from cables 5 m long: it moves with the
+    // wind.
     let calm = in_wind(Vec3::zeros());
     let still = statics::forward(&calm, &lengths(&calm), StaticModel::Catenary, None).unwrap();
     let moved = rest.pose.position_w - still.pose.position_w;
@@ -95,7 +96,7 @@ fn inverse_statics_in_wind_is_the_way_back() {
     let held = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
     let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
     let back = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-    assert!(statics::distance(&robot, &back.pose, &pose) < 1e-8);
+    assert!(statics::pose_distance(&robot, &back.pose, &pose) < 1e-8);
     assert!(back.residual <= statics::RESIDUAL_LIMIT);
 
     let text = COGIRO.replacen("mass_kg_per_m", "drag_coefficient = 1.1\ndrag_diameter_m = 0.004\nmass_kg_per_m", 1);
@@ -112,10 +113,10 @@ fn inverse_statics_in_wind_is_the_way_back() {
     assert!((held.cables[0].tension_platform - still.unwrap().cables[0].tension_platform).abs() > 0.1);
     let lengths: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
     let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
-    assert!(statics::distance(&robot, &back.pose, &pose) < 1e-8);
+    assert!(statics::pose_distance(&robot, &back.pose, &pose) < 1e-8);
 }
 
-/// The tangent is that of loads which keep their direction; with the loads held at one pose it has to be minus the
+/// The tangent belongs to loads that keep their direction. With the loads held at one pose it must be minus the
 /// derivative of the wrench.
 #[test]
 fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
@@ -124,7 +125,7 @@ fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
     let stiffness = statics::tangent_stiffness(&robot, &rest).unwrap();
     assert!((stiffness - stiffness.transpose()).amax() < 1e-9 * stiffness.amax());
-    // The same loads as a file's dead loads, and still air but for the platform's force.
+    // Equal loads given as dead loads, and still air apart from the force on the platform.
     let mut dead = robot.with_wind(Wind::default());
     for (i, state) in rest.cables.iter().enumerate() {
         dead.cables[i].load_per_length_w = robot.line_load(i, &state.chord_w()).vector_w()
@@ -133,8 +134,8 @@ fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
     dead.load.force_w = robot.force_at_mass_centre_w() - robot.gravity_w * robot.platform.mass;
     dead.load.point_p = robot.platform.center_of_mass_p;
     let again = statics::forward(&dead, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
-    assert!(statics::distance(&robot, &again.pose, &rest.pose) < 1e-9);
-    // Sag makes the wrench bend within millimetres; a larger step leaves its square.
+    assert!(statics::pose_distance(&robot, &again.pose, &rest.pose) < 1e-9);
+    // Sag curves the wrench within millimetres; a larger step leaves its square.
     let step = 1e-6;
     let by = |k: usize| {
         let wrench = |sign: f64| {
@@ -154,7 +155,7 @@ fn the_stiffness_in_wind_is_symmetric_and_that_of_dead_loads() {
 fn a_wind_along_a_cable_does_not_pull_at_it_and_drag_grows_with_the_square() {
     let wind = Wind { velocity_w: Vec3::new(10.0, 0.0, 0.0), ..Wind::default() };
     assert_eq!(wind.cross_pressure_w(&Vec3::x()), Vec3::zeros());
-    // ½ 1.225 100 N/m²; at 45° half of it, across the cable.
+    // ½ 1.225 100 N/m²; at 45° half of it, normal to the cable.
     assert!((wind.cross_pressure_w(&Vec3::y()) - Vec3::x() * 61.25).norm() < 1e-12);
     let slanted = wind.cross_pressure_w(&Vec3::new(1.0, 0.0, 1.0).normalize());
     assert!((slanted.norm() - 30.625).abs() < 1e-12 && (slanted.x + slanted.z).abs() < 1e-12);
@@ -177,12 +178,12 @@ fn a_massless_rope_in_wind_bows_with_it() {
     let e = state.chord_w().normalize();
     let across = (Vec3::y() - e * e.y).normalize();
     assert!(middle.dot(&across) > 0.0 && middle.cross(&across).norm() < 0.05 * middle.norm(), "{middle}");
-    // It has no vibrations of its own, but the platform has six on its bowed ropes.
+    // The cable has no vibrations of its own here, but the platform has six on its bowed ropes.
     assert_eq!(frequencies(&robot, &rest, CableModel::CatenaryDynamic, 200.0).len(), 6);
 }
 
-/// Load vector and force are functions of the load alone when ends and length are held: the derivative by central
-/// differences of the fourth order, in slack, taut, steep and massless-like cables.
+/// With ends and length held, the force is a function of the load alone: its derivative compared with central
+/// differences of fourth order, in slack, taut, steep and nearly massless cables.
 #[test]
 fn the_end_force_follows_the_load_as_its_derivative_says() {
     use funicular::catenary::{Rope, space::HangingCable};
@@ -206,15 +207,16 @@ fn the_end_force_follows_the_load_as_its_derivative_says() {
             let at = |n: f64| hang(load + Vec3::ith(k, n * step)).force_on_start_w();
             ((at(1.0) - at(-1.0)) * 8.0 - (at(2.0) - at(-2.0))) / (12.0 * step)
         }));
-        // The fourth order leaves (step/load)⁴ = 6e-12; the chord rounds by some epsilons, which EA turns into a force.
+        // The fourth order leaves (step/load)⁴ = 6e-12; the chord is rounded by some epsilons, which EA turns into a
+        // force.
         let tolerance = 1e-8 * derivative.amax() + 20.0 * f64::EPSILON * 8e4 / step;
         let error = (derivative - differences).amax();
         assert!(error < tolerance, "{end} {error:e} {tolerance:e} {derivative} {differences}");
     }
 }
 
-/// Minus the derivative of the whole wrench by the pose at held lengths, drag of every pose, by central differences of
-/// fourth order; in the platform's coordinates.
+/// Minus the derivative of the total wrench with respect to the pose at held lengths, with the drag of every pose, by
+/// central differences of fourth order; in the platform's coordinates.
 fn by_differences(robot: &Robot, rest: &Equilibrium, step: f64) -> Mat6 {
     let lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
     let motion = &robot.platform.motion;
@@ -233,7 +235,7 @@ fn by_differences(robot: &Robot, rest: &Equilibrium, step: f64) -> Mat6 {
     motion.expanded_matrix(&Mat6::from_columns(&std::array::from_fn::<_, 6, _>(by)))
 }
 
-/// A robot's text with ropes that the wind pulls at: a drag coefficient after every line that gives a rope's mass.
+/// Text of a robot whose ropes have drag: a drag coefficient after every line that gives a rope's mass.
 fn with_drag(text: &str) -> Robot {
     let lines = text.lines().flat_map(|line| {
         let drag = line.starts_with("mass_kg_per_m").then_some("drag_coefficient = 1.2\ndrag_diameter_m = 0.008");
@@ -242,8 +244,8 @@ fn with_drag(text: &str) -> Robot {
     Robot::from_toml(&lines.collect::<Vec<_>>().join("\n")).unwrap()
 }
 
-/// The library's robots and one of them with ropes paid out far, as a rigid body, a point mass and in a plane, each in
-/// three winds: the tangent with the turning drag is the derivative of the wrench, the one with held drag is not.
+/// Robots of the library and one of them with long slack ropes, as a rigid body, a point mass and in a plane, each in
+/// three winds: the tangent with the turning drag is the derivative of the wrench, the tangent with held drag is not.
 #[test]
 fn the_tangent_with_drag_is_the_derivative_of_the_wrench() {
     let velocities = [Vec3::new(15.0, -5.0, 2.0), Vec3::new(0.0, 25.0, 0.0), Vec3::new(-8.0, 8.0, -3.0)];
@@ -259,8 +261,8 @@ fn the_tangent_with_drag_is_the_derivative_of_the_wrench() {
             let differences = by_differences(&robot, &rest, 1e-5);
             let scale = whole.amax();
             let error = (whole - differences).amax() / scale;
-            // Differences: the fourth order of the step over some centimetres of sag, and rounding over the step. What the
-            // residual of 1e-10 leaves in the lever terms is less.
+            // Errors of the differences: the fourth order of the step over some centimetres of sag, and rounding over
+            // the step. The residual of 1e-10 leaves less in the lever terms.
             assert!(error < 2e-7, "{name} {velocity_w}: {error:e} {}", whole - differences);
             let missed = (held - differences).amax() / scale;
             assert!(missed > 10.0 * error, "{name}: the drag's turn is seen, {missed:e} {error:e}");
@@ -283,7 +285,7 @@ fn windy_robots() -> Vec<(&'static str, Robot, f64)> {
     ]
 }
 
-/// Without wind, or with ropes that it does not pull at, or with cables that carry no load along them.
+/// No drag turns without wind, with ropes without drag, or with cables that carry no load along them.
 #[test]
 fn without_a_drag_that_turns_the_tangent_is_the_symmetric_one_to_the_bit() {
     let still = in_wind(Vec3::zeros());
@@ -305,8 +307,8 @@ fn without_a_drag_that_turns_the_tangent_is_the_symmetric_one_to_the_bit() {
     assert_ne!(statics::tangent_with_drag(&blowing, &rest), statics::tangent_stiffness(&blowing, &rest));
 }
 
-/// The number of the warning bounds the change of every displacement, is met by some load, and grows with the wind; the
-/// warning comes where it is above one per cent and not below.
+/// The number in the warning bounds the change of every displacement, is reached for some load, and grows with the
+/// wind; the warning appears above one per cent and not below.
 #[test]
 fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one_per_cent() {
     use funicular::warnings::{self, Warning};
@@ -324,7 +326,8 @@ fn the_effect_of_the_turning_drag_bounds_displacements_and_is_warned_of_from_one
             assert_eq!(warned, effect > warnings::DRAG_TURN_LIMIT, "{name} {speed}: {effect}");
             *(if warned { &mut seen } else { &mut unseen }) += 1;
 
-            // Displacements under unit loads, both ways; the unit diagonal stands for what the platform cannot do.
+            // Displacements under unit loads, computed in both ways; the unit diagonal stands for motions that the
+            // platform does not have.
             let (n, ell) = (robot.platform.motion.count(), robot.platform_length());
             let [held, whole] = [statics::tangent_stiffness(&robot, &rest), statics::tangent_with_drag(&robot, &rest)]
                 .map(|k| robot.platform.motion.reduced_matrix(&k.unwrap()))

@@ -43,9 +43,9 @@ fn forward_statics_of_few_cables_is_a_minimum_of_the_energy() {
             let turn = Vec3::new((0.9 * angle).cos(), (1.1 * angle).sin(), (0.4 * angle).cos()) * size;
             assert!(energy(&robot, &rest.pose.moved(&shift, &turn), &lengths) > least, "{cables} {k}");
         }
-        // Another road to it: from another start, turned and moved.
+        // Reach it from another start, displaced and rotated.
         let start = rest.pose.moved(&Vec3::new(0.3, -0.2, 0.3), &Vec3::new(0.2, 0.1, -0.2));
         let again = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&start)).unwrap();
-        assert!(statics::distance(&robot, &again.pose, &rest.pose) < 1e-7);
+        assert!(statics::pose_distance(&robot, &again.pose, &rest.pose) < 1e-7);
     }
 }

@@ -1,4 +1,4 @@
-//! Unstrained lengths to a pose: no start needed, slack cables, refusals.
+//! Unstrained lengths to a pose: no start needed, slack cables, refused input.
 
 use super::{COGIRO, YUAN_4MM, YUAN_8MM, load};
 use crate::library::independent_robots;
@@ -64,7 +64,7 @@ fn too_few_cables_and_lengths_that_do_not_fit_are_refused_with_numbers() {
     let text = |r: Result<_, StaticsError>| r.map(|_: statics::Equilibrium| ()).unwrap_err().to_string();
     assert_eq!(
         text(statics::forward(&robot, &lengths[..7], StaticModel::Catenary, None)),
-        "7 unstrained lengths for 8 cables: give one a cable, in file order"
+        "7 unstrained lengths given for 8 cables: give one length per cable, in the order of the file"
     );
     assert!(text(statics::forward(&robot, &lengths, StaticModel::Ideal, None)).contains("exactly 6"));
     let pose = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);
@@ -87,11 +87,11 @@ proptest! {
         for model in [StaticModel::Spring, StaticModel::Catenary] {
             let rest = statics::forward(&robot, &lengths, model, None);
             let rest = rest.map_err(|e| TestCaseError::fail(format!("{model:?}: {e}")))?;
-            // Rounding of a chord, in the stiffest rope, under all forces: what no search gets below.
+            // Rounding of a chord in the stiffest rope, over all forces: no search can get below it.
             let forces: f64 = rest.cables.iter().map(|c| c.tension_platform).sum::<f64>() + 9.81 * robot.platform.mass;
             let stiffness: f64 = robot.cables.iter().map(|c| c.material.axial_stiffness).sum();
             prop_assert!(rest.residual <= 1e-10f64.max(2e-15 * stiffness / forces));
-            // Springs may leave a direction free where cables are slack; catenaries never do.
+            // Springs may leave a direction free if cables are slack; catenaries never do.
             if model == StaticModel::Catenary {
                 prop_assert!(matches!(rest.stability, Stability::Stable { .. }), "{:?}", rest.stability);
             }

@@ -1,4 +1,4 @@
-//! Rigid cables without weight: lengths to pose and back, and what they cannot hold.
+//! Rigid cables without weight: lengths to pose and back, and poses that they cannot hold.
 
 use super::{YUAN_4MM, YUAN_8MM, crane, load};
 use funicular::robot::Pose;
@@ -16,7 +16,8 @@ fn rigid_cables_leave_a_pose_that_closes_the_lengths_and_balances() {
     }
 }
 
-/// Forward statics of ideal cables: the closure has a pose, which is no equilibrium where a cable would push.
+/// Forward statics of ideal cables: the lengths close at a pose, which is no equilibrium if a tension would be
+/// negative.
 #[test]
 fn ideal_cables_of_lengths_that_would_have_to_push_are_refused() {
     let (robot, _) = load(YUAN_4MM);
@@ -46,7 +47,7 @@ fn ideal_cables_that_are_too_few_are_refused() {
     let robot = crane(4, 0.0);
     let pose = Pose::new([0.0, 0.0, 1.0], [0.0; 3]);
     for error in [
-        statics::nearest(&robot, &pose, StaticModel::Ideal).unwrap_err(),
+        statics::nearest_equilibrium(&robot, &pose, StaticModel::Ideal).unwrap_err(),
         statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap_err(),
     ] {
         assert!(matches!(error, StaticsError::InverseCableCount { cables: 4, dof: 6 }));

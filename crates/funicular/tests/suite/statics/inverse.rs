@@ -1,4 +1,4 @@
-//! A pose to unstrained lengths with as many cables as degrees of freedom, slack ones included.
+//! Pose to unstrained lengths with as many cables as degrees of freedom, slack ones included.
 
 use super::{YUAN_4MM, load};
 use crate::random::Draw;
@@ -22,7 +22,8 @@ fn pose_to_lengths_and_back_is_the_identity() {
                 Ok(rest) => {
                     held += 1;
                     assert!(rest.residual <= statics::RESIDUAL_LIMIT);
-                    // Also where slack cables hold the pose by kilometres of rope; a hundred with steps in the tension alone.
+                    // Also if slack cables hold the pose with kilometres of rope; with steps in the tension alone it takes
+                    // a hundred iterations.
                     assert!(rest.iterations <= 15, "{i}: {} iterations", rest.iterations);
                     let lengths: Vec<f64> = rest.cables.iter().map(|c| c.unstrained_length).collect();
                     let back = statics::forward(&robot, &lengths, model, Some(&pose)).unwrap();
@@ -49,7 +50,7 @@ fn pose_to_lengths_and_back_is_the_identity() {
 fn poses_that_only_one_way_of_steps_finds_are_held() {
     let (mut robot, _) = load(YUAN_4MM);
     robot.platform.mass = 20.0;
-    // By steps in tension alone the first; the second only with steps in the length of slack cables.
+    // Steps in tension alone find the first; only steps in the length of slack cables find the second.
     for position in [[2.5, -1.4, 0.5], [3.0, 1.0, 0.5]] {
         let rest = statics::inverse(&robot, &Pose::new(position, [0.0; 3]), StaticModel::Catenary).unwrap();
         assert!(rest.residual <= statics::RESIDUAL_LIMIT && matches!(rest.stability, Stability::Stable { .. }));
@@ -57,8 +58,8 @@ fn poses_that_only_one_way_of_steps_finds_are_held() {
     }
 }
 
-/// The `index`-th random robot on six cables from above, a few of them also from below, that are up to a quarter longer than
-/// their chords: a robot of ours, made up. Ropes from 1/3000 of the platform's weight to three times that.
+/// Random robot number `index` on six cables from above, a few of them also from below, up to a quarter longer than
+/// their chords: an invented robot. Ropes weigh from 1/3000 of the platform to three times as much.
 fn slack_robot(index: u64) -> (Robot, Vec<f64>) {
     let mut draw = Draw(index.wrapping_mul(7919) + 1);
     let size = draw.decades(0.0, 1.5);
@@ -105,11 +106,11 @@ fn slack_robot(index: u64) -> (Robot, Vec<f64>) {
     load(&text)
 }
 
-/// A cable robot that rests must be held at the pose in which it rests: by the lengths it has, or by others.
+/// A robot in equilibrium must be held at its pose: by its own lengths, or by others.
 #[test]
 fn where_a_robot_rests_with_slack_cables_inverse_statics_finds_tensions() {
     let (mut rests, mut same) = (0, 0);
-    // The first ones, and those that no iteration from straight cables finds.
+    // The first robots, and those for which no iteration from straight cables converges.
     for index in (0..1200).chain(HARD) {
         let (robot, lengths) = slack_robot(index);
         let Ok(rest) = statics::forward(&robot, &lengths, StaticModel::Catenary, None) else { continue };
@@ -120,22 +121,22 @@ fn where_a_robot_rests_with_slack_cables_inverse_statics_finds_tensions() {
         let held = statics::inverse(&robot, &rest.pose, StaticModel::Catenary);
         let held = held.unwrap_or_else(|error| panic!("robot {index}: {error}"));
 
-        // The balance, by the lengths alone.
+        // Balance, computed from the lengths alone.
         let found: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
         let left = statics::wrench(&robot, &rest.pose, &found, StaticModel::Catenary).unwrap();
         let ell = robot.platform_length();
         let left = left.fixed_rows::<3>(0).norm().max(left.fixed_rows::<3>(3).norm() / ell);
         let forces: f64 = held.cables.iter().map(|cable| cable.tension_platform).sum();
-        // Rounding of a length, in the stiffest rope, besides the limit of residuals.
+        // Rounding of a length in the stiffest rope, besides the limit of residuals.
         let stiffness = robot.cables.iter().fold(0.0, |most: f64, cable| most.max(cable.material.axial_stiffness));
         assert!(left <= 1e-9 * forces + 1e-14 * stiffness, "robot {index}: {left:e} of {forces}");
         same += usize::from(found.iter().zip(&lengths).all(|(a, b)| (a - b).abs() < 1e-5 * b));
     }
-    // Nine in ten have the lengths they had; the balance of slack cables has several solutions.
+    // Nine in ten get their original lengths; the balance of slack cables has several solutions.
     assert!(rests > 1190 && 10 * same > 8 * rests, "{rests} {same}");
 }
 
-/// Robots of the sequence that rest where iterations from straight cables find no tensions.
+/// Robots of the sequence in equilibria for which iterations from straight cables find no tensions.
 const HARD: [u64; 16] =
     [1641, 2170, 2174, 2918, 3664, 4541, 5288, 5453, 6398, 6423, 6464, 6839, 7163, 7188, 7646, 7802];
 
@@ -149,7 +150,7 @@ fn what_is_not_found_for_sagging_cables_is_not_said_to_be_impossible() {
     assert!(text.contains(" would need -") && text.contains("more than 2 times as long as its chord"), "{text}");
     assert!(error.is_no_solution() && error.code() == "negative-tension");
 
-    // Beside poses that are held by slack ropes, their weight might do, and they are searched for.
+    // Near poses that slack ropes hold, the weight of the ropes might suffice, so they are searched.
     let beside = (0..100).flat_map(|index| (1..20).map(move |step| (index, step)));
     let searched = beside.filter_map(|(index, step)| {
         let (robot, lengths) = slack_robot(index);
@@ -162,10 +163,10 @@ fn what_is_not_found_for_sagging_cables_is_not_said_to_be_impossible() {
     assert!(!searched.is_empty());
     for text in searched {
         assert!(text.contains("sagging, a search from "), "{text}");
-        assert!(text.contains("left a scaled residual of") || text.contains("out of all proportion"), "{text}");
+        assert!(text.contains("left a scaled residual of") || text.contains("excessive tensions"), "{text}");
     }
 
-    // Without weight straight cables decide.
+    // Without weight, straight cables decide.
     let mut massless = robot;
     massless.cables.iter_mut().for_each(|cable| cable.material.mass_per_length = 0.0);
     let error = statics::inverse(&massless, &far, StaticModel::Catenary).unwrap_err();

@@ -1,4 +1,4 @@
-//! The nearest pose that fewer cables than degrees of freedom can hold.
+//! Nearest pose that fewer cables than degrees of freedom can hold.
 
 use super::crane;
 use funicular::cable::CableModel;
@@ -15,21 +15,21 @@ fn the_nearest_pose_is_found_from_lengths_and_leads_back_to_them() {
     for (cables, rope_mass) in [(1, 0.05), (2, 0.1), (3, 0.0), (3, 0.2), (4, 0.0), (4, 0.3)] {
         let robot = crane(cables, rope_mass);
         let asked = Pose::new([0.4, 0.3, 1.5], [0.0; 3]);
-        let found = statics::nearest(&robot, &asked, StaticModel::Catenary).unwrap();
-        assert!((statics::distance(&robot, &asked, &found.equilibrium.pose) - found.distance).abs() < 1e-12);
+        let found = statics::nearest_equilibrium(&robot, &asked, StaticModel::Catenary).unwrap();
+        assert!((statics::pose_distance(&robot, &asked, &found.equilibrium.pose) - found.distance).abs() < 1e-12);
         assert!(found.equilibrium.residual <= 1e-10);
         let lengths: Vec<f64> = found.equilibrium.cables.iter().map(|c| c.unstrained_length).collect();
         let back = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&asked)).unwrap();
-        // On one cable the platform may turn, and from another start it does.
-        assert!(cables == 1 || statics::distance(&robot, &back.pose, &found.equilibrium.pose) < 1e-6, "{cables}");
-        // No neighbour by its lengths is nearer.
+        // On one cable the platform can turn freely, and from another start it does.
+        assert!(cables == 1 || statics::pose_distance(&robot, &back.pose, &found.equilibrium.pose) < 1e-6, "{cables}");
+        // No neighbouring equilibrium is nearer.
         for i in 0..cables {
             for step in [-3e-3, 3e-3] {
                 let mut other = lengths.clone();
                 other[i] += step;
                 let pose = found.equilibrium.pose;
                 let beside = statics::forward(&robot, &other, StaticModel::Catenary, Some(&pose)).unwrap();
-                let distance = statics::distance(&robot, &asked, &beside.pose);
+                let distance = statics::pose_distance(&robot, &asked, &beside.pose);
                 assert!(distance >= found.distance - 1e-9, "{cables}, {i}: {distance} {}", found.distance);
             }
         }
@@ -42,7 +42,7 @@ fn a_pose_that_the_cables_can_hold_is_found_at_no_distance() {
         let robot = crane(cables, rope_mass);
         let lengths: Vec<f64> = [5.1, 5.3, 5.2, 5.0][..cables].to_vec();
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        let found = statics::nearest(&robot, &rest.pose, StaticModel::Catenary).unwrap();
+        let found = statics::nearest_equilibrium(&robot, &rest.pose, StaticModel::Catenary).unwrap();
         assert!(found.distance < 1e-7, "{cables}: {}", found.distance);
         for (cable, length) in found.equilibrium.cables.iter().zip(&lengths) {
             assert!((cable.unstrained_length - length).abs() < 1e-6);
@@ -54,14 +54,14 @@ fn a_pose_that_the_cables_can_hold_is_found_at_no_distance() {
 fn of_a_body_on_one_cable_the_nearest_pose_keeps_the_asked_turn_about_it() {
     let robot = crane(1, 0.0);
     let asked = Pose::new([3.3, 2.8, 1.5], [0.0, 0.0, 40.0]);
-    let found = statics::nearest(&robot, &asked, StaticModel::Spring).unwrap();
-    // Free directions take no force: the pose turned about the cable by anything is an equilibrium and further away.
+    let found = statics::nearest_equilibrium(&robot, &asked, StaticModel::Spring).unwrap();
+    // Free directions need no force: the pose turned about the cable by any angle is an equilibrium, but further away.
     let pose = found.equilibrium.pose;
     let anchor = robot.cables[0].anchor.reference_w();
     for angle in [-0.02, 0.02f64] {
         let turn = Rotation::from_scaled_axis(Vec3::z() * angle);
         let turned = Pose { position_w: anchor + turn * (pose.position_w - anchor), rot_wp: turn * pose.rot_wp };
-        assert!(statics::distance(&robot, &asked, &turned) > found.distance);
+        assert!(statics::pose_distance(&robot, &asked, &turned) > found.distance);
     }
 }
 
@@ -73,7 +73,7 @@ fn a_pose_that_only_ropes_of_no_length_come_near_is_singular() {
          [[cables]]\nname = \"b\"\nmaterial = \"rope\"\nanchor_m = [2, 0, 3]\n";
     let robot = Robot::from_toml(text).unwrap();
     for (z, is_held) in [(3.0, false), (2.5, true)] {
-        let found = statics::nearest(&robot, &Pose::new([1.0, 0.0, z], [0.0; 3]), StaticModel::Catenary);
+        let found = statics::nearest_equilibrium(&robot, &Pose::new([1.0, 0.0, z], [0.0; 3]), StaticModel::Catenary);
         match found {
             Ok(nearest) => {
                 assert!(is_held && nearest.equilibrium.cables.iter().all(|cable| cable.tension_platform < 1e3));
@@ -84,7 +84,7 @@ fn a_pose_that_only_ropes_of_no_length_come_near_is_singular() {
 }
 
 proptest! {
-    // Always the same poses: of some hundred random ones the search stops short at one, and says so (`NotNearest`), as at
+    // Fixed poses: of some hundred random ones the search stops short at one and reports it (`NotNearest`), as at
     // (-0.42587, 0.33305, 2.06175) m with a roll of -9.84337°, no yaw and 0.09354 kg/m.
     #![proptest_config(ProptestConfig {
         cases: 60, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..Default::default()
@@ -96,7 +96,7 @@ proptest! {
     ) {
         let robot = crane(4, mass);
         let asked = Pose::new([x, y, z], [roll, 0.0, yaw]);
-        let found = statics::nearest(&robot, &asked, StaticModel::Catenary);
+        let found = statics::nearest_equilibrium(&robot, &asked, StaticModel::Catenary);
         prop_assert!(found.is_ok(), "{:?}", found);
         let found = found.unwrap();
         prop_assert!(found.equilibrium.residual <= 1e-10);

@@ -1,11 +1,11 @@
-//! Loads that rounding hides, and none at all.
+//! Loads that rounding hides, and no loads at all.
 
 use super::{YUAN_4MM, YUAN_8MM, load};
 use funicular::math::Vec3;
 use funicular::statics::{self, StaticModel, StaticsError};
 
-/// A load below the rounding of the cables' elastic forces has no equilibrium that floating point can tell, and it is
-/// not given as one.
+/// A load below the rounding of the cables' elastic forces has no equilibrium that floating point can resolve, and none
+/// is reported.
 #[test]
 fn a_load_that_rounding_hides_is_refused() {
     let (mut robot, lengths) = load(YUAN_4MM);
@@ -19,12 +19,12 @@ fn a_load_that_rounding_hides_is_refused() {
         assert!(error.is_no_solution() && error.code() == "not-converged");
         let text = error.to_string();
         assert!(text.contains("loads are too small") && text.contains("give the platform more mass"), "{text}");
-        assert_eq!(statics::all(&robot, &lengths, model, None).unwrap_err().code(), "not-converged");
+        assert_eq!(statics::all_equilibria(&robot, &lengths, model, None).unwrap_err().code(), "not-converged");
     }
 }
 
-/// As the load falls, each answer is either an equilibrium as good as promised or none. Independent of the residual:
-/// the tensions are those of the full load in proportion, up to the bend that stretch makes of it.
+/// As the load falls, each result is either an equilibrium of the promised accuracy or an error. Check independent of
+/// the residual: the tensions are proportional to those of the full load, up to the curvature caused by stretch.
 #[test]
 fn equilibria_of_small_loads_are_right_or_refused() {
     let (robot, lengths) = load(YUAN_4MM);
@@ -48,7 +48,7 @@ fn equilibria_of_small_loads_are_right_or_refused() {
     assert!(held >= 4 && refused >= 3, "{held} {refused}");
 }
 
-/// Nothing over nothing is no residual of one.
+/// Zero over zero is not a residual of one.
 #[test]
 fn without_load_and_tension_there_is_nothing_to_balance() {
     for text in [YUAN_4MM, YUAN_8MM] {
@@ -56,10 +56,10 @@ fn without_load_and_tension_there_is_nothing_to_balance() {
         robot.gravity_w = Vec3::zeros();
         for model in [StaticModel::Spring, StaticModel::Catenary, StaticModel::Ideal] {
             let rest = statics::forward(&robot, &lengths, model, None).unwrap();
-            assert!(rest.residual == 0.0 && statics::carries_nothing(&robot, &rest), "{model:?} {:e}", rest.residual);
+            assert!(rest.residual == 0.0 && statics::is_unloaded(&robot, &rest), "{model:?} {:e}", rest.residual);
         }
         robot.load.force_w.z = -1.0;
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        assert!(!statics::carries_nothing(&robot, &rest) && rest.residual > 0.0);
+        assert!(!statics::is_unloaded(&robot, &rest) && rest.residual > 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Tangent stiffness against differences of the wrench.
+//! Tangent stiffness compared with differences of the wrench.
 
 use super::{COGIRO, YUAN_4MM, YUAN_8MM, load};
 use funicular::math::{Mat6, Vec3, Vec6};

@@ -1,4 +1,4 @@
-//! Tension distribution: the robots, poses and checks that the files of this folder share.
+//! Tension distribution: robots, poses and checks shared by the files of this folder.
 
 mod lengths;
 mod limits;
@@ -23,7 +23,7 @@ fn changed(mut robot: Robot, mass_per_length: f64, minimum: f64, maximum: f64) -
     robot.with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(maximum) })
 }
 
-/// A platform of 20 kg in a room of 4 m: four cables to the ceiling, three to the floor.
+/// Platform of 20 kg in a room of 4 m: four cables to the ceiling, three to the floor.
 fn seven_cables(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
     let mut text = format!(
         "name = \"seven\"\n[platform]\nmass_kg = 20.0\ninertia_kg_m2 = [0.5, 0.5, 0.5]\ncenter_of_mass_m = [0.02, 0.0, 0.05]\n\
@@ -31,7 +31,7 @@ fn seven_cables(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
          minimum_tension_n = {minimum}\nmaximum_tension_n = {maximum}\n"
     );
     for i in 0..7 {
-        // Both triangles and quadrangles turn the platform, in opposite senses.
+        // Triangle and quadrangle turn the platform in opposite senses.
         let (turn, twist, up) =
             if i < 4 { (0.25 * f64::from(i) + 0.125, 0.13, true) } else { (f64::from(i) / 3.0, -0.13, false) };
         let around = |turn: f64, radius: f64, z: f64| {
@@ -48,14 +48,14 @@ fn seven_cables(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
     Robot::from_toml(&text).unwrap()
 }
 
-/// A sequence without pattern, in [0, 1).
+/// Sequence without pattern, in [0, 1).
 fn spread(i: usize, k: usize) -> f64 {
     const ROOTS: [f64; 8] =
         [1.414213562, 1.732050808, 2.236067977, 2.645751311, 3.316624790, 3.605551275, 4.123105626, 4.358898944];
     ((i as f64 + 1.0) * ROOTS[k]).fract()
 }
 
-/// The `i`-th pose around a point, within these distances [m] and this angle [degrees].
+/// Pose number `i` around a point, within these distances [m] and this angle [degrees].
 fn pose(i: usize, middle: [f64; 3], reach: [f64; 3], angle: f64) -> Pose {
     let part = |k: usize| 2.0 * spread(i, k) - 1.0;
     Pose::new(std::array::from_fn(|k| middle[k] + reach[k] * part(k)), std::array::from_fn(|k| angle * part(k + 3)))
@@ -69,7 +69,7 @@ fn seven_pose(i: usize) -> Pose {
     pose(i, [0.0, 0.0, 1.5], [0.9, 0.9, 0.7], 10.0)
 }
 
-/// Balance and limits, from the forces and the curves alone.
+/// Checks balance and limits from the forces and the curves alone.
 fn check(robot: &Robot, held: &Equilibrium) {
     let g = robot.gravity_w * robot.platform.mass;
     let moment = (held.pose.rot_wp * robot.platform.center_of_mass_p).cross(&g);
@@ -80,7 +80,7 @@ fn check(robot: &Robot, held: &Equilibrium) {
         size += cable.force_on_platform_w.norm();
         let limits = robot.cables[i].limits();
         let (least, greatest) = match &cable.hanging {
-            // Every tension of the curve, not only those at its ends.
+            // All tensions along the curve, not only those at its ends.
             Some(hanging) => (0..=100).fold((f64::INFINITY, 0.0_f64), |(least, most), k| {
                 let t = hanging.catenary.tension_at(cable.unstrained_length * f64::from(k) / 100.0);
                 (least.min(t), most.max(t))

@@ -3,12 +3,12 @@
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, StaticModel};
 
-/// Three unit forces, two of them at an angle φ: the least singular value squared is 1 − cos φ.
+/// Three unit forces, two of them at an angle φ: the smallest singular value squared is 1 − cos φ.
 #[test]
 fn the_tension_gain_grows_towards_a_singular_pose_and_is_warned_of() {
     for (degrees, warned) in [(90.0_f64, false), (30.0, false), (2.0, true)] {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        // Loaded so that all tensions are 10 N.
+        // Loaded such that all tensions are 10 N.
         let text = format!(
             "name = \"three\"\ngravity_m_s2 = [-10, {}, {}]\n[platform]\nmass_kg = 1\nmotion = \"point-mass\"\n\
              [materials.r]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0\n\

@@ -1,27 +1,30 @@
-//! The stiffest tensions by cutting planes: slow and sure, for where Newton's method does not arrive, and its oracle.
+//! Stiffest tensions by cutting planes: slow and reliable, for cases in which Newton's method does not converge, and as
+//! its oracle.
 //!
-//! The stiffness of straight cables is affine in the tensions (EA/L0 = (EA + T)/l along a cable, T/l across it), its least
-//! eigenvalue therefore concave, and the optimum over the tensions within the limits is a convex problem in any number
-//! of dimensions. It is solved by cutting planes: every eigenvector q bounds the eigenvalue from above by the affine
-//! qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not stiffen is shortened.
+//! The stiffness of straight cables is affine in the tensions (EA/L0 = (EA + T)/l along a cable, T/l across it). Its
+//! minimum eigenvalue is therefore concave, and the optimum over the tensions within the limits is a convex problem in
+//! any number of dimensions. It is solved by cutting planes: every eigenvector q bounds the eigenvalue from above by
+//! the affine qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not increase the
+//! stiffness is shortened.
 
 use super::super::active_set::Polyhedron;
-use super::super::search::{Linear, Search};
+use super::super::search::{Linear, TensionSearch};
 use super::{GAIN, min_eigenvalue, present};
 use crate::math::{Mat6, Vec6, symmetric, symmetric_part};
 use crate::statics::error::StaticsError;
 
-/// Most linearisations; straight cables need two, sagging ones many more.
+/// Maximum number of linearisations; straight cables need two, sagging ones many more.
 const MAX_LINEARISATIONS: usize = 60;
 
-/// Most rounds of cuts a linearisation.
+/// Maximum number of rounds of cuts per linearisation.
 const MAX_ROUNDS: usize = 100;
 
-/// Eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the optimum.
+/// Number of eigenvectors that cut in each round: more than one, because the two lowest eigenvalues tend to meet at the
+/// optimum.
 const CUTS: usize = 3;
 
-/// Tensions within the limits that make the robot stiffest.
-pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
+/// Moves to the tensions within the limits with the maximum stiffness.
+pub(super) fn search(search: &mut TensionSearch<'_>) -> Result<(), StaticsError> {
     search.middle()?;
     let mut best = search.tensions();
     let mut stiffness = min_eigenvalue(search);
@@ -34,7 +37,7 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
             break;
         }
 
-        // Taken if stiffer, else nearer next time.
+        // Take the step if it is stiffer; otherwise shorten the next one.
         let step = next.iter().zip(&best).fold(0.0, |m: f64, (to, from)| m.max((to - from).abs()));
 
         let reached = match search.nearest_to(&next) {
@@ -56,35 +59,39 @@ pub(super) fn search(search: &mut Search<'_>) -> Result<(), StaticsError> {
     Ok(())
 }
 
-/// The stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and how
-/// stiff it then is.
-fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Result<(Vec<f64>, f64), StaticsError> {
+/// Stiffest tensions of the linearised robot, none further than `reach` from where it was linearised, and its stiffness
+/// there.
+fn stiffest_of_linear(
+    search: &TensionSearch<'_>,
+    linear: &Linear,
+    reach: f64,
+) -> Result<(Vec<f64>, f64), StaticsError> {
     let dof = search.robot().platform.motion.count();
     let here = search.tensions();
     let solutions = search.solutions(linear, &vec![1.0; here.len()])?;
     let stiffness = present(search);
     let rates: Vec<Mat6> = search
-        .lines()
+        .cables()
         .iter()
-        .map(|line| {
-            let rate = line.stiffness_by_tension();
+        .map(|cable| {
+            let rate = cable.stiffness_by_tension();
             search.robot().platform.motion.reduced_matrix(&(symmetric_part(&rate)))
         })
         .collect();
-    // The height in the unit of tensions.
+    // Height in the unit of tensions.
     let unit = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.amax())).max(f64::MIN_POSITIVE);
 
-    // The limits, and how far.
+    // Limits, and the reach.
     let mut set = Polyhedron::new(solutions.redundancy() + 1);
     for (i, [lower, upper]) in linear.limits.iter().enumerate() {
         let particular = solutions.particular[i];
-        let least = lower.at.max(search.lines()[i].slackest).max(here[i] - reach);
+        let least = lower.at.max(search.cables()[i].slackest).max(here[i] - reach);
         let most = upper.at.min(here[i] + reach);
         set.add(solutions.part(i), 1.0, Some(0.0), least - particular);
         set.add(solutions.part(i), -1.0, Some(0.0), particular - most);
     }
 
-    // Cuts, each round those of the lowest eigenvectors.
+    // Cuts: in each round those of the lowest eigenvectors.
     let mut z = solutions.along(|i| here[i]);
     let mut best = (here.clone(), f64::NEG_INFINITY);
 
@@ -109,7 +116,7 @@ fn stiffest_of_linear(search: &Search<'_>, linear: &Linear, reach: f64) -> Resul
             set.add(normal.iter(), 1.0, Some(-1.0), -level);
         }
 
-        // The highest point under all cuts.
+        // Highest point under all cuts.
         let height = best.1 / unit;
         let mut point = z.clone();
         point.push(height);

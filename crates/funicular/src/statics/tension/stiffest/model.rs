@@ -1,80 +1,80 @@
-//! The least eigenvalue of the stiffness about given tensions, to second order, and the step to its greatest value.
+//! Minimum eigenvalue of the stiffness about given tensions, to second order, and the step to its maximum.
 //!
-//! With the r lowest eigenvectors Q, the balanced tensions `τ + N z` have to second order the least eigenvalue
-//! `λ_min(S(z)) + ½ zᵀ H z`, S the r×r matrix `Qᵀ K Q`, affine in z, and H what the cables' curvature, that of the
-//! balance and the other eigenvectors add. With r = 1 it is the Taylor series; a larger r keeps it true where
+//! With the r lowest eigenvectors Q, the balanced tensions `τ + N z` have to second order the minimum eigenvalue
+//! `λ_min(S(z)) + ½ zᵀ H z`. S is the r×r matrix `Qᵀ K Q`, affine in z; H contains the curvature of the cables, that of
+//! the balance, and the other eigenvectors. With r = 1 this is the Taylor series; a larger r keeps it valid where
 //! eigenvalues meet.
 
 use super::super::active_set::Polyhedron;
-use super::super::cable_at_pose::{Line, Rates};
+use super::super::cable_at_pose::{CableAtPose, Rates};
 use super::super::null_space::Solutions;
-use super::super::search::{Linear, Search};
+use super::super::search::{Linear, TensionSearch};
 use crate::math::{DMat, Mat6, Vec6};
 
-/// Eigenvalues within this part of the least one are kept together with it.
+/// Relative distance from the minimum eigenvalue within which eigenvalues are kept together with it.
 const NEAR: f64 = 0.08;
 
-/// Least part of its tension that a step leaves a cable: the model does not know how soft slack cables are.
+/// Minimum ratio of a cable's tension after a step to that before: the model does not know how soft slack cables are.
 const FALL: f64 = 0.3;
 
-/// Most cuts of a step in which eigenvalues meet.
+/// Maximum number of cuts of a step in which eigenvalues meet.
 const MAX_CUTS: usize = 40;
 
-/// How little the height of a cut is held back, in parts of what the step promises: what the rounding of the far point,
-/// which is the inverse of this, leaves of the height must be small as well.
+/// Strength by which the height of a cut is held back, relative to the promised gain. Its inverse is the far point, and
+/// the rounding of the far point must also be small compared with the height.
 const HOLD: f64 = 1e-4;
 
-/// Motions of the platform whose stiffness the least eigenvalue is made of, in parts that sum to one.
+/// Motions of the platform whose stiffness makes up the minimum eigenvalue, with weights that sum to one.
 pub(super) type Weights = Vec<(f64, Vec6)>;
 
-/// A step of the tensions.
-pub(super) struct Step {
-    /// By how much every tension changes to hold the platform [N], …
+/// Step of the tensions.
+pub(super) struct StiffeningStep {
+    /// Change of every tension that restores the balance [N], …
     pub restoring: Vec<f64>,
-    /// … and then to stiffen it.
+    /// … and the further change that increases the stiffness.
     pub stiffening: Vec<f64>,
-    /// By how much the least eigenvalue grows.
+    /// Growth of the minimum eigenvalue.
     pub gain: f64,
-    /// Where it ends, what the least eigenvalue is made of.
+    /// Composition of the minimum eigenvalue at the end of the step.
     pub weights: Weights,
 }
 
-/// The best point of the cuts so far.
+/// Best point of the cuts so far.
 struct Cut {
-    /// By how much it is stiffer.
+    /// Gain of stiffness.
     reached: f64,
     u: Vec<f64>,
-    /// The cuts that hold it: multiplier and number.
+    /// Active cuts: multiplier and index.
     holding: Vec<(f64, usize)>,
 }
 
-/// The least eigenvalue about the present tensions.
+/// Model of the minimum eigenvalue about the present tensions.
 pub(super) struct Model {
     linear: Linear,
     solutions: Solutions,
-    /// The present tensions …
+    /// Present tensions …
     tau: Vec<f64>,
     /// … and the nearest ones that hold the platform, to first order.
     balanced: Vec<f64>,
     values: Vec<f64>,
     vectors: Vec<Vec6>,
     rates: Vec<Rates>,
-    /// Of each of the lowest eigenvectors q and of each cable, `K' q`.
+    /// Products `K' q` for each of the lowest eigenvectors q and each cable.
     turned: Vec<Vec<Vec6>>,
-    /// S at the balanced tensions, …
+    /// Matrix S at the balanced tensions, …
     block: DMat,
     /// … and its derivatives along the directions of the balance.
     block_by_z: Vec<DMat>,
-    /// The least eigenvalue at the balanced tensions.
+    /// Minimum eigenvalue at the balanced tensions.
     pub value: f64,
-    /// What of it is rounding.
+    /// Rounding of this value.
     pub rounding: f64,
 }
 
 impl Model {
-    /// `None` at a singular pose.
+    /// Model at the present tensions; `None` at a singular pose.
     pub(super) fn here(
-        search: &Search<'_>,
+        search: &TensionSearch<'_>,
         stiffness: &Mat6,
         (values, vectors): (Vec<f64>, Vec<Vec6>),
     ) -> Option<Self> {
@@ -89,14 +89,14 @@ impl Model {
         let near = values[0] + NEAR * values[0].abs() + rounding;
         let count = values.iter().take_while(|value| **value <= near).count();
 
-        // How cables turn these motions, per tension.
-        let rates: Vec<Rates> = search.lines().iter().map(Line::rates).collect();
+        // Products of these motions with the stiffness of the cables, per tension.
+        let rates: Vec<Rates> = search.cables().iter().map(CableAtPose::rates).collect();
         let turned: Vec<Vec<Vec6>> = vectors[..count]
             .iter()
             .map(|q| {
                 let displacement = motion.expanded(q);
-                let cables = search.lines().iter().zip(&rates);
-                cables.map(|(line, rates)| motion.reduced(&line.applied(&rates.first, &displacement))).collect()
+                let cables = search.cables().iter().zip(&rates);
+                cables.map(|(cable, rates)| motion.reduced(&cable.applied(&rates.first, &displacement))).collect()
             })
             .collect();
 
@@ -105,7 +105,7 @@ impl Model {
             DMat::from_fn(count, count, |a, b| vectors[a].dot(&columns[b]))
         };
 
-        // The block of them at the balanced tensions, and by directions.
+        // Block of these eigenvectors at the balanced tensions, and its derivatives along the directions.
         let moved = form(&|turned| (0..tau.len()).map(|i| turned[i] * (balanced[i] - tau[i])).sum());
         let block = DMat::from_fn(count, count, |a, b| if a == b { values[a] } else { 0.0 }) + moved;
         let block_by_z = (0..solutions.redundancy())
@@ -131,7 +131,7 @@ impl Model {
         })
     }
 
-    /// What the least eigenvalue is made of here, from what it was made of where the last step ended.
+    /// Composition of the minimum eigenvalue here, from its composition at the end of the last step.
     pub(super) fn weights(&self, last: Option<&Weights>) -> Weights {
         let mut weights: Weights = Vec::new();
         for (weight, displacement) in last.into_iter().flatten() {
@@ -151,13 +151,13 @@ impl Model {
         weights
     }
 
-    /// The part of every eigenvector that is kept, that makes up a motion.
+    /// Components of a motion along the kept eigenvectors.
     fn components(&self, displacement: &Vec6) -> Vec<f64> {
         self.vectors.iter().take(self.turned.len()).map(|q| q.dot(displacement)).collect()
     }
 
-    /// H for a least eigenvalue made of these motions.
-    fn curvature(&self, search: &Search<'_>, weights: &Weights) -> DMat {
+    /// Matrix H for a minimum eigenvalue with this composition.
+    fn curvature(&self, search: &TensionSearch<'_>, weights: &Weights) -> DMat {
         let d = self.solutions.redundancy();
         let kept = self.turned.len();
         let mut curvature = DMat::zeros(d, d);
@@ -170,7 +170,7 @@ impl Model {
 
             let bends = self.bends(search, &displacement, &turned);
 
-            // What the other eigenvectors give way: −2 bbᵀ over the gap.
+            // Contribution of the other eigenvectors: −2 bbᵀ over the gap.
             let others: Vec<(f64, Vec<f64>)> = (kept..self.values.len())
                 .map(|j| {
                     let gap = self.values[j] - self.values[0];
@@ -192,27 +192,27 @@ impl Model {
         curvature
     }
 
-    /// Second derivative of a motion's stiffness by every tension. The prices of the balance turn its curvature, which
-    /// takes the tensions off the directions, into stiffness.
-    fn bends(&self, search: &Search<'_>, displacement: &Vec6, turned: &[Vec6]) -> Vec<f64> {
+    /// Second derivative of a motion's stiffness with respect to every tension. The multipliers of the balance turn its
+    /// curvature, which takes the tensions off the directions, into stiffness.
+    fn bends(&self, search: &TensionSearch<'_>, displacement: &Vec6, turned: &[Vec6]) -> Vec<f64> {
         let motion = &search.robot().platform.motion;
         let expanded = motion.expanded(displacement);
         let multipliers = self.solutions.multipliers(|i| turned[i].dot(displacement));
-        let cables = search.lines().iter().zip(&self.rates);
+        let cables = search.cables().iter().zip(&self.rates);
         cables
-            .map(|(line, rates)| {
-                let stiffness = line.applied(&rates.second, &expanded).dot(&expanded);
-                stiffness - motion.reduced(&line.wrench(&rates.second.force_w)).dot(&multipliers)
+            .map(|(cable, rates)| {
+                let stiffness = cable.applied(&rates.second, &expanded).dot(&expanded);
+                stiffness - motion.reduced(&cable.wrench(&rates.second.force_w)).dot(&multipliers)
             })
             .collect()
     }
 
-    /// The tensions within the linearised limits at which the model is greatest, H taken with `weights`; `None` without
-    /// such tensions.
+    /// Step to the tensions within the linearised limits at which the model is maximum, H taken with `weights`; `None`
+    /// if there are no such tensions.
     ///
-    /// Along the eigenvectors of H, scaled, `½ zᵀ H z` is a distance, and the step a projection on a polyhedron. A
-    /// convex direction is gone along as far as a concave one of the same curvature.
-    pub(super) fn step(&self, search: &Search<'_>, weights: &Weights) -> Option<Step> {
+    /// Along the scaled eigenvectors of H, `½ zᵀ H z` is a distance, and the step a projection on a polyhedron. Along a
+    /// convex direction the step is as long as along a concave one of the same curvature.
+    pub(super) fn step(&self, search: &TensionSearch<'_>, weights: &Weights) -> Option<StiffeningStep> {
         let d = self.solutions.redundancy();
         let slope = DMat::from_fn(d, 1, |k, _| self.block_by_z[k][(0, 0)]);
 
@@ -232,7 +232,7 @@ impl Model {
         for (i, [lower, upper]) in self.linear.limits.iter().enumerate() {
             let normal = DMat::from_iterator(1, d, self.solutions.part(i).copied()) * &turn;
             let last = (!one).then_some(0.0);
-            let least = lower.at.max(search.lines()[i].slackest).max(FALL * self.tau[i]);
+            let least = lower.at.max(search.cables()[i].slackest).max(FALL * self.tau[i]);
             set.add(normal.iter(), 1.0, last, least - self.balanced[i]);
             set.add(normal.iter(), -1.0, last, self.balanced[i] - upper.at);
         }
@@ -247,23 +247,23 @@ impl Model {
             self.meeting(&mut set, &turn, unit, free.norm_squared(), tolerance)?
         };
 
-        // What it gains, and the tensions that it leads to.
+        // Gain, and the tensions at the end.
         let u = DMat::from_vec(d, 1, u);
         let z = &turn * &u;
         let gain = lowest(&self.block_at(z.as_slice())).0 - self.value - 0.5 * unit * u.norm_squared();
         let restoring = self.balanced.iter().zip(&self.tau).map(|(to, from)| to - from).collect();
         let stiffening = (0..self.tau.len()).map(|i| self.solutions.part(i).zip(z.iter()).map(|(n, z)| n * z).sum());
-        Some(Step { restoring, stiffening: stiffening.collect(), gain, weights })
+        Some(StiffeningStep { restoring, stiffening: stiffening.collect(), gain, weights })
     }
 
-    /// S at these directions' parts.
+    /// Matrix S at these components along the directions.
     fn block_at(&self, z: &[f64]) -> DMat {
         self.block_by_z.iter().zip(z).fold(self.block.clone(), |sum, (by_z, z)| sum + by_z * *z)
     }
 
-    /// Where `λ_min(S) − ½ unit |u|²` is greatest, by cuts: each motion x bounds λ_min from above by `xᵀ S x`.
+    /// Maximum of `λ_min(S) − ½ unit |u|²` by cuts: each motion x bounds λ_min from above by `xᵀ S x`.
     ///
-    /// The height t of the cuts is one more unknown, scaled and drawn to a far point; that it is held back a little
+    /// The height t of the cuts is one more unknown, scaled and drawn to a far point. It is held back a little, which
     /// shortens steps by as little.
     fn meeting(
         &self,
@@ -277,7 +277,7 @@ impl Model {
         let spread = (self.block[(kept - 1, kept - 1)] - self.value).abs() / unit;
         let scale = (HOLD / (size_squared + spread).max(f64::MIN_POSITIVE)).sqrt();
 
-        // A cut for each motion.
+        // One cut for each motion.
         let limits = set.len();
         let mut cuts: Vec<Vec6> = Vec::new();
         let mut add = |set: &mut Polyhedron, x: &DMat| {
@@ -300,12 +300,12 @@ impl Model {
             let mut point = vec![0.0; d];
             point.push(1.0 / scale);
 
-            // The point under all cuts.
+            // Point under all cuts.
             let held = set.nearest(&mut point, tolerance)?;
             let promised = point.pop()? * unit / scale;
             let u = DMat::from_vec(d, 1, point);
 
-            // What the model has there.
+            // Value of the model there.
             let (value, x) = lowest(&self.block_at((turn * &u).as_slice()));
             let distance = 0.5 * unit * u.norm_squared();
             let reached = value - self.value - distance;
@@ -327,7 +327,7 @@ impl Model {
     }
 }
 
-/// The least eigenvalue of a symmetric matrix and its eigenvector.
+/// Minimum eigenvalue of a symmetric matrix and its eigenvector.
 fn lowest(matrix: &DMat) -> (f64, DMat) {
     if matrix.nrows() == 1 {
         return (matrix[0], DMat::identity(1, 1));

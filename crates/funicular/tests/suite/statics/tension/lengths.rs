@@ -1,4 +1,4 @@
-//! The lengths found hold the platform where it was wanted.
+//! The computed lengths hold the platform at the requested pose.
 
 use super::{cogiro, cogiro_pose, seven_cables, seven_pose};
 use funicular::math::Vec6;
@@ -30,7 +30,7 @@ fn lengths_found_put_the_platform_back() {
     assert!(stable > 200, "{stable}");
 }
 
-/// The type of the wrench is part of the interface that other programs balance with.
+/// The type of the wrench is part of the interface by which other programs compute the balance.
 #[test]
 fn lengths_found_balance_the_platform_as_the_public_wrench_sees_it() {
     let robot = cogiro(0.064, 50.0, 1500.0);
@@ -38,6 +38,6 @@ fn lengths_found_balance_the_platform_as_the_public_wrench_sees_it() {
     let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Middle).unwrap();
     let lengths: Vec<f64> = held.cables.iter().map(|c| c.unstrained_length).collect();
     let left: Vec6 = statics::wrench(&robot, &pose, &lengths, StaticModel::Catenary).unwrap();
-    // The lengths' last digit, 1e-15 m, in eight ropes of 820 kN.
+    // Last digit of the lengths, 1e-15 m, in eight ropes of 820 kN.
     assert!(left.amax() < 1e-8, "{left}");
 }

@@ -1,4 +1,4 @@
-//! Tensions within their limits, whatever these are.
+//! Tensions within their limits, for limits of all kinds.
 
 use super::{COGIRO, check};
 use crate::random::any_robot;
@@ -23,7 +23,7 @@ fn without_limits_no_cable_is_slacker_than_shallow_models_allow() {
     }
 }
 
-/// In the plane nothing weighs: limits far above what the cables need, and a minimum that only says "not slack".
+/// No weight acts in the plane: limits far above what the cables need, and a minimum that only excludes slack cables.
 #[test]
 fn a_minimum_of_next_to_nothing_is_met() {
     let robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
@@ -51,8 +51,8 @@ fn a_minimum_of_next_to_nothing_is_met() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..Default::default() })]
 
-    /// Robots of 7 to 9 cables, ropes from thread to 1 kg/m: an answer that holds, or a reason. Where cables may have
-    /// less tension than they weigh, they hang in deep curves, the problem is not convex, and the search may say that it
+    /// Robots with 7 to 9 cables, ropes from thread to 1 kg/m: a valid result, or a reason. If cables may have less
+    /// tension than they weigh, they hang in deep curves, the problem is not convex, and the search may report that it
     /// has not converged.
     #[test]
     fn random_robots_are_held_within_their_limits_or_it_is_said_why(

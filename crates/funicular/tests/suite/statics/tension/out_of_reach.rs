@@ -1,4 +1,4 @@
-//! Poses and loads that no tensions within the limits hold: refused with proof, and no others.
+//! Poses and loads that no tensions within the limits hold: refused with a proof, and no others.
 
 use super::{COGIRO, cogiro, cogiro_pose, spread};
 use crate::random::Draw;
@@ -21,7 +21,7 @@ fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
             continue;
         };
         assert!(by > 0.0 && minimum_of.len() + maximum_of.len() > 0);
-        // Minima may not become negative, and not less than what a heavy rope has anyway.
+        // Minima must not become negative, nor lower than the tension that a heavy rope has anyway.
         if by < 40.0 {
             let wider = verdict(by * (1.0 + 1e-5) + 1e-6);
             assert!(wider.is_ok(), "{mass} kg/m, pose {i}, by {by}: {}", wider.unwrap_err());
@@ -32,8 +32,8 @@ fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
     assert!(missed > 100, "{missed}");
 }
 
-/// CoGiRo with ropes of 0.6 kg/m, near the corner of what it can carry: the tensions 64.5 to 618.7 N that hold it for 0.999
-/// parts of the load were found by another program's search.
+/// CoGiRo with ropes of 0.6 kg/m, near the limit of its load capacity: the tensions of 64.5 to 618.7 N that hold 0.999
+/// of the load were found by another program's search.
 #[test]
 fn a_load_that_tensions_within_the_limits_hold_is_not_refused() {
     let mut robot = cogiro(0.6, 60.0, 5000.0);
@@ -63,16 +63,16 @@ fn a_load_that_tensions_within_the_limits_hold_is_not_refused() {
     for part in [0.5, 0.99, 0.9989, 1.0, 1.0009] {
         at(part).unwrap_or_else(|error| panic!("{part}: {error}"));
     }
-    // Just beyond, neither tensions nor a proof; further beyond, a proof.
+    // Just beyond the limit, neither tensions nor a proof; further beyond, a proof.
     let open = at(1.0015).unwrap_err();
     assert!(matches!(open, StaticsError::NotFoundWithinLimits { .. }), "{open}");
-    assert!(open.to_string().contains("limits found that hold this pose, in a search from 13 starts"), "{open}");
+    assert!(open.to_string().contains("that hold this pose were found in a search from 13 starts"), "{open}");
     assert_eq!(open.code(), "not-found");
     let proved = at(1.05).unwrap_err();
     assert!(matches!(proved, StaticsError::BeyondLimits(_)), "{proved}");
 }
 
-/// The unstrained length at which cable `i` has tensions a part of the way between its limits.
+/// Unstrained length at which the tensions of cable `i` are a given fraction of the way between its limits.
 fn length_between(robot: &Robot, i: usize, pose: &Pose, limits: [f64; 2], part: f64) -> Option<f64> {
     let cable = &robot.cables[i];
     let chord_w = cable.chord_w(pose);
@@ -81,7 +81,7 @@ fn length_between(robot: &Robot, i: usize, pose: &Pose, limits: [f64; 2], part: 
         let rope = Rope { unstrained_length, weight_per_length, axial_stiffness: cable.material.axial_stiffness };
         Catenary::between(chord_w.xy().norm(), chord_w.z, rope).unwrap()
     };
-    // The length at which something ceases to hold as the cable is paid out.
+    // Length at which a condition ceases to hold as the cable is paid out.
     let until = |holds: &dyn Fn(&Catenary) -> bool| {
         let (mut short, mut long) = (0.3 * chord, 4.0 * chord);
         for _ in 0..100 {
@@ -99,8 +99,8 @@ fn length_between(robot: &Robot, i: usize, pose: &Pose, limits: [f64; 2], part: 
     (shortest < longest).then(|| until(&|curve| curve.parallel_tension() > wanted))
 }
 
-/// Loads that are held by construction: lengths are drawn first, whose tensions are within the limits and mostly at
-/// them, then the load that they balance. Ropes up to 1.5 kg/m.
+/// Loads that are held by construction: first the lengths are drawn, with tensions within the limits and mostly at
+/// them, then the load that they balance follows. Ropes up to 1.5 kg/m.
 #[test]
 fn no_load_that_drawn_tensions_hold_is_refused() {
     let (mut held, mut unsettled) = (0, 0);
@@ -138,17 +138,18 @@ fn no_load_that_drawn_tensions_hold_is_refused() {
                     assert!(found.residual <= statics::RESIDUAL_LIMIT);
                     held += 1;
                 }
-                // That the best tensions were not reached is no statement about the pose.
+                // A search that did not reach the best tensions proves nothing about the pose.
                 Err(StaticsError::TensionsNotConverged { .. }) => unsettled += 1,
                 Err(error) => panic!("{index}, {}: {error}", rule.name()),
             }
         }
     }
-    // Seen: 1 in 130 does not settle.
+    // Observed: 1 in 130 does not converge.
     assert!(held > 1200 && 50 * unsettled < held, "{held} {unsettled}");
 }
 
-/// Refusals against a search of another kind: least squares in the tensions, projected on the limits, from many starts.
+/// Refusals compared with a search of another kind: least squares in the tensions, projected on the limits, from many
+/// starts.
 #[test]
 fn what_is_proved_to_be_out_of_reach_no_random_search_reaches() {
     let limits = [60.0, 1200.0];
@@ -171,7 +172,7 @@ fn what_is_proved_to_be_out_of_reach_no_random_search_reaches() {
             let mut parts: Vec<f64> = (0..8).map(|k| spread(i + 400 * start, k)).collect();
             let mut here = left(&parts);
             for _ in 0..8 {
-                // The step of least squares, damped, by differences; then back between the limits.
+                // Damped least-squares step, by differences; then projection on the limits.
                 let columns: Vec<Vec6> = (0..8)
                     .map(|k| {
                         let mut moved = parts.clone();
@@ -187,7 +188,7 @@ fn what_is_proved_to_be_out_of_reach_no_random_search_reaches() {
                 parts.iter_mut().enumerate().for_each(|(k, part)| *part = (*part + step[(k, 0)]).clamp(0.0, 1.0));
                 here = left(&parts);
             }
-            // A ten-thousandth of what the ropes weigh.
+            // A ten-thousandth of the ropes' weight.
             assert!(here.amax() > 0.03, "pose {i}: refused by {miss}, reached within {}", here.amax());
         }
     }
@@ -200,7 +201,7 @@ fn a_miss_always_says_which_limits_are_in_the_way() {
     for far in [[100.0, 2.0, 1.0], [1000.0, 2.0, 1.0], [10.0, 2.0, 1.0], [0.0, 0.0, 50.0], [-30.0, 0.0, 1.0]] {
         let error = statics::inverse(&robot, &Pose::new(far, [0.0; 3]), StaticModel::Catenary).unwrap_err();
         let text = error.to_string();
-        assert!(text.contains("held by the m") && !text.contains("held by ;"), "{far:?}: {text}");
+        assert!(text.contains("because of the m") && !text.contains("because of ;"), "{far:?}: {text}");
     }
     let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new() };
     assert_eq!(silent.to_string(), "by 1.0000 N");

@@ -1,4 +1,4 @@
-//! What each rule promises: no other tensions that hold are better. Sagging ropes, many cables.
+//! Optimality of each rule: no other tensions that hold the platform are better. Sagging ropes, many cables.
 
 use super::{POINT, changed, check, cogiro, cogiro_pose, min_stiffness, spread, tau};
 use funicular::math::Vec3;
@@ -6,7 +6,7 @@ use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Equilibrium, StaticModel, StaticsError, TensionRange, TensionRule};
 use std::fmt::Write as _;
 
-/// What a rule makes as small as it can.
+/// Objective that a rule minimises.
 fn cost(robot: &Robot, held: &Equilibrium, rule: &TensionRule) -> f64 {
     let ranges = held.cables.iter().enumerate().map(|(i, cable)| TensionRange::of(robot, i, &cable.chord_w()));
     let squares = |wanted: &[f64]| tau(held).iter().zip(wanted).map(|(t, w)| (t - w).powi(2)).sum::<f64>().sqrt();
@@ -24,7 +24,7 @@ fn cost(robot: &Robot, held: &Equilibrium, rule: &TensionRule) -> f64 {
 fn with_sagging_ropes_no_neighbour_is_better_by_any_rule() {
     let rules = [TensionRule::Lowest, TensionRule::Closest(vec![600.0]), TensionRule::Middle, TensionRule::Stiffest];
     let mut tried = 0;
-    // From the rope of the robot to ten times its weight: sags up to an eighth of the chord.
+    // From the robot's own rope to ten times its weight: sags up to an eighth of the chord.
     for (mass, minimum) in [(0.064, 30.0), (0.3, 40.0), (0.64, 60.0)] {
         let robot = cogiro(mass, minimum, 1200.0);
         for i in 0..25 {
@@ -74,7 +74,7 @@ fn a_point_mass_on_eight_cables_has_five_dimensions_of_choice() {
     }
 }
 
-/// A point mass on many cables (a random robot of ours), its anchors spread evenly on a tube by the golden angle.
+/// Point mass on many cables (an invented robot), its anchors spread evenly on a tube by the golden angle.
 fn many_cables(cables: usize, maximum: f64) -> Robot {
     let mut text = String::from(
         "name = \"many\"\n[platform]\nmass_kg = 400.0\nmotion = \"point-mass\"\n[materials.rope]\n\
@@ -89,15 +89,15 @@ fn many_cables(cables: usize, maximum: f64) -> Robot {
     changed(Robot::from_toml(&text).unwrap(), 0.01, 1.0, maximum)
 }
 
-/// The dual problem instead of a second solver: straight cables have τ_i = max(minimum, minimum + e_i·y) with one y in
-/// space, for the sum of squares of what is above the minimum is least there.
+/// Dual problem instead of a second solver: straight cables have τ_i = max(minimum, minimum + e_i·y) with one y in
+/// space, because the sum of squares of the excess over the minimum is smallest there.
 #[test]
 fn a_thousand_cables_have_the_lowest_tensions_within_a_second_or_so() {
     let robot = many_cables(1000, 1e4);
     let pose = Pose::new([0.5, 0.2, 1.0], [0.0; 3]);
     let held = statics::distribute_tensions(&robot, &pose, StaticModel::Spring, &TensionRule::Lowest).unwrap();
     check(&robot, &held);
-    // y by least squares of the cables above their minimum, then all of them against it.
+    // y by least squares over the cables above their minimum; then all cables are compared with it.
     let above = |tension: f64| tension - 1.0;
     let (mut gram, mut right) = (funicular::math::Mat3::zeros(), Vec3::zeros());
     for cable in held.cables.iter().filter(|cable| above(cable.tension_platform) > 1e-6) {
@@ -122,20 +122,27 @@ fn what_a_rule_lacks_and_limits_that_exclude_each_other_are_errors_with_numbers(
         |robot: &Robot, model, rule| statics::distribute_tensions(robot, &pose, model, &rule).unwrap_err().to_string();
     let catenary = StaticModel::Catenary;
     let robot = cogiro(0.064, 30.0, 900.0);
-    assert!(text(&robot, catenary, TensionRule::Closest(vec![1.0, 2.0])).contains("2 wanted tensions for 8 cables"));
+    assert!(
+        text(&robot, catenary, TensionRule::Closest(vec![1.0, 2.0])).contains("2 target tensions given for 8 cables")
+    );
     assert!(text(&robot, catenary, TensionRule::Closest(vec![-1.0])).contains("is -1 N"));
     assert!(text(&robot, StaticModel::Ideal, TensionRule::Stiffest).contains("rigid"));
     let open = cogiro(0.064, 30.0, f64::INFINITY);
     assert!(text(&open, catenary, TensionRule::Middle).contains("cable \"1\" has none"));
     let narrow = cogiro(0.064, 900.0, 900.0);
-    assert!(text(&narrow, catenary, TensionRule::Lowest).contains("from 900 N to 900 N, which is nothing"));
+    assert!(
+        text(&narrow, catenary, TensionRule::Lowest).contains("minimum tension 900 N is not below its maximum 900 N")
+    );
     let weak = cogiro(0.064, 30.0, 100.0);
     let message = text(&weak, catenary, TensionRule::Lowest);
-    assert!(message.contains("the nearest miss the limits by ") && message.contains("maximum of cable"), "{message}");
+    assert!(
+        message.contains("the best tensions violate the limits by ") && message.contains("maximum of cable"),
+        "{message}"
+    );
     let above = Pose::new([0.0, 0.0, 9.0], [0.0; 3]);
     let miss = statics::distribute_tensions(&robot, &above, catenary, &TensionRule::Lowest).unwrap_err();
     assert!(matches!(miss, StaticsError::BeyondLimits(_)), "{miss}");
-    // All anchors in a plane with the point: nothing pulls out of it.
+    // All anchors in a plane with the point: no cable pulls out of it.
     let flat = Robot::from_toml(POINT).unwrap();
     let mut flat = changed(flat, 0.0, 1.0, 100.0);
     flat.cables.truncate(4);

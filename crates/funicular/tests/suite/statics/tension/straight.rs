@@ -1,15 +1,15 @@
-//! Straight cables: against the corners of the polytope of tensions, found by other means.
+//! Straight cables compared with the corners of the polytope of tensions, found in an independent way.
 
 use super::{check, cogiro, cogiro_pose, min_stiffness, seven_cables, seven_pose, spread, tau};
 use funicular::math::DMat;
 use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular::statics::{self, StaticModel, StaticsError, TensionRange, TensionRule};
 
-/// Straight cables at a pose, by means that share nothing with the program but vectors: the tensions that hold the
-/// platform are `particular + N z`, from the singular value decomposition, and their polytope is known by its corners.
+/// Straight cables at a pose, by methods that share only vectors with the program: the tensions that hold the platform
+/// are `particular + N z`, from the singular value decomposition, and their polytope is given by its corners.
 struct Straight {
     particular: Vec<f64>,
-    /// A row a cable, a column a dimension.
+    /// One row per cable, one column per dimension.
     null: DMat,
     limits: [f64; 2],
 }
@@ -53,7 +53,7 @@ impl Straight {
         self.tensions(z).iter().fold(f64::INFINITY, |least, t| least.min(t - minimum).min(maximum - t))
     }
 
-    /// Every corner of the polytope.
+    /// All corners of the polytope.
     fn corners(&self) -> Vec<Vec<f64>> {
         let rows: Vec<(usize, f64)> =
             (0..self.particular.len()).flat_map(|i| self.limits.map(|limit| (i, limit))).collect();
@@ -81,7 +81,7 @@ impl Straight {
         corners
     }
 
-    /// The point of the polytope nearest to wanted tensions: inside, on an edge, or a corner.
+    /// Point of the polytope nearest to target tensions: inside, on an edge, or a corner.
     fn nearest(&self, wanted: &[f64]) -> Vec<f64> {
         let n = &self.null;
         let free: Vec<f64> = (0..self.dimension())
@@ -165,7 +165,7 @@ fn middle_is_as_far_from_the_limits_as_the_best_of_all_corners() {
             .enumerate()
             .map(|(i, cable)| TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).relative().unwrap());
         let reached = reached.fold(f64::INFINITY, f64::min);
-        // Limits that give way from both sides: corners exist until the best is passed.
+        // Limits widened from both sides: corners exist until the optimum is passed.
         let exists = |part: f64| {
             let width = part * (limits[1] - limits[0]);
             !Straight::at(&robot, &pose, [limits[0] + width, limits[1] - width]).corners().is_empty()
@@ -200,7 +200,7 @@ fn no_other_tensions_of_straight_cables_are_stiffer() {
         check(&robot, &held);
         let best = min_stiffness(&held);
         let corners = Straight::at(&robot, &pose, limits).corners();
-        // Corners, and points all over between them.
+        // Corners, and points spread between them.
         for k in 0..200 {
             let weights: Vec<f64> = (0..corners.len()).map(|c| spread(31 * k + c, c % 8).powi(4)).collect();
             let sum: f64 = weights.iter().sum();
