@@ -240,8 +240,8 @@ fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Optio
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if rule.is_some() && cables <= dof {
         bail!(
-            "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions per \
-             pose; leave out ⟪tension_rule⟫ and ⟪target_tension_n⟫"
+            "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of \
+             tensions per pose; leave out ⟪tension_rule⟫ and ⟪target_tension_n⟫"
         );
     }
     let tension_rule = rule.unwrap_or_default();

@@ -147,7 +147,7 @@ fn robots_that_cannot_be_exported_are_refused_with_the_reason() {
         (yuan(), "--to moordyn --modes-below-hz 3", "MoorDyn has no modes"),
         (yuan(), "--to moordyn --segments 0", "--segments"),
         (yuan(), "--to abaqus", "possible values: opensees, moordyn, vtk"),
-        (yuan(), "--to vtk --modes-below-hz 1e4", "lower the limit"),
+        (yuan(), "--to vtk --modes-below-hz 1e4", "lower the frequency limit"),
         (sideways, "--to moordyn", "MoorDyn has it along -z only"),
         (massless, "--to moordyn", "cable \"1\" has no mass"),
         (planar, "--to moordyn", "nothing guides them in a plane"),

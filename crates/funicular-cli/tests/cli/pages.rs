@@ -72,7 +72,7 @@ fn options_of_state_model_and_response_reach_the_page() {
 #[test]
 fn impossible_pages_are_refused() {
     for (line, code, expected) in [
-        ("report --below-hz 1e6", 2, "lower the limit"),
+        ("report --below-hz 1e6", 2, "lower the frequency limit"),
         ("report --cable-model shallow-dynamic --below-hz 1e6", 2, "at most 2000 are listed"),
         ("report --below-hz 0", 2, "0 is not positive"),
         ("report no-such.toml", 2, "cannot read the robot file no-such.toml"),

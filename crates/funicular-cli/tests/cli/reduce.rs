@@ -45,5 +45,5 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     assert!(stderr(&refused).contains("neither an .npz file nor a folder"), "{}", stderr(&refused));
     let refused = run(&["reduce", "ROBOT", "--below-hz", "3", "--cable-model", "shallow-dynamic"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("choose the model `catenary-dynamic`"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("choose the cable model `catenary-dynamic`"), "{}", stderr(&refused));
 }

@@ -15,7 +15,7 @@ fn wind_pushes_the_platform_and_is_said() {
     assert!(calm.get("wind").is_none());
     assert!(windy["warnings"].as_array().unwrap().is_empty(), "{windy}");
     let text = succeed(&[&["statics", robot, "--wind-m-s", "8,0,0"][..], &DRAG[..]].concat());
-    assert!(text.contains(" m/s, air of 1.225 kg/m³"), "{text}");
+    assert!(text.contains(" m/s, air density 1.225 kg/m³"), "{text}");
     // Its modes are certified as in still air: vibration has a symmetric stiffness.
     let modes = json(&[&["modes", robot, "--below-hz", "4", "--wind-m-s", "8,0,0"][..], &DRAG[..]].concat());
     assert_eq!(modes["certified"], true);
