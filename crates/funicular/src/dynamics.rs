@@ -41,7 +41,7 @@ impl Assembly {
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
-            Self::WithoutGeometricStiffness => "paper",
+            Self::WithoutGeometricStiffness => "without-geometric-stiffness",
         }
     }
 }
