@@ -97,7 +97,7 @@ fn broken_command_lines_are_refused() {
         ("modes ROBOT --below-hz 20Hz", "without its unit"),
         ("modes ROBOT --below-hz 1e9", "lower the frequency limit"),
         ("modes ROBOT --below-hz 1e9 --cable-model shallow-dynamic", "lower the limit"),
-        ("compare ROBOT --below-hz 1e9", "lower the frequency limit"),
+        ("compare ROBOT --below-hz 1e9", "lower the limit"),
         ("compare ROBOT --below-hz 5 --cable-model spring", "unexpected argument"),
         // Frequency responses.
         ("frf ROBOT --from-hz 1 --to-hz 2 --points 9 --input fz", "--output"),
