@@ -1,7 +1,7 @@
 //! Files and folders that appear under their name only when they are complete.
 //!
 //! Every writer works beside the target and renames at the end, so that nobody reads a half-written file:
-//! [`TemporaryFile`] for bytes in memory, [`write_locked`] for long files that one run at a time writes,
+//! [`TemporaryFile`] for bytes in memory, `write_locked` for long files that one run at a time writes,
 //! [`write_folder`] for a folder with several files.
 
 use std::fs::{self, File, OpenOptions, TryLockError};

@@ -67,7 +67,7 @@ pub extern "C" fn funicular_output() -> *const u8 {
     TEXT.with_borrow(Vec::as_ptr)
 }
 
-/// Length of the answer's text [bytes], which is UTF-8.
+/// Length in bytes of the text of the answer, which is UTF-8.
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_output_length() -> usize {
