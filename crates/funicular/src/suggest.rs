@@ -55,7 +55,7 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .filter(|name| word.len().max(name.len()) <= MAX_LENGTH)
         .map(|name| (strsim::jaro_winkler(&word, &name.to_lowercase()), name))
         .filter(|(likeness, _)| *likeness >= MIN_LIKENESS)
-        // Of equal candidates the first one, so that the answer does not depend on the order of comparison.
+        // Equal candidates: the first one wins, so that the answer does not depend on the order of comparison.
         .fold(None, |best: Option<(f64, &str)>, (likeness, name)| match best {
             Some((most, _)) if most >= likeness => best,
             _ => Some((likeness, name)),

@@ -25,7 +25,7 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
         let array = npyz::NpyFile::new(&bytes[..]).unwrap();
         assert_eq!((array.shape(), array.order()), (&shape[..], npyz::Order::Fortran), "{name}");
         let values: Vec<f64> = array.into_vec().unwrap();
-        // The same numbers in rows.
+        // The CSV files hold equal numbers, row by row.
         let text = std::fs::read_to_string(format!("{csv}/{name}.csv")).unwrap();
         let rows: Vec<Vec<f64>> =
             text.lines().map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
@@ -37,7 +37,7 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
         }
     }
     assert!(archive.by_name("description.json").is_ok());
-    // What is there is not written over.
+    // Existing files are never overwritten.
     let refused = run(&with(&arguments, &csv));
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("is not empty"), "{}", stderr(&refused));

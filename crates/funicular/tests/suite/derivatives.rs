@@ -138,7 +138,7 @@ fn lengths_follow_every_number_of_the_robot_at_a_held_pose() {
                 assert!(matches!(found, Err(StaticDerivativeError::CableCount { .. })), "{name}");
                 continue;
             }
-            // What a change does to a length is taken back with the pose held.
+            // With the pose held, the change of a length is taken back.
             let Ok(found) = found else { continue };
             let differences = extrapolated(step, |h| {
                 let at = statics::inverse(&robot.changed(&change, h), &rest.pose, StaticModel::Catenary).ok()?;
