@@ -146,12 +146,7 @@ impl Sink {
 }
 
 fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
-    json::write(out, results.command(), results.robot(), results, results.warnings()).map_err(|error| {
-        NoSolution(format!(
-            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change \
-             the frequency or check the units"
-        ))
-    })
+    json::write(out, results.command(), results.robot(), results, results.warnings())
 }
 
 fn to_stdout(bytes: &[u8]) -> Result<()> {

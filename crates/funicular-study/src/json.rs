@@ -26,30 +26,30 @@ struct Envelope<'a, R> {
 pub fn of_results<R: Found>(results: &R, words: Words) -> Result<Vec<u8>, Error> {
     let warnings: Vec<String> = results.warnings().iter().map(|text| worded(text, words)).collect();
     let mut bytes = Vec::new();
-    write(&mut bytes, R::COMMAND, results.robot(), results, &warnings).map_err(|error| {
-        anyhow::Error::from(NoSolution(format!(
-            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change \
-             the frequency or check the units"
-        )))
-    })?;
+    write(&mut bytes, R::COMMAND, results.robot(), results, &warnings).map_err(anyhow::Error::from)?;
     Ok(bytes)
 }
 
 /// Writes results of a command for a robot.
 ///
 /// # Errors
-/// A result that is not finite, which JSON cannot express, or an error of `out`.
+/// [`NoSolution`]: a result that is not finite, which JSON cannot express.
 pub fn write<R: Serialize>(
     out: &mut impl Write,
     command: &'static str,
     robot: &str,
     results: &R,
     warnings: &[String],
-) -> io::Result<()> {
+) -> Result<(), NoSolution> {
     let envelope = Envelope { schema: "funicular/1", command, robot, results, warnings };
     let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Lines { depth: 0 });
-    envelope.serialize(&mut serializer)?;
-    out.write_all(b"\n")
+    let written = envelope.serialize(&mut serializer).map_err(io::Error::from).and_then(|()| out.write_all(b"\n"));
+    written.map_err(|error| {
+        NoSolution(format!(
+            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change \
+             the frequency or check the units"
+        ))
+    })
 }
 
 /// Formatter that writes each key of an object on its own line and an array on one line.
