@@ -43,7 +43,7 @@ mod drag; // stiffness added by the turn of the wind's drag
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
-pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, tangent_with_drag};
+pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
@@ -54,7 +54,7 @@ pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at};
-pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};
+pub use stiffness::tangent_stiffness;
 pub use tension::{TensionRule, distribute_tensions};
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};
