@@ -52,6 +52,7 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular statics robots/yuan2014-4mm.toml\n  \
         funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \
         funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6\n  \
+        funicular statics robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250\n  \
         funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200")]
     Statics(StaticsArgs),
     /// 6×6 stiffness at one frequency, static at 0 Hz
@@ -78,7 +79,8 @@ pub(crate) enum Command {
     Compare(CompareArgs),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass
     #[command(after_help = "Examples:\n  funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100\n  \
-        funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv")]
+        funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv\n  \
+        funicular pose-error robots/cogiro.toml --pose 1,2,1.5 --mass-kg 80:400:33")]
     PoseError(PoseErrorArgs),
     /// Dynamic stiffness of one cable over frequency
     #[command(after_help = "Example:\n  \
@@ -199,6 +201,11 @@ pub(crate) struct StateArgs {
     /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow from it
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) pose: Option<PoseNumbers>,
+
+    /// Hold the unstrained lengths with which the robot of the file rests at the pose (of the file or of --pose); all
+    /// changes (--set, --mass-kg, loads, wind, --vary) then act at these lengths and move the platform
+    #[arg(long, conflicts_with = "lengths_m")]
+    pub(crate) hold_lengths_of_pose: bool,
 
     /// Mass of the platform [kg]; inertia and centre of mass do not change
     #[arg(long, value_name = "KG", value_parser = values::positive, allow_hyphen_values = true)]
@@ -352,6 +359,8 @@ pub(crate) struct StiffnessArgs {
     #[command(flatten)]
     pub(crate) state: StateArgs,
     #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
@@ -382,6 +391,8 @@ pub(crate) struct ModesArgs {
 
     #[command(flatten)]
     pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
@@ -414,6 +425,8 @@ pub(crate) struct FrfArgs {
 
     #[command(flatten)]
     pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
@@ -466,6 +479,8 @@ pub(crate) struct ReduceArgs {
     #[command(flatten)]
     pub(crate) state: StateArgs,
     #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
@@ -482,6 +497,8 @@ pub(crate) struct CompareArgs {
 
     #[command(flatten)]
     pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
     #[command(flatten)]
     pub(crate) terms: TermArgs,
     #[command(flatten)]
@@ -500,6 +517,13 @@ pub(crate) struct PoseErrorArgs {
     /// Unstrained lengths [m], one per cable in the order of the file [default: from the robot file]
     #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true)]
     pub(crate) lengths_m: Option<Lengths>,
+
+    /// Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file, without
+    /// --set, rests there [default: the [state] of the robot file]
+    #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true, conflicts_with = "lengths_m")]
+    pub(crate) pose: Option<PoseNumbers>,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
 
     /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the masses
     /// where they are
@@ -523,6 +547,8 @@ pub(crate) struct CableArgs {
     pub(crate) range: RangeArgs,
     #[command(flatten)]
     pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
 
     /// Cable model: how the cable responds to motion of its platform end [default: catenary-dynamic; shallow-dynamic
     /// for static models other than catenary]
@@ -563,6 +589,8 @@ pub(crate) struct ReportArgs {
 
     #[command(flatten)]
     pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
 

@@ -240,7 +240,7 @@ fn write_export(of: &requests::ExportRequest, robot: Robot, guard: &mut Guard, p
     let content = Content { name: "the exported robot", option: "-o", in_words, fitting };
     let target = Target::open(Some(path), content, guard)?;
     export::refuse(of)?;
-    let at_rest = at_rest::equilibrium(robot, &of.state, &of.tensions)?;
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
     let exported = export::run(&at_rest, of)?;
     target.write(exported.text.as_bytes())?;
     if target.is_file() {

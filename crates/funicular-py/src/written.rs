@@ -67,6 +67,7 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
         tolerance: keywords.tolerance.value("tolerance")?,
         damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
@@ -146,6 +147,7 @@ pub(crate) fn report(
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
 

@@ -111,6 +111,9 @@ pub struct StiffnessRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -141,6 +144,9 @@ pub struct ModesRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -167,6 +173,9 @@ pub struct FrfRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -182,6 +191,9 @@ pub struct CompareRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Terms of the stiffness.
     #[serde(flatten)]
     pub terms: Terms,
@@ -197,6 +209,12 @@ pub struct PoseErrorRequest {
     /// Unstrained lengths [m], one per cable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lengths_m: Option<Vec<f64>>,
+    /// Pose whose unstrained lengths are held: those with which the robot of the file rests there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
+    /// Rule and limits of the tensions at this pose.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance_mm: Option<f64>,
@@ -215,6 +233,9 @@ pub struct CableRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Cable model.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
     pub cable_model: Option<funicular::cable::CableModel>,
@@ -248,6 +269,9 @@ pub struct ReduceRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -301,6 +325,9 @@ pub struct ReportRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,

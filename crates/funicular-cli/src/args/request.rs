@@ -25,6 +25,7 @@ impl StateArgs {
         State {
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
             pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            hold_lengths_of_pose: self.hold_lengths_of_pose,
             mass_kg: self.mass_kg,
             static_model: self.static_model.into(),
             load: self.load.request(),
@@ -102,7 +103,13 @@ impl StaticsArgs {
 
 impl StiffnessArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::StiffnessRequest {
-        request::StiffnessRequest { robot, at_hz: self.at_hz, state: self.state.request(), model: self.model.request() }
+        request::StiffnessRequest {
+            robot,
+            at_hz: self.at_hz,
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
+        }
     }
 }
 
@@ -117,6 +124,7 @@ impl ModesArgs {
             stations: self.stations,
             damped: true,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -132,6 +140,7 @@ impl FrfArgs {
             signal_points: self.points.request(),
             prominence_db: self.prominence_db,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -143,6 +152,7 @@ impl CompareArgs {
             robot,
             below_hz: self.below_hz,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             terms: self.terms.request(),
         }
     }
@@ -155,6 +165,8 @@ impl PoseErrorArgs {
             robot,
             mass_kg: (range.from, range.to, range.count),
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
+            pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            tensions: self.tensions.request(),
             tolerance_mm: self.tolerance_mm,
         }
     }
@@ -167,6 +179,7 @@ impl CableArgs {
             name: self.name.clone(),
             range: self.range.request(),
             state: self.state.request(),
+            tensions: self.tensions.request(),
             cable_model: self.cable_model.map(CableModelName::into),
             in_plane_only: self.in_plane_only,
         }
@@ -184,6 +197,7 @@ impl ReduceArgs {
             tolerance: self.tolerance,
             damping_at_hz: self.damping_at_hz,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -225,6 +239,7 @@ impl ReportArgs {
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }

@@ -73,7 +73,7 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
         &request::output(&request.output)?,
         &request.signal_points,
     )?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let pair =
         Pair { input: &request.input, output: &request.output, points: request.signal_points, model: request.model };
     let Response { from, to, input_place, output_place, linearisation, values, warnings } =
@@ -82,7 +82,7 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
 
     Ok(Frf {
         robot: at_rest.robot.name.clone(),
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(&at_rest, linearisation),
         unit: unit(&from, &to),
         input: from.name,
         input_place,

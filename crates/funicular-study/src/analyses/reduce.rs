@@ -67,7 +67,7 @@ pub struct CoordinateRow {
 /// A signal that the robot does not have, a robot without such an equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
     check(&robot, request)?;
-    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
 }
 
 /// Inputs and outputs of a model.
@@ -103,7 +103,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
     let mut reduced = Reduced {
         robot: at_rest.robot.name.clone(),
         below_hz: request.below_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(at_rest, linearisation),
         order: model.mass.nrows(),
         frequency_error: model.frequency_error,
         truncation_error: model.truncation_error,

@@ -10,6 +10,10 @@ pub const KEYS: &[(&str, &str)] = &[
         "pose x, y, z [m], roll, pitch, yaw [degrees], or an object with `position_m` and `quaternion_wxyz`; the \
          lengths follow from it",
     ),
+    (
+        "hold_lengths_of_pose",
+        "hold the unstrained lengths with which the robot of the file, without any change, rests at the pose",
+    ),
     ("mass_kg", "mass of the platform [kg]; for `pose-error` the first mass, the last mass and the number of masses"),
     ("static_model", "static model of the cables"),
     ("force_n", "force on the platform, world axes [N]"),

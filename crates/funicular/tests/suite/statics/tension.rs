@@ -2,6 +2,7 @@
 
 mod lengths;
 mod limits;
+mod payload;
 mod out_of_reach;
 mod rules;
 mod straight;
