@@ -1,5 +1,6 @@
 //! Static state that an analysis starts from, given by the request or else by the robot file.
 
+use crate::error::with_warnings;
 use crate::names::TensionRuleName;
 use crate::request::{self, Load, Model, ResponsePoints, Tensions, Terms};
 use crate::signals::{Input, Output};
@@ -34,7 +35,8 @@ pub struct AtRest {
 pub fn equilibrium(robot: Robot, state: &request::State, tensions: &Tensions) -> Result<AtRest> {
     let robot = with_limits(&with_state(robot, state)?, tensions)?;
     refuse_no_state(&robot)?;
-    let Solution { equilibrium, requested_pose, rule } = statics::solve(&robot, state.static_model, rule(tensions)?)?;
+    let Solution { equilibrium, requested_pose, rule } = statics::solve(&robot, state.static_model, rule(tensions)?)
+        .map_err(|error| with_warnings(error.into(), warnings::of_robot(&robot)))?;
     Ok(AtRest { robot, equilibrium, requested_pose, rule })
 }
 
@@ -199,9 +201,11 @@ impl AtRest {
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
-    /// Warnings about the statics and, if given, about a cable model up to a frequency [Hz].
+    /// Warnings about implausible values, about the statics and, if given, about a cable model up to a frequency [Hz].
     pub fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
-        let mut warnings = warnings::of_statics(&self.robot, &self.equilibrium);
+        let mut warnings = warnings::of_robot(&self.robot);
+        warnings.extend(warnings::of_plausibility(&self.robot, &self.equilibrium));
+        warnings.extend(warnings::of_statics(&self.robot, &self.equilibrium));
         if let Some((model, up_to_hz)) = dynamics {
             warnings.extend(warnings::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }

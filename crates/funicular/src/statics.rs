@@ -55,6 +55,7 @@ pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at};
 pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};
-pub use tension::{TensionRule, distribute_tensions};
+pub(crate) use tension::spread;
+pub use tension::{Obstacle, OneSidedCause, TensionRule, distribute_tensions};
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

@@ -12,6 +12,7 @@ mod bounds;
 mod cable_at_pose;
 mod feasible_set;
 mod null_space;
+mod obstacle;
 mod proof;
 mod search;
 mod stiffest;
@@ -24,6 +25,8 @@ use super::model::StaticModel;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use cable_at_pose::CableAtPose;
+pub(crate) use obstacle::spread;
+pub use obstacle::{Obstacle, OneSidedCause};
 use search::TensionSearch;
 
 /// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
@@ -106,7 +109,7 @@ pub fn distribute_tensions(
     let cables_at_pose: Vec<CableAtPose> =
         (0..cables).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
     check(robot, model, rule, &cables_at_pose)?;
-    let mut search = TensionSearch::new(robot, pose, cables_at_pose);
+    let mut search = TensionSearch::new(robot, pose, model, cables_at_pose);
 
     match rule {
         TensionRule::Lowest => {
