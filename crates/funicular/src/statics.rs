@@ -57,9 +57,10 @@ pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
+pub(crate) use tension::spread;
 pub use tension::{
-    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
-    payload_bound,
+    LimitAtCable, Obstacle, OneSidedCause, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule,
+    distribute_tensions, payload_bound,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};
