@@ -71,8 +71,10 @@ pub(crate) enum Command {
         --input fz --output ay\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    \
         --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv\n  \
-        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
-        --input fz --output cable:3@0.5:az")]
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
+        --input fz --output ay\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
+        --input fx --input fz --output x --output cable:3@0.5:az -o frf.json")]
     Frf(FrfArgs),
     /// Comparison of all cable models, and the simplest model that is good enough
     #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
@@ -403,21 +405,42 @@ pub(crate) struct ModesArgs {
 pub(crate) struct FrfArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
-    #[command(flatten)]
-    pub(crate) range: RangeArgs,
+
+    /// First frequency [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) from_hz: f64,
+
+    /// Last frequency [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) to_hz: f64,
+
+    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default with --adaptive:
+    /// 200]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
+        allow_hyphen_values = true, required_unless_present = "adaptive")]
+    pub(crate) points: Option<u64>,
+
+    /// Equal ratios between frequencies instead of equal steps
+    #[arg(long)]
+    pub(crate) log: bool,
+
+    /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the magnitude
+    /// are accurate to 1 %
+    #[arg(long)]
+    pub(crate) adaptive: bool,
 
     /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; or a force
-    /// on a cable, as in cable:3@0.5:fz
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
-    pub(crate) input: Input,
+    /// on a cable, as in cable:3@0.5:fz (repeatable)
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse, required = true)]
+    pub(crate) input: Vec<Input>,
 
     /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
     /// a:… along a direction, world axes; or the motion of a point on a cable (name, fraction of its length from the
-    /// platform), as in cable:3@0.5:az
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
-    pub(crate) output: Output,
+    /// platform), as in cable:3@0.5:az (repeatable)
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
+    pub(crate) output: Vec<Output>,
     #[command(flatten)]
-    pub(crate) points: PointArgs,
+    pub(crate) signal_points: PointArgs,
 
     /// Minimum height of a peak above the valleys beside it [dB]
     #[arg(long, value_name = "DB", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "1")]

@@ -15,6 +15,7 @@ use funicular::robot::{Robot, State};
 use funicular_study::analyses;
 use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest};
 use funicular_study::robot_file::{self, MAX_BYTES, RobotFile};
+use funicular_study::sweep::MAX_HZ;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use std::fs;
@@ -25,14 +26,14 @@ use std::sync::Arc;
 /// Request for the points of a map or sweep, from the keywords of Python.
 fn each_point(
     quantities: Option<Vec<String>>,
-    up_to_hz: Number,
+    up_to_hz: Option<Number>,
     state: StateKeywords<'_>,
     tensions: TensionKeywords<'_>,
     model: requests::Model,
 ) -> PyResult<EachPoint> {
     Ok(EachPoint {
         quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
-        up_to_hz: up_to_hz.value("up_to_hz")?,
+        up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
         state: state.request()?,
         tensions: tensions.request()?,
         model,
@@ -364,7 +365,7 @@ impl PyRobot {
     ///     Values of the axes that the grid does not have: x, y, z [m], roll, pitch, yaw [degrees], or the pose of
     ///     unstrained lengths [m]; the state of the robot file if not given.
     /// up_to_hz
-    ///     Limit of the search for natural frequencies [Hz].
+    ///     Limit of the search for natural frequencies [Hz]; 1000 if not given.
     /// file
     ///     File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
     ///     holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -394,7 +395,7 @@ impl PyRobot {
     ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -412,7 +413,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: Number,
+        up_to_hz: Option<Number>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
@@ -468,7 +469,7 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -485,7 +486,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: Number,
+        up_to_hz: Option<Number>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,

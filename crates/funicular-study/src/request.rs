@@ -9,8 +9,8 @@ mod parts;
 
 pub use keys::KEYS;
 pub use parts::{
-    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
-    State, Tensions, Terms,
+    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
+    ResponsePoints, RobotText, State, Tensions, Terms,
 };
 
 use crate::error::Error;
@@ -160,10 +160,13 @@ pub struct FrfRequest {
     /// Frequencies.
     #[serde(flatten)]
     pub range: FrequencyRange,
-    /// Input signal, as `fz` or `cable:3@0.5:fz`.
-    pub input: String,
-    /// Output signal, as `ay` or `cable:3@0.5:az`.
-    pub output: String,
+    /// Add frequencies until every peak has its height and the drawn curve is accurate.
+    #[serde(default)]
+    pub adaptive: bool,
+    /// Input signal, as `fz` or `cable:3@0.5:fz`, or a list of input signals.
+    pub input: OneOrSeveral,
+    /// Output signal, as `ay` or `cable:3@0.5:az`, or a list of output signals.
+    pub output: OneOrSeveral,
     /// Points of the platform.
     #[serde(flatten)]
     pub signal_points: ResponsePoints,
