@@ -11,8 +11,9 @@ mod signals;
 pub use peaks::{Peak, peaks};
 pub use signals::{Port, Signal, about, along};
 
+use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, Complex, Vec6};
+use crate::math::{CMat6, Complex, Vec3, Vec6};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use thiserror::Error;
@@ -88,8 +89,72 @@ pub fn between(
         return frf(dynamics, frequencies_hz, input, output, quantity);
     }
 
-    // A force on a cable moves not only the platform, but also that cable itself.
-    let own = match (input, output) {
+    let own = own_receptance(input, output)?;
+    let all = kernel::all_entries(dynamics, frequencies_hz);
+    let entry = |(receptance, frequency_hz): (&CMat6, &f64)| {
+        let omega = frequency_hz * TAU;
+        let through = (output.vector(dynamics, omega).transpose() * receptance * input.vector(dynamics, omega))[0];
+        own.as_ref().map_or(through, |own| through + own.at(dynamics, omega))
+    };
+    finished(all.iter().zip(frequencies_hz).map(entry).collect(), frequencies_hz, quantity)
+}
+
+/// Displacements of all outputs per force at all inputs at each frequency [Hz]: outputs×inputs entries by columns, one
+/// frequency after the other.
+///
+/// # Errors
+/// The errors of [`between`].
+pub(crate) fn between_all(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    inputs: &[Port],
+    outputs: &[Port],
+) -> Result<Vec<Complex>, ResponseError> {
+    let own = inputs
+        .iter()
+        .flat_map(|input| outputs.iter().map(move |output| own_receptance(input, output)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let all = kernel::all_entries(dynamics, frequencies_hz);
+
+    let mut entries = Vec::with_capacity(frequencies_hz.len() * own.len());
+    for (receptance, &frequency_hz) in all.iter().zip(frequencies_hz) {
+        let omega = frequency_hz * TAU;
+        let rows: Vec<_> = outputs.iter().map(|output| output.vector(dynamics, omega).transpose()).collect();
+        let mut own = own.iter();
+        for input in inputs {
+            let column = receptance * input.vector(dynamics, omega);
+            for row in &rows {
+                let through = (row * column)[0];
+                let entry = match own.next() {
+                    Some(Some(own)) => through + own.at(dynamics, omega),
+                    _ => through,
+                };
+                if !(entry.re.is_finite() && entry.im.is_finite()) {
+                    return Err(ResponseError::Resonance { frequency_hz });
+                }
+                entries.push(entry);
+            }
+        }
+    }
+    Ok(entries)
+}
+
+/// Motion of a cable itself by a force on it, beside its motion with the platform.
+struct OwnReceptance<'a> {
+    stations: &'a CableStations,
+    to: (usize, &'a Vec3),
+    from: (usize, &'a Vec3),
+}
+
+impl OwnReceptance<'_> {
+    fn at(&self, dynamics: &Dynamics, omega: f64) -> Complex {
+        self.stations.own_receptance(dynamics, self.to, self.from, omega)
+    }
+}
+
+/// Own motion of the cable if both ports are on the same one.
+fn own_receptance<'a>(input: &'a Port, output: &'a Port) -> Result<Option<OwnReceptance<'a>>, ResponseError> {
+    match (input, output) {
         (
             Port::Cable { stations, station: loaded, direction_w: force_w },
             Port::Cable { stations: of_output, station, direction_w },
@@ -97,18 +162,10 @@ pub fn between(
             if !(Arc::ptr_eq(stations, of_output) && stations.has_own_receptance()) {
                 return Err(ResponseError::SameCable);
             }
-            Some((stations, (*station, direction_w), (*loaded, force_w)))
+            Ok(Some(OwnReceptance { stations, to: (*station, direction_w), from: (*loaded, force_w) }))
         }
-        _ => None,
-    };
-
-    let all = kernel::all_entries(dynamics, frequencies_hz);
-    let entry = |(receptance, frequency_hz): (&CMat6, &f64)| {
-        let omega = frequency_hz * TAU;
-        let through = (output.vector(dynamics, omega).transpose() * receptance * input.vector(dynamics, omega))[0];
-        own.map_or(through, |(stations, to, from)| through + stations.own_receptance(dynamics, to, from, omega))
-    };
-    finished(all.iter().zip(frequencies_hz).map(entry).collect(), frequencies_hz, quantity)
+        _ => Ok(None),
+    }
 }
 
 /// Converts receptances to the requested quantity.
