@@ -12,6 +12,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
 use funicular::statics::StaticModel;
+use funicular_study::names::ModelForm;
 use funicular_study::request::Change;
 use funicular_study::signals::{Input, Output};
 pub(crate) use import::ImportArgs;
@@ -88,12 +89,16 @@ pub(crate) enum Command {
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
-    /// Small second-order model M, C, K for control design, and its state space
+    /// State space A, B, C, D for control design, or the second-order model M, C, K
+    ///
+    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the best
+    /// ones for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
     #[command(after_help = "Examples:\n  \
-        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output z --matrices model.npz\n  \
-        funicular reduce robots/cogiro.toml --below-hz 10 --tolerance 0.01 --matrices model\n\n\
-        In Python: m = numpy.load('model.npz'); m['M'], m['C'], m['K'], m['ss_A'], …\n\
-        In MATLAB: M = readmatrix('model/M.csv'); sys = ss(A, B, C, D) from ss_A.csv, …")]
+        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az --matrices model.mat\n  \
+        funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz\n  \
+        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\n\
+        In Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\n\
+        In MATLAB: load model.mat; sys = ss(A, B, C, D)")]
     Reduce(ReduceArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
@@ -487,16 +492,25 @@ pub(crate) struct ReduceArgs {
     #[command(flatten)]
     pub(crate) points: PointArgs,
 
-    /// Maximum relative error of the responses due to omitted modes
-    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0.001")]
-    pub(crate) tolerance: f64,
+    /// Form of the model
+    #[arg(long, value_name = "FORM", value_enum, default_value_t)]
+    pub(crate) form: ModelFormName,
+
+    /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as it
+    /// allows [default: 0.01]. With the second-order form: maximum relative error due to omitted modes [default: 0.001]
+    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+
+    /// Maximum number of states, instead of a tolerance
+    #[arg(long, value_name = "N")]
+    pub(crate) order: Option<usize>,
 
     /// Frequency at which viscous damping reproduces constant damping ratios [Hz] [default: every natural frequency]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) damping_at_hz: Option<f64>,
 
-    /// Write the matrices to an .npz file, or as CSV files to a new folder
-    #[arg(long, value_name = "FILE.npz|FOLDER")]
+    /// Write the matrices to an .npz or .mat file, or as CSV files to a new folder
+    #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) matrices: Option<PathBuf>,
 
     #[command(flatten)]
@@ -713,6 +727,25 @@ impl From<CableModelName> for CableModel {
             CableModelName::ShallowStatic => Self::ShallowStatic,
             CableModelName::CatenaryStatic => Self::CatenaryStatic,
             CableModelName::Spring => Self::Spring,
+        }
+    }
+}
+
+/// Form of a reduced model by name; see [`ModelForm`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum ModelFormName {
+    /// State space of the modes that inputs and outputs see
+    #[default]
+    StateSpace,
+    /// M, C, K of the platform and all modes of the cables with fixed ends, and their state space
+    SecondOrder,
+}
+
+impl From<ModelFormName> for ModelForm {
+    fn from(name: ModelFormName) -> Self {
+        match name {
+            ModelFormName::StateSpace => Self::StateSpace,
+            ModelFormName::SecondOrder => Self::SecondOrder,
         }
     }
 }

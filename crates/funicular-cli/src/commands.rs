@@ -165,7 +165,7 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let waiting = Waiting::for_("the model and its errors");
     let mut found = analyses::reduce::run(robot, of)?;
     drop(waiting);
-    found.matrices_file = args.matrices.as_ref().map(|path| path.display().to_string());
+    found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));
     if let Some(file) = file {
         file.write(&found)?;
     }

@@ -15,6 +15,7 @@ mod csv;
 pub mod endings;
 mod guard;
 mod journal;
+pub mod mat;
 mod merge;
 #[cfg(feature = "parquet")]
 mod parquet;

@@ -15,7 +15,7 @@ pub use parts::{
 
 use crate::error::Error;
 use crate::import::SourceFile;
-use crate::names::suggestion;
+use crate::names::{ModelForm, suggestion};
 use crate::signals::{Input, Output};
 use crate::values::{not_negative, positive};
 use anyhow::{anyhow, bail};
@@ -48,7 +48,7 @@ pub enum Request {
     PoseError(PoseErrorRequest),
     /// Dynamic stiffness of one cable over frequency.
     Cable(CableRequest),
-    /// Second-order model for control design.
+    /// Model for control design: state space or second-order form.
     Reduce(ReduceRequest),
     /// Quantities over poses.
     Map(MapRequest),
@@ -263,9 +263,16 @@ pub struct ReduceRequest {
     /// Points of the platform.
     #[serde(flatten)]
     pub points: ResponsePoints,
-    /// Maximum relative error of the responses due to omitted modes.
-    #[serde(default = "one_thousandth")]
-    pub tolerance: f64,
+    /// Form of the model.
+    #[serde(default, with = "crate::names")]
+    pub form: ModelForm,
+    /// Maximum number of states of a state space, instead of a tolerance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<usize>,
+    /// Maximum error of a response relative to its peak (0.01 if neither tolerance nor order is given); for the
+    /// second-order form the maximum relative error due to omitted modes (0.001).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Frequency at which viscous damping reproduces constant damping ratios [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_at_hz: Option<f64>,
@@ -402,10 +409,6 @@ fn one() -> f64 {
 
 fn yes() -> bool {
     true
-}
-
-fn one_thousandth() -> f64 {
-    1e-3
 }
 
 fn twenty() -> f64 {

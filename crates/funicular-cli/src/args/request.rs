@@ -200,6 +200,8 @@ impl ReduceArgs {
             input: self.input.iter().map(|input| input.name.clone()).collect(),
             output: self.output.iter().map(|output| output.name.clone()).collect(),
             points: self.points.request(),
+            form: self.form.into(),
+            order: self.order,
             tolerance: self.tolerance,
             damping_at_hz: self.damping_at_hz,
             state: self.state.request(),

@@ -46,7 +46,13 @@ pub const KEYS: &[(&str, &str)] = &[
         "damped",
         "compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping",
     ),
-    ("tolerance", "maximum relative error of the responses due to omitted modes"),
+    ("form", "form of the model: `state-space` or `second-order`"),
+    ("order", "maximum number of states of a state space"),
+    (
+        "tolerance",
+        "maximum error of a response relative to its peak; for the second-order form maximum relative error of the \
+         responses due to omitted modes",
+    ),
     ("tolerance_mm", "maximum distance between spring pose and catenary pose at which springs are good enough [mm]"),
     ("damping_at_hz", "frequency at which viscous damping reproduces constant damping ratios [Hz]"),
     ("name", "name of a cable"),
