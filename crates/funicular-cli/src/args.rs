@@ -54,7 +54,8 @@ pub(crate) enum Command {
         funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \
         funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6\n  \
         funicular statics robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250\n  \
-        funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200")]
+        funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200\n  \
+        funicular statics robots/cogiro.toml -o robot.pdf")]
     Statics(StaticsArgs),
     /// 6×6 stiffness at one frequency, static at 0 Hz
     #[command(after_help = "Examples:\n  funicular stiffness robots/yuan2014-4mm.toml\n  \
@@ -64,7 +65,8 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
-        funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv")]
+        funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv\n  \
+        funicular modes robots/cogiro.toml --below-hz 5 --figure-mode 3 -o shape.pdf")]
     Modes(ModesArgs),
     /// Frequency response of the platform or of points on cables, and its peaks
     #[command(after_help = "Examples:\n  \
@@ -75,10 +77,13 @@ pub(crate) enum Command {
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
         --input fz --output ay\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
-        --input fx --input fz --output x --output cable:3@0.5:az -o frf.json")]
+        --input fx --input fz --output x --output cable:3@0.5:az -o frf.json\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
+        --input fz --output az --figure-width-mm ieee-single -o frf.pdf")]
     Frf(FrfArgs),
     /// Comparison of all cable models, and the simplest model that is good enough
-    #[command(after_help = "Example:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5")]
+    #[command(after_help = "Examples:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5\n  \
+        funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg")]
     Compare(CompareArgs),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass
     #[command(after_help = "Examples:\n  funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100\n  \
@@ -124,11 +129,13 @@ pub(crate) enum Command {
     ///
     /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and
     /// sweeps of one value are shown as curves; the curves of natural frequencies follow their modes through crossings
-    /// and veering. docs/sweeps.md explains the figures.
+    /// and veering. docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for a
+    /// paper instead of the page.
     #[command(
         after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
         --quantity tension-max,stiffness-min -o cogiro.parquet\n  funicular plot cogiro.parquet\n  \
-        funicular plot mass.parquet -o mass.html"
+        funicular plot mass.parquet -o mass.html\n  \
+        funicular plot cogiro.parquet --quantity tension-max --at z=1.5 -o tension.pdf"
     )]
     Plot(PlotArgs),
     /// HTML page with all analyses of a robot and their figures
@@ -280,13 +287,28 @@ pub(crate) struct TermArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
-    /// Format of the result [default: from the ending of FILE, else text]
+    /// Format of the result [default: from the ending of FILE, else text]; FILE.svg and FILE.pdf hold a figure
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 
     /// Write the result to FILE, completely or not at all, instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output_file: Option<PathBuf>,
+}
+
+/// Size of a figure.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Figure")]
+pub(crate) struct FigureArgs {
+    /// Width of the figure in FILE.svg or FILE.pdf [mm], or the column of a journal: ieee-single (88.9), ieee-double
+    /// (181), elsevier-single (90), elsevier-double (190), springer-single (84), springer-double (174) [default:
+    /// ieee-single]
+    #[arg(long, value_name = "MM|COLUMN", value_parser = funicular_study::figures::width_mm, allow_hyphen_values = true)]
+    pub(crate) figure_width_mm: Option<f64>,
+
+    /// Size of the texts in the figure [pt] [default: 8]
+    #[arg(long, value_name = "PT", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) font_size_pt: Option<f64>,
 }
 
 /// Range of frequencies.
@@ -331,6 +353,8 @@ pub(crate) struct StaticsArgs {
     pub(crate) all: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
 }
 
 /// Choice of the tensions at a pose, for a robot with more cables than degrees of freedom.
@@ -404,6 +428,12 @@ pub(crate) struct ModesArgs {
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+
+    /// Draw the shape of mode N of the list in the figure [default: the spectrum]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Figure")]
+    pub(crate) figure_mode: Option<usize>,
 }
 
 #[derive(Debug, Args)]
@@ -459,6 +489,8 @@ pub(crate) struct FrfArgs {
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
 }
 
 /// Points of the platform for the input and the output of a response.
@@ -540,6 +572,8 @@ pub(crate) struct CompareArgs {
     pub(crate) terms: TermArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
 }
 
 #[derive(Debug, Args)]
@@ -650,6 +684,12 @@ pub(crate) struct RequestArgs {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) run: RunArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+
+    /// Draw the shape of mode N of `modes` in the figure [default: the spectrum]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Figure")]
+    pub(crate) figure_mode: Option<usize>,
 }
 
 #[derive(Debug, Args)]

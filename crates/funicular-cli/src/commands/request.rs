@@ -1,6 +1,6 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analyse, page, write_export, write_import};
+use super::{analyse_or_draw, page, write_export, write_import};
 use crate::args::{OutputArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
@@ -63,6 +63,6 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
         Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
             bail!("`funicular {}` writes files: use the command with its options", request.command())
         }
-        _ => analyse(&request, &output(), guard),
+        _ => analyse_or_draw(&request, &output(), args.figure, args.figure_mode, guard),
     }
 }

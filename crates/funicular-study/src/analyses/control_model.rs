@@ -1,10 +1,10 @@
 //! `reduce` as a state space: A, B, C, D of the modes that inputs and outputs see, with their errors.
 
-use super::{found, frf};
 use super::reduce::{
     ChannelRow, DEFAULT_TOLERANCE, Linearised, check, damping_in_words, input_rows, linearised, output_rows,
 };
 use super::shared::Models;
+use super::{found, frf};
 use crate::at_rest::AtRest;
 use crate::names::{ModelForm, Named};
 use crate::request;
@@ -114,7 +114,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Contr
         robot: at_rest.robot.name.clone(),
         form: ModelForm::StateSpace.name(),
         below_hz: request.below_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(at_rest, linearisation),
         order: model.space.a.nrows(),
         error: model.error,
         damping_error: model.damping_error,

@@ -7,7 +7,9 @@
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
 use super::reference::{Maximum, Reference, derivatives};
-use super::{Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios};
+use super::{
+    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
+};
 use crate::cable::DynamicCable;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
@@ -481,9 +483,7 @@ fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> Result<Chose
                 if error < smallest.0 {
                     smallest = (error, order(&terms));
                 }
-                let fewer = |(other, of_other): &(Vec<Term>, f64)| {
-                    (order(&terms), error) < (order(other), *of_other)
-                };
+                let fewer = |(other, of_other): &(Vec<Term>, f64)| (order(&terms), error) < (order(other), *of_other);
                 if error <= USED * tolerance && best.as_ref().is_none_or(fewer) {
                     best = Some((terms, error));
                 }

@@ -132,8 +132,12 @@ impl<'a> Reference<'a> {
         measure: &mut dyn FnMut(f64, &[Complex]) -> Vec<f64>,
     ) -> Result<Vec<Maximum>, ResponseError> {
         let pairs = self.pairs();
-        let mut heights: Vec<Vec<f64>> =
-            self.frequencies_hz.iter().zip(self.values.chunks_exact(pairs)).map(|(&f, values)| measure(f, values)).collect();
+        let mut heights: Vec<Vec<f64>> = self
+            .frequencies_hz
+            .iter()
+            .zip(self.values.chunks_exact(pairs))
+            .map(|(&f, values)| measure(f, values))
+            .collect();
 
         for round in 0..=ROUNDS {
             let maxima: Vec<usize> = (0..pairs)
@@ -158,9 +162,12 @@ impl<'a> Reference<'a> {
                     let after = (k + 1 < heights.len()).then_some(k + 1);
                     let is_maximum = [before, after].iter().flatten().all(|other| heights[*other][pair] <= height);
                     if height > 0.0 && height >= high && is_maximum {
-                        added.extend([before, after].iter().flatten().map(|other| {
-                            0.5 * (self.frequencies_hz[k] + self.frequencies_hz[*other])
-                        }));
+                        added.extend(
+                            [before, after]
+                                .iter()
+                                .flatten()
+                                .map(|other| 0.5 * (self.frequencies_hz[k] + self.frequencies_hz[*other])),
+                        );
                     }
                 }
             }

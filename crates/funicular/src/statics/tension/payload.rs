@@ -225,12 +225,7 @@ impl PayloadSearch<'_> {
 
     /// Solves the linear problem (40c); `None` if no payload satisfies it. With a `climb` the payload changes by a
     /// limited amount instead, and the tensions move little.
-    fn step(
-        &self,
-        linear: &Linear,
-        weight: f64,
-        climb: Option<ProximalStep>,
-    ) -> Result<Option<Optimum>, StaticsError> {
+    fn step(&self, linear: &Linear, weight: f64, climb: Option<ProximalStep>) -> Result<Option<Optimum>, StaticsError> {
         let cables = self.search.cables();
         let (count, dof) = (cables.len(), self.robot.platform.motion.count());
         let sign = self.requested.side.sign();
@@ -302,10 +297,18 @@ impl PayloadSearch<'_> {
         let iterations = self.iterations;
         if optimum.unlimited && self.requested.side == PayloadSide::Maximum {
             let (cables, limits) = (Vec::new(), Vec::new());
-            return Ok(PayloadBound { mass: f64::INFINITY, cables, limits, residual: 0.0, iterations, excluded_from: None });
+            return Ok(PayloadBound {
+                mass: f64::INFINITY,
+                cables,
+                limits,
+                residual: 0.0,
+                iterations,
+                excluded_from: None,
+            });
         }
 
-        let excluded_from = if self.requested.prove { self.excluded_weight(optimum).map(|weight| weight / g) } else { None };
+        let excluded_from =
+            if self.requested.prove { self.excluded_weight(optimum).map(|weight| weight / g) } else { None };
         let Self { robot, pose, mut search, requested, .. } = self;
         search.set(&optimum.tau);
         let cables = search.into_cables();

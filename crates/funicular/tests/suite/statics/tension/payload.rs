@@ -132,7 +132,12 @@ fn the_maximum_payload_is_where_tensions_within_the_limits_end() {
 
             // The limits are met to a millionth, in both ways.
             let size = found.mass + robot.platform.mass;
-            assert!((found.mass - expected).abs() < 2e-6 * size, "{}, {model:?}: {} {expected}", robot.name, found.mass);
+            assert!(
+                (found.mass - expected).abs() < 2e-6 * size,
+                "{}, {model:?}: {} {expected}",
+                robot.name,
+                found.mass
+            );
             let excluded = found.excluded_from.unwrap_or_else(|| panic!("{}, {model:?}", robot.name));
             assert!(excluded > found.mass && excluded < found.mass + 1e-3 * size, "{}: {excluded}", robot.name);
             assert!(found.residual < statics::RESIDUAL_LIMIT && found.iterations < 10, "{}", found.iterations);
