@@ -110,9 +110,10 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
         };
         ThresholdRow { tolerance_mm, within, from_mass_kg }
     });
+    let implausible = funicular::warnings::of_robot(robot).into_iter().map(|warning| warning.to_string());
     Ok(PoseErrors {
         robot: robot.name.clone(),
-        warnings: warnings(&points),
+        warnings: implausible.chain(warnings(&points)).collect(),
         points: points
             .iter()
             .map(|point| PoseErrorRow {
