@@ -169,3 +169,24 @@ fn a_key_that_a_command_does_not_have_is_refused_in_every_command() {
         assert!(error.contains("has no key `poze`; did you mean `pose`?"), "{error}");
     }
 }
+
+/// Robots whose numbers other programs computed, random ones among them: none of them has an implausible value.
+#[test]
+fn no_reference_robot_is_implausible() {
+    use funicular::robot::Robot;
+    use funicular::statics::{self, StaticModel};
+    use funicular::warnings;
+
+    let reference: Value = serde_json::from_str(include_str!("../reference/independent.json")).unwrap();
+    let cases = reference["cases"].as_array().unwrap();
+    assert!(cases.len() > 10);
+    for case in cases {
+        let robot = Robot::from_toml(case["toml"].as_str().unwrap()).unwrap();
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        let mut warned = warnings::of_robot(&robot);
+        warned.extend(warnings::of_plausibility(&robot, &rest));
+        let warned: Vec<String> = warned.iter().map(ToString::to_string).collect();
+        assert_eq!(warned, Vec::<String>::new(), "{}", robot.name);
+        assert_eq!(warnings::plausibility::notes(&robot), Vec::<String>::new(), "{}", robot.name);
+    }
+}
