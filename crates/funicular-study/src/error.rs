@@ -2,6 +2,7 @@
 
 use crate::wording::{Words, message};
 use funicular::dynamics::DynamicsError;
+use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
 use funicular::warnings::Warning;
@@ -84,6 +85,7 @@ impl ErrorKind {
             None => {
                 matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
                     || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
+                    || error.downcast_ref().is_some_and(ReductionError::is_no_solution)
                     || error.is::<NoSolution>()
             }
         };

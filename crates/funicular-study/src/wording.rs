@@ -21,8 +21,13 @@ pub enum Words {
 const PROGRAM_NAMES: [(&str, &str); 2] = [("robot", "ROBOT"), ("files", "FILE")];
 
 /// Keys with another form in Python: switches with their value, a method, a shorter keyword.
-const PYTHON_NAMES: [(&str, &str); 4] =
-    [("resume", "resume=True"), ("discard", "discard=True"), ("set", "with_"), ("output_file", "file")];
+const PYTHON_NAMES: [(&str, &str); 5] = [
+    ("adaptive", "adaptive=True"),
+    ("resume", "resume=True"),
+    ("discard", "discard=True"),
+    ("set", "with_"),
+    ("output_file", "file"),
+];
 
 /// Text in which the names of options are written for a front end.
 ///

@@ -171,6 +171,18 @@ pub enum StaticsError {
         /// Maximum tension [N].
         maximum: f64,
     },
+    /// No payload brings the tensions within their limits.
+    #[error(
+        "no payload was found with which tensions within their limits hold this pose; choose another pose or centre of \
+         mass of the payload, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
+    )]
+    NoPayload,
+    /// The weight of a payload does not act on the cables.
+    #[error(
+        "a payload has no weight that the cables carry: there is no gravity, or only gravity out of the plane of the \
+         platform"
+    )]
+    WeightlessPayload,
     /// The rule needs a maximum tension.
     #[error(
         "the tension rule `{rule}` needs a maximum tension for every cable, and cable \"{cable}\" has none: give \
@@ -322,6 +334,8 @@ impl StaticsError {
             Self::BeyondLimits(_) => "tension-limits",
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
+            Self::NoPayload => "no-payload",
+            Self::WeightlessPayload => "weightless-payload",
             Self::NeedsMaximum { .. } => "needs-maximum",
             Self::TargetCount { .. } => "wanted-count",
             Self::TargetTension { .. } => "wanted",
@@ -355,6 +369,7 @@ impl StaticsError {
                 | Self::LengthsPush { .. }
                 | Self::BeyondLimits(_)
                 | Self::NotFoundWithinLimits { .. }
+                | Self::NoPayload
                 | Self::NotNearest { .. }
                 | Self::NotConverged { .. }
                 | Self::LostInRounding { .. }

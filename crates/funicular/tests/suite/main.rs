@@ -8,6 +8,7 @@ mod cable;
 mod cable_motion;
 mod catenary;
 mod compare;
+mod control_model;
 mod derivatives;
 mod dynamics;
 mod library;

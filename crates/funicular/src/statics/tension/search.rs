@@ -101,9 +101,9 @@ struct MarginOptimum {
 
 /// Limited growth of the smallest distance from the limits [N].
 #[derive(Debug, Clone, Copy)]
-struct ProximalStep {
-    from: f64,
-    by: f64,
+pub(super) struct ProximalStep {
+    pub from: f64,
+    pub by: f64,
 }
 
 /// Step control of the search for the maximum distance.
@@ -112,9 +112,9 @@ struct ProximalStep {
 /// smaller: the distance may grow by a limited amount only, with the smallest possible move of the tensions (a proximal
 /// step). The fixed points are the same.
 #[derive(Debug)]
-struct Stride {
-    climb: Option<ProximalStep>,
-    last_change: f64,
+pub(super) struct Stride {
+    pub climb: Option<ProximalStep>,
+    pub last_change: f64,
     setbacks: usize,
 }
 
@@ -125,7 +125,7 @@ impl Default for Stride {
 }
 
 impl Stride {
-    fn next(&mut self, change: f64, size: f64, height: f64) {
+    pub(super) fn next(&mut self, change: f64, size: f64, height: f64) {
         if change > 0.9 * self.last_change {
             self.setbacks += 1;
             if self.setbacks > 1 {
