@@ -123,7 +123,8 @@ mod tests {
 
     #[test]
     fn texts_become_a_column_of_cells_and_bad_variables_are_refused() {
-        let file = bytes(&[Variable { name: "outputs", value: Value::Texts(vec!["az", "cable:3@0.5:z", "µ"]) }]).unwrap();
+        let file =
+            bytes(&[Variable { name: "outputs", value: Value::Texts(vec!["az", "cable:3@0.5:z", "µ"]) }]).unwrap();
         let text: Vec<u8> = file.iter().copied().filter(|byte| *byte != 0).collect();
         let text = String::from_utf8_lossy(&text).into_owned();
         assert!(text.contains("outputs") && text.contains("cable:3@0.5:z"), "{text}");

@@ -156,10 +156,9 @@ pub(crate) fn matlab_file<'py>(
 ) -> PyResult<Bound<'py, PyBytes>> {
     let of_matrices =
         matrices.iter().map(|(name, rows, entries)| Variable { name, value: Value::Matrix(*rows, entries) });
-    let of_texts = texts.iter().map(|(name, column)| Variable {
-        name,
-        value: Value::Texts(column.iter().map(String::as_str).collect()),
-    });
+    let of_texts = texts
+        .iter()
+        .map(|(name, column)| Variable { name, value: Value::Texts(column.iter().map(String::as_str).collect()) });
     let all: Vec<Variable> = of_matrices.chain(of_texts).collect();
     let bytes = mat::bytes(&all).ok_or_else(|| {
         errors::input("the matrices are too large for a file of MATLAB: write an .npz file".to_owned())

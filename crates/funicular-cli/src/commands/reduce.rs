@@ -50,11 +50,15 @@ fn percent(fraction: f64) -> String {
 
 impl Printed for ControlStateSpace {
     fn text(&self) -> String {
-        let mut modes = Table::new(&["states", "frequency [Hz]", "damping ratio [%]", "kind", "part in a response [%]"])
-            .text_columns(&[0, 3]);
+        let mut modes =
+            Table::new(&["states", "frequency [Hz]", "damping ratio [%]", "kind", "part in a response [%]"])
+                .text_columns(&[0, 3]);
         for of in &self.states {
-            let states =
-                if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) };
+            let states = if of.states == 1 {
+                format!("{}", of.first + 1)
+            } else {
+                format!("{}, {}", of.first + 1, of.first + 2)
+            };
             modes.row(vec![
                 states,
                 decimals(of.frequency_hz, 4),

@@ -24,7 +24,7 @@ const ROUNDS: usize = 6;
 const HIGH: f64 = 0.9;
 /// Minimum size of a response that counts as one, as a fraction of the responses that its input and its output have
 /// otherwise. Symmetry and rounding leave smaller ones.
-pub(super) const MIN_COUPLING: f64 = 1e-6;
+const MIN_COUPLING: f64 = 1e-6;
 
 /// Largest value of a pair of output and input, and its frequency [Hz].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ pub(super) struct Reference<'a> {
     pub(super) at_rest: Vec<f64>,
     /// Peak of each pair up to the limit.
     pub(super) peaks: Vec<Maximum>,
-    /// Peak of each pair, or the minimum size that counts if it is larger.
+    /// Size to which the error of each pair is related: its peak, or the product of the scales if it is not coupled.
     pub(super) sizes: Vec<f64>,
     /// Scales of outputs and inputs; divided by both, every peak is at most 1.
     pub(super) output_scale: Vec<f64>,
@@ -132,8 +132,12 @@ impl<'a> Reference<'a> {
         measure: &mut dyn FnMut(f64, &[Complex]) -> Vec<f64>,
     ) -> Result<Vec<Maximum>, ResponseError> {
         let pairs = self.pairs();
-        let mut heights: Vec<Vec<f64>> =
-            self.frequencies_hz.iter().zip(self.values.chunks_exact(pairs)).map(|(&f, values)| measure(f, values)).collect();
+        let mut heights: Vec<Vec<f64>> = self
+            .frequencies_hz
+            .iter()
+            .zip(self.values.chunks_exact(pairs))
+            .map(|(&f, values)| measure(f, values))
+            .collect();
 
         for round in 0..=ROUNDS {
             let maxima: Vec<usize> = (0..pairs)
@@ -158,9 +162,12 @@ impl<'a> Reference<'a> {
                     let after = (k + 1 < heights.len()).then_some(k + 1);
                     let is_maximum = [before, after].iter().flatten().all(|other| heights[*other][pair] <= height);
                     if height > 0.0 && height >= high && is_maximum {
-                        added.extend([before, after].iter().flatten().map(|other| {
-                            0.5 * (self.frequencies_hz[k] + self.frequencies_hz[*other])
-                        }));
+                        added.extend(
+                            [before, after]
+                                .iter()
+                                .flatten()
+                                .map(|other| 0.5 * (self.frequencies_hz[k] + self.frequencies_hz[*other])),
+                        );
                     }
                 }
             }
@@ -216,7 +223,8 @@ impl<'a> Reference<'a> {
         self.sizes = (0..self.peaks.len())
             .map(|pair| {
                 let scale = self.output_scale[pair % outputs] * self.input_scale[pair / outputs];
-                self.peaks[pair].value.max(MIN_COUPLING * scale)
+                let peak = self.peaks[pair].value;
+                if peak >= MIN_COUPLING * scale { peak } else { scale }
             })
             .collect();
     }

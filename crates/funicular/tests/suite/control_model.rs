@@ -7,7 +7,8 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, DMat, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::reduced_model::{
-    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, Size, StateSpace, control_model, reduce,
+    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, Size, StateSpace, control_model,
+    reduce,
 };
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Damping, Robot};
@@ -47,7 +48,8 @@ impl Case {
         outputs: &[(Signal, Quantity)],
         size: Size,
     ) -> Result<ControlModel, ReductionError> {
-        let requested = RequestedStateSpace { below_hz: self.below_hz, size, damping_at: DampingAt::NaturalFrequencies };
+        let requested =
+            RequestedStateSpace { below_hz: self.below_hz, size, damping_at: DampingAt::NaturalFrequencies };
         control_model(&self.robot, &self.rest, &self.dynamics, inputs, outputs, requested)
     }
 
@@ -184,7 +186,8 @@ fn fewest(case: &Case, input: &Signal, output: &(Signal, Quantity), tolerance: f
     let power = power.iter().position(|quantity| *quantity == output.1).unwrap() as i32;
     let mut parts: Vec<(f64, Vec<Complex>)> = (undamped.modes.iter().zip(&damped.modes))
         .map(|(mode, partner)| {
-            let residue = ports[0].in_mode(&case.dynamics, mode) * ports[1].in_mode(&case.dynamics, mode) / mode.modal_mass;
+            let residue =
+                ports[0].in_mode(&case.dynamics, mode) * ports[1].in_mode(&case.dynamics, mode) / mode.modal_mass;
             let omega_n = partner.omega.norm();
             let values: Vec<Complex> = frequencies
                 .iter()
@@ -259,10 +262,14 @@ fn statics_and_feedthrough_are_those_of_physics() {
         // The static displacement is that of the static stiffness, for any number of modes.
         let port = response::along(&Vec3::z(), &Vec3::new(0.1, 0.05, -0.02), &case.rest.pose);
         let stiffness = case.dynamics.stiffness(0.0).map(|k| k.re);
-        let expected = port.dot(&stiffness.try_inverse().unwrap().column_iter().zip(port.iter()).fold(
-            port * 0.0,
-            |sum, (column, p)| sum + column * *p,
-        ));
+        let expected = port.dot(
+            &stiffness
+                .try_inverse()
+                .unwrap()
+                .column_iter()
+                .zip(port.iter())
+                .fold(port * 0.0, |sum, (column, p)| sum + column * *p),
+        );
         assert!((at_zero[(0, 0)].re - expected).abs() < 1e-8 * expected, "{} {expected}", at_zero[(0, 0)]);
 
         // Nothing moves at a constant force; a velocity has no feedthrough.
@@ -308,7 +315,9 @@ fn with_every_mode_the_acceleration_has_the_feedthrough_of_the_mass_matrix() {
 fn equal_frequencies_take_one_pair_of_states_for_one_direction() {
     // A point mass below the middle of four equal cables: its two horizontal frequencies are equal.
     let cable = |i: usize, x: f64, y: f64| {
-        format!("[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{x}, {y}, 4.0]\nunstrained_length_m = 4.999\n")
+        format!(
+            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{x}, {y}, 4.0]\nunstrained_length_m = 4.999\n"
+        )
     };
     let text = format!(
         "name = \"four\"\ngravity_m_s2 = [0.0, 0.0, -9.81]\n[platform]\nmotion = \"point-mass\"\nmass_kg = 20.0\n\
