@@ -22,6 +22,10 @@ pub enum Kind {
     Vtp,
     /// Page for a browser.
     Html,
+    /// Figure of lines and texts for drawing programs and browsers.
+    Svg,
+    /// Figure of lines and texts for papers.
+    Pdf,
     /// Robot file.
     Toml,
     /// Python script.
@@ -35,7 +39,7 @@ pub enum Kind {
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 31] = [
+const ENDINGS: [(&[&str], Kind); 33] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
     (&["json"], Kind::Json),
@@ -44,6 +48,8 @@ const ENDINGS: [(&[&str], Kind); 31] = [
     (&["vti"], Kind::Vti),
     (&["vtp"], Kind::Vtp),
     (&["html", "htm"], Kind::Html),
+    (&["svg"], Kind::Svg),
+    (&["pdf"], Kind::Pdf),
     (&["toml"], Kind::Toml),
     (&["py"], Kind::Python),
     (&["npz"], Kind::Npz),
@@ -59,8 +65,8 @@ const ENDINGS: [(&[&str], Kind); 31] = [
     (&["pkl", "pickle"], Kind::Other("Python's pickled objects")),
     (&["ipynb"], Kind::Other("a notebook")),
     (&["vtk", "vtu", "vtr", "vts", "vtm", "pvd"], Kind::Other("another format of VTK")),
-    (&["pdf", "ps", "eps"], Kind::Other("printed pages")),
-    (&["png", "jpg", "jpeg", "gif", "svg", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
+    (&["ps", "eps"], Kind::Other("printed pages")),
+    (&["png", "jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
     (&["doc", "docx", "odt", "rtf", "ppt", "pptx", "tex"], Kind::Other("a document")),
     (&["yaml", "yml", "ini"], Kind::Other("another format of settings")),
     (&["xml", "wcrfx"], Kind::Other("another format of XML")),
@@ -87,6 +93,8 @@ impl Kind {
             Self::Vti => "an image of VTK",
             Self::Vtp => "curves and polygons of VTK",
             Self::Html => "an HTML page",
+            Self::Svg => "a figure in SVG",
+            Self::Pdf => "a figure in PDF",
             Self::Toml => "TOML",
             Self::Python => "a Python script",
             Self::Npz => "arrays of NumPy",

@@ -43,7 +43,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]
-    use crate::robot::PyRobot;
+    use crate::robot::{PyRobot, robot_of_source};
     #[pymodule_export]
     use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]

@@ -54,7 +54,7 @@ pub(crate) struct ReduceKeywords<'a> {
     pub(crate) output: Option<Vec<String>>,
     pub(crate) input_point_m: Option<Numbers>,
     pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) tolerance: Number,
+    pub(crate) tolerance: Option<Number>,
     pub(crate) damping_at_hz: Option<Number>,
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
@@ -70,9 +70,10 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
         points: points(keywords.input_point_m, keywords.output_point_m)?,
         form: ModelForm::SecondOrder,
         order: None,
-        tolerance: Some(keywords.tolerance.value("tolerance")?),
+        tolerance: keywords.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
         damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
@@ -175,14 +176,14 @@ pub(crate) fn export(
     of: &PyEquilibrium,
     to: &str,
     path: PathBuf,
-    segments: Count,
+    segments: Option<Count>,
     modes_below_hz: Option<Number>,
 ) -> PyResult<Vec<String>> {
     let rule = format!("give a whole number from 1 to {MAX_SEGMENTS}");
     let request = request::ExportRequest {
         robot: of.of.get().source.clone(),
         to: named("to", to)?,
-        segments: segments.within("segments", 1..=MAX_SEGMENTS, &rule)?,
+        segments: segments.map_or(Ok(20), |count| count.within("segments", 1..=MAX_SEGMENTS, &rule))?,
         modes_below_hz: modes_below_hz.map(|hz| hz.value("modes_below_hz")).transpose()?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
@@ -196,7 +197,7 @@ pub(crate) fn export(
 
 /// Keywords of `report`.
 pub(crate) struct PageKeywords<'a> {
-    pub(crate) below_hz: Number,
+    pub(crate) below_hz: Option<Number>,
     pub(crate) input: Option<String>,
     pub(crate) output: Option<String>,
     pub(crate) input_point_m: Option<Numbers>,
@@ -214,11 +215,12 @@ pub(crate) fn report(
 ) -> PyResult<PageObject> {
     let request = request::ReportRequest {
         robot: of.of.get().source.clone(),
-        below_hz: keywords.below_hz.value("below_hz")?,
+        below_hz: keywords.below_hz.map_or(Ok(20.0), |below_hz| below_hz.value("below_hz"))?,
         input: keywords.input,
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
 

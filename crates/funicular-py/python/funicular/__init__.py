@@ -23,6 +23,7 @@ from funicular._errors import (
     InputError,
     NoSolutionError,
     ResponseError,
+    ResponseWarning,
     RobotFileError,
     StaticsError,
 )
@@ -51,6 +52,7 @@ __all__ = [
     "Pose",
     "ReducedModel",
     "ResponseError",
+    "ResponseWarning",
     "Robot",
     "RobotFileError",
     "StateSpaceModel",

@@ -116,7 +116,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Contr
         robot: at_rest.robot.name.clone(),
         form: ModelForm::StateSpace.name(),
         below_hz: request.below_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(at_rest, linearisation),
         order: model.space.a.nrows(),
         error: model.error,
         damping_error: model.damping_error,

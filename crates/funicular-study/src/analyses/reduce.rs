@@ -115,7 +115,7 @@ pub struct CoordinateRow {
 /// A signal that the robot does not have, a robot without such an equilibrium or model, or too many modes.
 pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<ReducedForm> {
     check(&robot, request)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     Ok(match request.form {
         ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(&at_rest, request)?)),
         ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(about(&at_rest, request)?)),
@@ -207,7 +207,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduc
         robot: at_rest.robot.name.clone(),
         form: ModelForm::SecondOrder.name(),
         below_hz: request.below_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(at_rest, linearisation),
         order: model.mass.nrows(),
         frequency_error: model.frequency_error,
         truncation_error: model.truncation_error,

@@ -77,7 +77,7 @@ impl<'a> Reference<'a> {
             input_scale: Vec::new(),
         };
 
-        let displacement = response::between_all(dynamics, &[STATIC * below_hz], &channels.inputs, &channels.outputs)?;
+        let displacement = displacements(dynamics, &[STATIC * below_hz], channels)?;
         for (pair, value) in displacement.iter().enumerate() {
             if this.quantity(pair) == Quantity::Displacement {
                 this.at_rest[pair] = value.re;
@@ -116,7 +116,7 @@ impl<'a> Reference<'a> {
         channels: &Channels,
         frequencies_hz: &[f64],
     ) -> Result<Vec<Complex>, ResponseError> {
-        let mut values = response::between_all(dynamics, frequencies_hz, &channels.inputs, &channels.outputs)?;
+        let mut values = displacements(dynamics, frequencies_hz, channels)?;
         for (at, &frequency_hz) in values.chunks_exact_mut(self.pairs()).zip(frequencies_hz) {
             for (pair, value) in at.iter_mut().enumerate() {
                 *value *= Complex::new(0.0, frequency_hz * TAU).powu(derivatives(self.quantity(pair)));
@@ -242,6 +242,20 @@ pub(super) fn derivatives(quantity: Quantity) -> u32 {
         Quantity::Velocity => 1,
         Quantity::Acceleration => 2,
     }
+}
+
+/// Displacements of all outputs per force at all inputs: outputs×inputs entries by columns, one frequency [Hz] after the
+/// other.
+fn displacements(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    channels: &Channels,
+) -> Result<Vec<Complex>, ResponseError> {
+    let (inputs, outputs) = (channels.inputs.len(), channels.outputs.len());
+    let measured: Vec<_> = channels.outputs.iter().map(|port| (port.clone(), Quantity::Displacement)).collect();
+    let rows = response::matrix(dynamics, frequencies_hz, &channels.inputs, &measured)?;
+    let pair = |k: usize, j: usize| rows.iter().skip(j).step_by(inputs).take(outputs).map(move |row| row[k]);
+    Ok((0..frequencies_hz.len()).flat_map(|k| (0..inputs).flat_map(move |j| pair(k, j))).collect())
 }
 
 /// Frequencies [Hz] up to the limit, ascending: at equal distances, at equal ratios, and around each natural frequency

@@ -14,6 +14,7 @@ mod dynamics;
 mod library;
 mod modes;
 mod platform;
+mod plausibility;
 mod pose_error;
 mod random;
 mod reduced_model;
