@@ -100,7 +100,20 @@ fn requests() -> Vec<Value> {
                 &state,
                 &model,
                 &points,
-                &json!({ "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "tolerance": 1e-3, "damping_at_hz": 1.0 }),
+                &json!({
+                    "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "form": "second-order", "tolerance": 1e-3,
+                    "damping_at_hz": 1.0
+                }),
+            ],
+        ),
+        of(
+            "reduce",
+            &[
+                &robot,
+                &state,
+                &model,
+                &points,
+                &json!({ "below_hz": 5.0, "input": [], "output": ["az"], "form": "state-space", "order": 8 }),
             ],
         ),
         of("map", &[&robot, &point, &json!({ "grid": grid })]),
