@@ -7,7 +7,7 @@ use crate::errors;
 use crate::interrupt::interruptible;
 use crate::robot::PyRobot;
 use crate::vibration::{self, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
-use crate::written::{self, PageKeywords, ReduceKeywords};
+use crate::written::{self, PageKeywords, ReduceKeywords, StateSpaceKeywords};
 use funicular_study::analyses;
 use funicular_study::request::{State, Tensions};
 use numpy::Complex64;
@@ -265,7 +265,71 @@ impl PyAnalyses {
         Self::at(slf, |rest| vibration::cable(py, rest, name, hz, cable_model, in_plane_only))
     }
 
-    /// Computes a second-order model M x'' + C x' + K x = B f, y = L x for control design.
+    /// Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
+    ///
+    /// Parameters
+    /// ----------
+    /// input, output
+    ///     Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+    ///     displacements and rotations.
+    /// below_hz
+    ///     Highest frequency for which the model is made [Hz].
+    /// order
+    ///     Maximum number of states, instead of a tolerance.
+    /// tolerance
+    ///     Maximum of |G_r − G| up to the limit relative to the peak of |G|, for each response. The model has as few
+    ///     states as it allows. 0.01 if neither is given.
+    /// input_point_m, output_point_m
+    ///     Points of the platform, as in `frf`.
+    /// damping_at_hz
+    ///     Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
+    ///     not given.
+    /// cable_model, assembly, in_plane_only
+    ///     Models, as in `stiffness`.
+    ///
+    /// Raises
+    /// ------
+    /// funicular.NoSolutionError
+    ///     No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
+    #[pyo3(signature = (
+        input=None, output=None, *, below_hz, order=None, tolerance=None, input_point_m=None, output_point_m=None,
+        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn state_space(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        input: Option<Vec<String>>,
+        output: Option<Vec<String>>,
+        below_hz: Number,
+        order: Option<Count>,
+        tolerance: Option<Number>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        damping_at_hz: Option<Number>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<written::StateSpaceObject> {
+        let keywords = StateSpaceKeywords {
+            below_hz,
+            input,
+            output,
+            order,
+            tolerance,
+            input_point_m,
+            output_point_m,
+            damping_at_hz,
+            cable_model,
+            assembly,
+            in_plane_only,
+        };
+        Self::at(slf, |rest| written::state_space(py, rest, keywords))
+    }
+
+    /// Computes a second-order model M x'' + C x' + K x = B f, y = L x, and its state space with all clamped modes.
+    ///
+    /// `state_space` gives far fewer states.
     ///
     /// Parameters
     /// ----------

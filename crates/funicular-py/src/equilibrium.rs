@@ -29,8 +29,8 @@ pub(crate) struct PyEquilibrium {
 
 impl PyEquilibrium {
     pub(crate) fn of(py: Python<'_>, of: Py<PyRobot>, state: State, tensions: Tensions) -> PyResult<Self> {
-        let robot = &of.get().robot;
-        let at_rest = py.detach(|| at_rest::equilibrium((**robot).clone(), &state, &tensions));
+        let PyRobot { robot, source, .. } = of.get();
+        let at_rest = py.detach(|| at_rest::equilibrium((**robot).clone(), source, &state, &tensions));
         let at_rest = Arc::new(at_rest.map_err(|error| errors::study(&error))?);
         Ok(Self { of, state, tensions, at_rest })
     }

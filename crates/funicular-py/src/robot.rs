@@ -53,7 +53,7 @@ pub(crate) struct PyRobot {
 }
 
 impl PyRobot {
-    fn read(py: Python<'_>, source: RobotText) -> PyResult<Py<Self>> {
+    pub(crate) fn read(py: Python<'_>, source: RobotText) -> PyResult<Py<Self>> {
         let RobotFile { robot, text, .. } = source.read().map_err(|error| errors::study(&error))?;
         let robot = Self { source, text, robot: Arc::new(robot) };
         Py::new(py, PyClassInitializer::from(PyAnalyses).add_subclass(robot))
@@ -239,6 +239,9 @@ impl PyRobot {
     ///     Velocity of the wind in world axes [m/s], instead of the wind in the robot file.
     /// cable_load_n_per_m
     ///     Load per metre of every cable besides its weight, in world axes [N/m].
+    /// hold_lengths_of_pose
+    ///     Hold the unstrained lengths with which the robot, as it was read and before `with_`, rests at the pose. All
+    ///     changes, those of `with_` and those of this call, then act at these lengths and move the platform.
     ///
     /// Raises
     /// ------
@@ -249,7 +252,7 @@ impl PyRobot {
     #[pyo3(signature = (
         pose=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
-        wind_m_s=None, cable_load_n_per_m=None
+        wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn equilibrium(
@@ -268,10 +271,12 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
     ) -> PyResult<Py<PyEquilibrium>> {
         let state = StateKeywords {
             pose,
             lengths_m,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -302,7 +307,7 @@ impl PyRobot {
     #[pyo3(signature = (
         poses=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
-        wind_m_s=None, cable_load_n_per_m=None, threads=None
+        wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, threads=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn equilibria(
@@ -321,12 +326,14 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
         threads: Option<Threads>,
     ) -> PyResult<batch::Equilibria> {
         let states = batch::States::read(poses, lengths_m)?;
         let state = StateKeywords {
             pose: None,
             lengths_m: None,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -336,7 +343,7 @@ impl PyRobot {
             cable_load_n_per_m,
         };
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        batch::equilibria(py, &self.robot, states, &state.request()?, &tensions.request()?, threads)
+        batch::equilibria(py, self, states, &state.request()?, &tensions.request()?, threads)
     }
 
     /// Computes quantities over poses, one row per pose.
@@ -390,8 +397,8 @@ impl PyRobot {
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
-        threads=None, executor=None, chunks_per_task=None, progress=None
+        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
+        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn map(
@@ -417,6 +424,7 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
         file: Option<PathBuf>,
         resume: bool,
         discard: bool,
@@ -429,6 +437,7 @@ impl PyRobot {
         let state = StateKeywords {
             pose,
             lengths_m,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -462,8 +471,8 @@ impl PyRobot {
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
-        threads=None, executor=None, chunks_per_task=None, progress=None
+        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
+        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn sweep(
@@ -488,6 +497,7 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
         file: Option<PathBuf>,
         resume: bool,
         discard: bool,
@@ -500,6 +510,7 @@ impl PyRobot {
         let state = StateKeywords {
             pose,
             lengths_m,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -537,6 +548,11 @@ impl PyRobot {
     ///     First mass [kg], last mass [kg] and number of masses.
     /// lengths_m
     ///     Unstrained lengths of all masses [m], one per cable; those of the robot file if not given.
+    /// pose
+    ///     Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`, rests
+    ///     there. A robot file with a pose gives it if it is not given here.
+    /// tension_rule, target_tension_n, min_tension_n, max_tension_n
+    ///     Choice of the tensions at this pose, as in `equilibrium`.
     /// tolerance_mm
     ///     Distance between spring and catenary pose below which the spring is good enough [mm]; `threshold` then gives
     ///     the mass from which on this holds.
@@ -544,12 +560,21 @@ impl PyRobot {
     /// Returns
     /// -------
     /// The keys of the program's JSON: `points` with one entry for each mass.
-    #[pyo3(signature = (mass_kg, *, lengths_m=None, tolerance_mm=None))]
+    #[pyo3(signature = (
+        mass_kg, *, lengths_m=None, pose=None, tension_rule=None, target_tension_n=None, min_tension_n=None,
+        max_tension_n=None, tolerance_mm=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn pose_error<'py>(
         &self,
         py: Python<'py>,
         mass_kg: (Number, Number, Count),
         lengths_m: Option<Numbers>,
+        pose: Option<PoseLike>,
+        tension_rule: Option<&str>,
+        target_tension_n: Option<Numbers>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
         tolerance_mm: Option<Number>,
     ) -> PyResult<TextKeyed<'py>> {
         let (from, to, count) = mass_kg;
@@ -559,6 +584,8 @@ impl PyRobot {
             robot: self.source.clone(),
             mass_kg: (from.value("mass_kg[0]")?, to.value("mass_kg[1]")?, count.within("mass_kg[2]", 2..=max, &rule)?),
             lengths_m: lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
+            pose: pose.map(|pose| pose.0),
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
             tolerance_mm: tolerance_mm.map(|tolerance| tolerance.value("tolerance_mm")).transpose()?,
         };
 
@@ -610,9 +637,11 @@ impl PyRobot {
         slf.py().import("funicular._show")?.call_method1("html", (slf,))
     }
 
+    /// The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (String,)>> {
-        let rebuild = slf.get_type().getattr("from_toml")?;
-        Ok((rebuild, (slf.get().text.clone(),)))
+        let rebuild = slf.py().import("funicular._funicular")?.getattr("robot_of_source")?;
+        let source = serde_json::to_string(&slf.get().source).map_err(|error| errors::input(error.to_string()))?;
+        Ok((rebuild, (source,)))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -623,4 +652,11 @@ impl PyRobot {
         let _ = memo;
         slf
     }
+}
+
+/// Robot of the text and the changes that a pickle contains, as JSON.
+#[pyfunction]
+pub(crate) fn robot_of_source(py: Python<'_>, source: &str) -> PyResult<Py<PyRobot>> {
+    let source = serde_json::from_str(source).map_err(|error| errors::input(error.to_string()))?;
+    PyRobot::read(py, source)
 }

@@ -126,6 +126,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         stations: keywords.stations.map(stations).transpose()?,
         damped: keywords.damped,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
 
@@ -147,6 +148,7 @@ pub(crate) fn compare<'py>(
         robot: of.of.get().source.clone(),
         below_hz: below_hz.value("below_hz")?,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         terms: terms(assembly, in_plane_only)?,
     };
     let at_rest = Arc::clone(&of.at_rest);

@@ -37,7 +37,7 @@ impl Kind {
     /// Minimum fraction of the kinetic energy for which a mode belongs to the platform or to the cables.
     pub const SHARE: f64 = 0.75;
 
-    fn of(platform_fraction: f64) -> Self {
+    pub(crate) fn of(platform_fraction: f64) -> Self {
         if platform_fraction >= Self::SHARE {
             Self::Platform
         } else if platform_fraction <= 1.0 - Self::SHARE {

@@ -25,6 +25,7 @@ impl StateArgs {
         State {
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
             pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            hold_lengths_of_pose: self.hold_lengths_of_pose,
             mass_kg: self.mass_kg,
             static_model: self.static_model.into(),
             load: self.load.request(),
@@ -102,7 +103,13 @@ impl StaticsArgs {
 
 impl StiffnessArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::StiffnessRequest {
-        request::StiffnessRequest { robot, at_hz: self.at_hz, state: self.state.request(), model: self.model.request() }
+        request::StiffnessRequest {
+            robot,
+            at_hz: self.at_hz,
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
+        }
     }
 }
 
@@ -117,6 +124,7 @@ impl ModesArgs {
             stations: self.stations,
             damped: true,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -138,6 +146,7 @@ impl FrfArgs {
             signal_points: self.signal_points.request(),
             prominence_db: self.prominence_db,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -149,6 +158,7 @@ impl CompareArgs {
             robot,
             below_hz: self.below_hz,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             terms: self.terms.request(),
         }
     }
@@ -161,6 +171,8 @@ impl PoseErrorArgs {
             robot,
             mass_kg: (range.from, range.to, range.count),
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
+            pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            tensions: self.tensions.request(),
             tolerance_mm: self.tolerance_mm,
         }
     }
@@ -173,6 +185,7 @@ impl CableArgs {
             name: self.name.clone(),
             range: self.range.request(),
             state: self.state.request(),
+            tensions: self.tensions.request(),
             cable_model: self.cable_model.map(CableModelName::into),
             in_plane_only: self.in_plane_only,
         }
@@ -187,9 +200,12 @@ impl ReduceArgs {
             input: self.input.iter().map(|input| input.name.clone()).collect(),
             output: self.output.iter().map(|output| output.name.clone()).collect(),
             points: self.points.request(),
+            form: self.form.into(),
+            order: self.order,
             tolerance: self.tolerance,
             damping_at_hz: self.damping_at_hz,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -231,6 +247,7 @@ impl ReportArgs {
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }

@@ -30,7 +30,7 @@ from funicular._errors import (
 from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel
+from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, import_robot, merge, paper, run, validate
 from funicular._sweeps import Sweep
 
@@ -55,6 +55,7 @@ __all__ = [
     "ResponseWarning",
     "Robot",
     "RobotFileError",
+    "StateSpaceModel",
     "StaticsError",
     "Sweep",
     "__version__",

@@ -151,7 +151,7 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
         model: request.model,
     };
     signals(&robot, &pairs)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let response = response(&at_rest, &pairs, frequencies, request.adaptive, watch)?;
 
     let responses = (0..response.values.len()).map(|i| response.row(i, &pairs, request.prominence_db)).collect();
@@ -159,7 +159,7 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
     warnings.extend(caveat);
     Ok(Frf {
         robot: at_rest.robot.name.clone(),
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(&at_rest, linearisation),
         responses,
         adaptive: request.adaptive,
         prominence_db: request.prominence_db,

@@ -19,6 +19,7 @@ use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Vec6, rotation};
 use funicular::modes::{self, Kind, Modes};
+use funicular::pose_error::PoseDifference;
 use funicular::response::{Peak, Quantity};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
@@ -113,7 +114,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
         source: robot.source.trim_end_matches('.'),
-        key: key_numbers(robot, equilibrium, &found),
+        key: key_numbers(at_rest, &found),
         state: state_text(equilibrium),
         robot_figure: drawing::complete(robot, equilibrium),
         platform_figure: drawing::close_up(robot, equilibrium),
@@ -160,7 +161,8 @@ fn sentence(text: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
-fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(&'static str, String)> {
+fn key_numbers(at_rest: &AtRest, found: &Modes) -> Vec<(&'static str, String)> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let p = equilibrium.pose.position_w;
     let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
     let (minimum, maximum) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
@@ -177,6 +179,13 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
     }
     if let Some(wind) = WindRow::of(&robot.wind) {
         key.push(("wind", wind.text()));
+    }
+    if let Some(held) = &at_rest.held_pose {
+        let [x, y, z] = PoseDifference::between(held, &equilibrium.pose).translation.map(|part| fixed(1e3 * part, 2));
+        key.push(("displacement at held lengths", format!("{x}, {y}, {z} mm")));
+    }
+    if let Some(rule) = &at_rest.rule {
+        key.push(("tension rule", rule.name().to_owned()));
     }
     key.push(("tensions at the platform", format!("{} to {} N", significant(minimum, 4), significant(maximum, 4))));
     if let Some(first) = found.modes.first() {

@@ -10,6 +10,10 @@ pub const KEYS: &[(&str, &str)] = &[
         "pose x, y, z [m], roll, pitch, yaw [degrees], or an object with `position_m` and `quaternion_wxyz`; the \
          lengths follow from it",
     ),
+    (
+        "hold_lengths_of_pose",
+        "hold the unstrained lengths with which the robot of the file, without any change, rests at the pose",
+    ),
     ("mass_kg", "mass of the platform [kg]; for `pose-error` the first mass, the last mass and the number of masses"),
     ("static_model", "static model of the cables"),
     ("force_n", "force on the platform, world axes [N]"),
@@ -42,7 +46,13 @@ pub const KEYS: &[(&str, &str)] = &[
         "damped",
         "compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping",
     ),
-    ("tolerance", "maximum relative error of the responses due to omitted modes"),
+    ("form", "form of the model: `state-space` or `second-order`"),
+    ("order", "maximum number of states of a state space"),
+    (
+        "tolerance",
+        "maximum error of a response relative to its peak; for the second-order form maximum relative error of the \
+         responses due to omitted modes",
+    ),
     ("tolerance_mm", "maximum distance between spring pose and catenary pose at which springs are good enough [mm]"),
     ("damping_at_hz", "frequency at which viscous damping reproduces constant damping ratios [Hz]"),
     ("name", "name of a cable"),

@@ -123,6 +123,10 @@ pub struct State {
     /// Pose of the platform.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
+    /// Hold the unstrained lengths with which the robot of the file, without any change, rests at the pose. Changes of
+    /// mass, loads and other values then move the platform.
+    #[serde(default)]
+    pub hold_lengths_of_pose: bool,
     /// Mass of the platform [kg].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
