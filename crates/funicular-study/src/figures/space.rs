@@ -109,15 +109,12 @@ impl Space {
         parts.extend(shape.cables.iter().enumerate().map(|(i, line)| (view.depth(line[line.len() / 2]), Some(i))));
         parts.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, part) in parts {
-            match part {
-                Some(i) => {
-                    let line = shape.cables[i].iter().map(|p| view.at(*p)).collect();
-                    drawing.line(line, Stroke::solid(BLUE, CURVE_WIDTH));
-                }
-                None => {
-                    let edge = Stroke::solid(BLACK, AXIS_WIDTH);
-                    self.draw_platform(drawing, view, shape, Some(FACE), &edge, style);
-                }
+            if let Some(i) = part {
+                let line = shape.cables[i].iter().map(|p| view.at(*p)).collect();
+                drawing.line(line, Stroke::solid(BLUE, CURVE_WIDTH));
+            } else {
+                let edge = Stroke::solid(BLACK, AXIS_WIDTH);
+                self.draw_platform(drawing, view, shape, Some(FACE), &edge, style);
             }
         }
     }

@@ -106,7 +106,7 @@ fn the_drawn_response_has_the_peak_where_the_result_has_it() {
     let texts = boxes(&drawing);
     let (label, _) = texts.iter().find(|(_, text)| text == "9.37").expect("the number of the highest peak");
     let curve = drawing.items.iter().filter_map(|item| match item {
-        Item::Path(path) if path.stroke.as_ref().is_some_and(|stroke| stroke.width == 1.0) => Some(&path.lines),
+        Item::Path(path) if path.stroke.as_ref() == Some(&super::style::curve(0)) => Some(&path.lines),
         _ => None,
     });
     // The second path is the curve; the first is the sample in the legend.
