@@ -201,7 +201,7 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let waiting = Waiting::for_("the model and its errors");
     let mut found = analyses::reduce::run(robot, of)?;
     drop(waiting);
-    found.matrices_file = args.matrices.as_ref().map(|path| path.display().to_string());
+    found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));
     if let Some(file) = file {
         file.write(&found)?;
     }
@@ -276,7 +276,7 @@ fn write_export(of: &requests::ExportRequest, robot: Robot, guard: &mut Guard, p
     let content = Content { name: "the exported robot", option: "-o", in_words, fitting };
     let target = Target::open(Some(path), content, guard)?;
     export::refuse(of)?;
-    let at_rest = at_rest::equilibrium(robot, &of.state, &of.tensions)?;
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
     let exported = export::run(&at_rest, of)?;
     target.write(exported.text.as_bytes())?;
     if target.is_file() {

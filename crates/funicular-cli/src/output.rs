@@ -7,6 +7,7 @@ use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use funicular_study::analyses::Found;
 use funicular_study::figures::{Figure, Size};
+use funicular_study::wording::{Words, worded};
 use funicular_study::{NoSolution, json};
 use std::fs;
 use std::io::{self, Write};
@@ -212,7 +213,7 @@ impl Sink {
                 if self.format == Format::Text {
                     bytes = results.text().into_bytes();
                     if self.target.is_file() {
-                        for warning in results.warnings() {
+                        for warning in in_words(results) {
                             writeln!(bytes, "\nwarning: {warning}")?;
                         }
                     }
@@ -228,7 +229,12 @@ impl Sink {
 }
 
 fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
-    json::write(out, results.command(), results.robot(), results, results.warnings())
+    json::write(out, results.command(), results.robot(), results, &in_words(results))
+}
+
+/// Warnings with the options of the program.
+fn in_words<R: Printed>(results: &R) -> Vec<String> {
+    results.warnings().iter().map(|warning| worded(warning, Words::Program)).collect()
 }
 
 fn to_stdout(bytes: &[u8]) -> Result<()> {

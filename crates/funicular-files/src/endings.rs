@@ -32,6 +32,8 @@ pub enum Kind {
     Python,
     /// Arrays of NumPy.
     Npz,
+    /// Variables of MATLAB.
+    Mat,
     /// Kind that is never written, in words.
     Other(&'static str),
 }
@@ -51,13 +53,13 @@ const ENDINGS: [(&[&str], Kind); 33] = [
     (&["toml"], Kind::Toml),
     (&["py"], Kind::Python),
     (&["npz"], Kind::Npz),
+    (&["mat"], Kind::Mat),
     (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
     (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
     (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
     (&["xls", "xlsx", "xlsm", "xlsb", "ods"], Kind::Other("a spreadsheet")),
     (&["arrow", "arrows", "feather", "ipc"], Kind::Other("an Arrow file")),
     (&["h5", "hdf", "hdf5", "nc"], Kind::Other("an HDF5 file")),
-    (&["mat"], Kind::Other("variables of MATLAB")),
     (&["m"], Kind::Other("a script of MATLAB")),
     (&["npy"], Kind::Other("one array of NumPy")),
     (&["pkl", "pickle"], Kind::Other("Python's pickled objects")),
@@ -96,6 +98,7 @@ impl Kind {
             Self::Toml => "TOML",
             Self::Python => "a Python script",
             Self::Npz => "arrays of NumPy",
+            Self::Mat => "variables of MATLAB",
             Self::Other(words) => words,
         }
     }

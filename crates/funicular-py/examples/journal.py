@@ -5,15 +5,12 @@ from pathlib import Path
 
 import funicular
 import funicular.plot
-import numpy as np
 
 ROBOTS = Path(__file__).parents[3] / "robots"
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 
 rest = funicular.Robot.example().equilibrium()
-hz = np.linspace(0.1, 10, 4000)
-response = rest.frf(hz, input="fz", output="az")
-figures = {"bode": funicular.plot.bode(hz, response, unit="(m/s²)/N", modes=rest.modes(10))}
+figures = {"bode": funicular.plot.bode([0.1, 10], rest, "fz", "az", unit="(m/s²)/N", modes=rest.modes(10))}
 
 cogiro = funicular.Robot.from_file(ROBOTS / "cogiro.toml")
 rows = cogiro.map({"x": (-9, 9, 37), "y": (-7, 7, 29)}, quantities=["tension-max"], pose=[0, 0, 1.5])

@@ -34,6 +34,28 @@ fn commands_with_a_figure_write_svg_and_pdf() {
 }
 
 #[test]
+fn several_responses_share_a_figure_if_they_share_a_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.svg");
+    let draw = |outputs: [&str; 2]| {
+        let range = ["--from-hz", "0.5", "--to-hz", "2", "--points", "50", "--input", "fz"];
+        let signals = ["--output", outputs[0], "--output", outputs[1], "-o", path.to_str().unwrap()];
+        run(&[&["frf", "ROBOT"][..], &range, &signals].concat())
+    };
+    let output = draw(["ax", "az"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = svg(&path);
+    assert!(text.contains(">ax / fz</text>") && text.contains(">az / fz</text>"));
+    let output = draw(["ax", "z"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("responses with one unit, and these have (m/s²)/N and m/N"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
 fn a_figure_has_the_width_of_a_column() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.svg");

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
-from funicular._funicular import Equilibrium, complex_numbers, real_numbers
+from funicular._funicular import Analyses, Equilibrium, complex_numbers, real_numbers
 from funicular._results import Modes
 from funicular._sweeps import Sweep
 
@@ -140,23 +140,41 @@ def save(figure: Any, path: str | PathLike[str]) -> None:
 
 
 def _responses(
-    hz: ArrayLike, response: ArrayLike | Sequence[ArrayLike], labels: Sequence[str] | None
-) -> tuple[NDArray[np.float64], NDArray[np.complex128], list[str]]:
-    """Frequencies, responses as rows, and a name for each."""
-    frequencies = real_numbers("hz", hz)
-    curves: NDArray[np.complex128] = np.atleast_2d(complex_numbers("response", cast(ArrayLike, response)))
+    hz: ArrayLike,
+    response: ArrayLike | Sequence[ArrayLike] | Analyses,
+    input: str | Sequence[str] | None,
+    output: str | Sequence[str] | None,
+    labels: Sequence[str] | None,
+    keywords: dict[str, Any],
+) -> tuple[NDArray[np.float64], NDArray[np.complex128], list[str], Sequence[str] | None]:
+    """Frequencies, responses as rows, a name for each, and the names for a legend."""
+    if isinstance(response, Analyses):
+        if input is None or output is None:
+            raise InputError("`response` is an equilibrium: give `input` and `output` too")
+        frequencies, values = response.frf(hz, input, output, adaptive=True, **keywords)
+        curves: NDArray[np.complex128] = values.reshape(-1, len(frequencies))
+        if labels is None and len(curves) > 1:
+            inputs, outputs = ([of] if isinstance(of, str) else of for of in (input, output))
+            labels = [f"{to} / {of}" for to in outputs for of in inputs]
+    else:
+        if input is not None or output is not None or keywords:
+            raise InputError("`response` is an array: `input`, `output` and models belong to an equilibrium")
+        frequencies = real_numbers("hz", hz)
+        curves = np.atleast_2d(complex_numbers("response", cast(ArrayLike, response)))
     names = [f"response {i + 1}" for i in range(len(curves))] if labels is None else list(labels)
     if curves.shape[1:] != frequencies.shape or len(names) != len(curves):
         raise InputError(
             f"frequencies of shape {frequencies.shape} and {len(names)} labels for responses of shape {curves.shape}: "
             "give a row of frequencies, and for each response a row of as many values and a label"
         )
-    return frequencies, curves, names
+    return frequencies, curves, names, labels
 
 
 def bode(
     hz: ArrayLike,
-    response: ArrayLike | Sequence[ArrayLike],
+    response: ArrayLike | Sequence[ArrayLike] | Analyses,
+    input: str | Sequence[str] | None = None,
+    output: str | Sequence[str] | None = None,
     *,
     labels: Sequence[str] | None = None,
     unit: str = "",
@@ -164,6 +182,7 @@ def bode(
     log: bool = False,
     width: float | str = "ieee-single",
     font_size_pt: float = 8,
+    **keywords: Any,
 ) -> Any:
     """Draws magnitude and phase of a response over frequency, with the natural frequencies below, for a paper.
 
@@ -172,7 +191,11 @@ def bode(
     hz
         Frequencies [Hz], ascending.
     response
-        Complex response at the frequencies; several responses are rows, with names in `labels`.
+        Equilibrium, or a robot at the state of its file: its responses of `output` to `input` are computed between the
+        first and the last frequency with every peak, as by `frf` here. Or a complex response at the frequencies;
+        several responses are rows.
+    input, output
+        Signals of an equilibrium.
     labels
         Names of the responses in the legend above the figure.
     unit
@@ -185,12 +208,14 @@ def bode(
         Width of the figure [mm], or a name of `WIDTHS_MM`.
     font_size_pt
         Size of the texts [pt].
+    keywords
+        Models and points, as for `Equilibrium.frf`.
 
     Returns
     -------
     The Figure of matplotlib; its axes are magnitude, phase and, with `modes`, the natural frequencies.
     """
-    frequencies, curves, names = _responses(hz, response, labels)
+    frequencies, curves, names, labels = _responses(hz, response, input, output, labels, keywords)
     inches = _inches(width)
     with _paper(font_size_pt) as pyplot:
         ratios = [2.0, 1.0] if modes is None else [2.0, 1.0, 0.2]
@@ -537,18 +562,27 @@ def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib",
 
 def frf(
     hz: ArrayLike,
-    response: ArrayLike | Sequence[ArrayLike],
+    response: ArrayLike | Sequence[ArrayLike] | Analyses,
+    input: str | Sequence[str] | None = None,
+    output: str | Sequence[str] | None = None,
     *,
     labels: Sequence[str] | None = None,
     unit: str = "",
     backend: Backend = "matplotlib",
     ax: Any = None,
+    **keywords: Any,
 ) -> Any:
     """Draws the magnitude of a response over frequency on a logarithmic scale.
 
-    Several responses are the rows of `response`, with names in `labels`.
+    `response` is an equilibrium (or a robot, at the state of its file), whose responses of `output` to `input` are
+    computed between the first and the last of the frequencies `hz` with every peak, as `Equilibrium.frf` does with
+    `adaptive=True`; `keywords` are those of `Equilibrium.frf`. Or it is an array of a response at `hz`, which is drawn
+    as it is; several responses are then the rows of the array.
+
+    `labels` has a name per response; several responses of an equilibrium have the names of output and input if it is
+    not given.
     """
-    frequencies, curves, names = _responses(hz, response, labels)
+    frequencies, curves, names, labels = _responses(hz, response, input, output, labels, keywords)
     magnitude = f"magnitude{f' [{unit}]' if unit else ''}"
     if _check(backend, ax):
         ax = _axes(ax)
