@@ -247,6 +247,8 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
     assert Path("ours.html").read_text() == page.html and "robot.equilibrium(" in page.html
     assert "<iframe" in page._repr_html_() and "<html" not in page._repr_html_()
     rows = robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}, file="map.parquet")
+    with pytest.raises(funicular.InputError, match="would hold one figure"):
+        rows.plot("map.pdf")
     shown = rows.plot("map.html")
     assert Path("map.html").read_text() == shown.html and "tension" in shown.html
     assert "rows in memory" in robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}).plot().html
