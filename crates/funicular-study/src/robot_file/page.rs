@@ -75,7 +75,7 @@ fn value(key: &Key) -> String {
 /// Effect of a key that the file leaves out.
 fn absent(key: &Key) -> String {
     match key.absent {
-        Absent::Refused => "refused".to_owned(),
+        Absent::Refused => "required".to_owned(),
         Absent::Depends(text) | Absent::Means(text) => text.to_owned(),
         Absent::DefaultWord(word) => format!("`\"{word}\"`"),
         Absent::Default(numbers) => match key.numeric_value().map(|numbers| numbers.shape) {

@@ -25,10 +25,24 @@ pub(super) const KEYS: &[Key] = &[
         "modulus E of the rope; EA is E times the area",
     )
     .without(Absent::Depends(TWO_WAYS)),
-    Key::numeric(Shape::Number, "diameter_m", "diameter_m = 0.004", "m", Range::Positive, "diameter of the rope")
-        .without(Absent::Depends(TWO_WAYS)),
-    Key::numeric(Shape::Number, "area_m2", "area_m2 = 8e-6", "m²", Range::Positive, "cross-section of the rope")
-        .without(Absent::Depends(TWO_WAYS)),
+    Key::numeric(
+        Shape::Number,
+        "diameter_m",
+        "diameter_m = 0.004",
+        "m",
+        Range::Positive,
+        "diameter of the rope; the modulus then counts for its full circle",
+    )
+    .without(Absent::Depends(TWO_WAYS)),
+    Key::numeric(
+        Shape::Number,
+        "area_m2",
+        "area_m2 = 8e-6",
+        "m²",
+        Range::Positive,
+        "cross-section that the modulus refers to, for wire ropes usually the metal area",
+    )
+    .without(Absent::Depends(TWO_WAYS)),
     Key::numeric(
         Shape::Number,
         "axial_stiffness_n",
