@@ -105,7 +105,7 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
             Request::Paper(_) => (pages::paper::paper(call)?, Vec::new()),
             Request::Export(of) => {
                 export::refuse(of)?;
-                let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.state, &of.tensions)?;
+                let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?;
                 let exported = export::run(&at_rest, of)?;
                 (exported.text, exported.warnings)
             }

@@ -5,6 +5,7 @@ use crate::equilibrium::min_stiffness;
 use crate::errors;
 use crate::interrupt::{check_signals, on_threads};
 use crate::pose;
+use crate::robot::PyRobot;
 use crate::threads::Threads;
 use funicular::cable::Sag;
 use funicular::math::rotation;
@@ -128,15 +129,24 @@ impl StateNumbers {
 /// Problem that is solved for every state.
 struct StateSolver<'a> {
     robot: &'a Robot,
+    /// Robot whose unstrained lengths at each pose are held.
+    holder: Option<&'a Robot>,
     states: &'a States,
     model: StaticModel,
     rule: Option<TensionRule>,
 }
 
 impl StateSolver<'_> {
-    fn row(&self, robot: &mut Robot, row: usize) -> StateResult {
+    fn row(&self, robot: &mut Robot, holder: Option<&mut Robot>, row: usize) -> StateResult {
         robot.state = self.states.state(robot, row).map_err(|reason| ("input", reason))?;
-        match statics::solve(robot, self.model, self.rule.clone()) {
+        let solution = match holder {
+            None => statics::solve(robot, self.model, self.rule.clone()),
+            Some(holder) => {
+                holder.state = robot.state.clone();
+                statics::solve_held(holder, robot, self.model, self.rule.clone())
+            }
+        };
+        match solution {
             Ok(rest) => Ok(StateNumbers::of(robot, &rest)),
             Err(error) => Err((error.code(), error.to_string())),
         }
@@ -144,30 +154,34 @@ impl StateSolver<'_> {
 
     /// Results of a block of states.
     fn block(&self, index: usize) -> (Range<usize>, Vec<StateResult>) {
-        let mut robot = self.robot.clone();
+        let (mut robot, mut holder) = (self.robot.clone(), self.holder.cloned());
         let rows = index * BLOCK..((index + 1) * BLOCK).min(self.states.count());
-        let found = rows.clone().map(|row| self.row(&mut robot, row)).collect();
+        let found = rows.clone().map(|row| self.row(&mut robot, holder.as_mut(), row)).collect();
         (rows, found)
     }
 }
 
 pub(crate) fn equilibria(
     py: Python<'_>,
-    robot: &Robot,
+    of: &PyRobot,
     states: States,
     state: &SharedState,
     tensions: &Tensions,
     threads: Option<Threads>,
 ) -> PyResult<Equilibria> {
     let prepared = || {
-        let robot = at_rest::with_limits(&at_rest::with_state(robot.clone(), state)?, tensions)?;
-        anyhow::Ok((robot, at_rest::rule(tensions)?))
+        let robot = at_rest::with_limits(&at_rest::with_state((*of.robot).clone(), state)?, tensions)?;
+        let holder = state.hold_lengths_of_pose.then(|| at_rest::holder(&of.source, state, tensions)).transpose()?;
+        if holder.is_some() && !states.poses {
+            anyhow::bail!("give ⟪lengths_m⟫ or ⟪hold_lengths_of_pose⟫, not both: both give the lengths");
+        }
+        anyhow::Ok((robot, holder, at_rest::rule(tensions)?))
     };
-    let (robot, rule) = prepared().map_err(|error| errors::study(&error))?;
+    let (robot, holder, rule) = prepared().map_err(|error| errors::study(&error))?;
 
     let model = state.static_model;
     let mut columns = Columns::new(robot.cables.len(), states.count());
-    let solver = StateSolver { robot: &robot, states: &states, model, rule };
+    let solver = StateSolver { robot: &robot, holder: holder.as_ref(), states: &states, model, rule };
     let blocks = 0..states.count().div_ceil(BLOCK);
 
     let put = |(rows, found)| {

@@ -29,8 +29,8 @@ pub(crate) struct PyEquilibrium {
 
 impl PyEquilibrium {
     pub(crate) fn of(py: Python<'_>, of: Py<PyRobot>, state: State, tensions: Tensions) -> PyResult<Self> {
-        let robot = &of.get().robot;
-        let at_rest = py.detach(|| at_rest::equilibrium((**robot).clone(), &state, &tensions));
+        let PyRobot { robot, source, .. } = of.get();
+        let at_rest = py.detach(|| at_rest::equilibrium((**robot).clone(), source, &state, &tensions));
         let at_rest = Arc::new(at_rest.map_err(|error| errors::study(&error))?);
         Ok(Self { of, state, tensions, at_rest })
     }
@@ -176,9 +176,10 @@ impl PyEquilibrium {
     /// Returns points along the hanging cables in world axes [m]: (cables, points, 3), from the platform to the anchor.
     ///
     /// The points are at equal steps of the unstrained length; 33 per cable if `points` is not given.
-    #[pyo3(signature = (points=Count::of(33)))]
-    fn cable_points(&self, points: Count) -> PyResult<Tensor> {
-        let points = points.within("points", 2..=10_000, "it must be from 2 to 10000")?;
+    #[pyo3(signature = (points=None))]
+    fn cable_points(&self, points: Option<Count>) -> PyResult<Tensor> {
+        let points =
+            points.map_or(Ok(33), |points| points.within("points", 2..=10_000, "it must be from 2 to 10000"))?;
 
         let mut flat = Vec::with_capacity(3 * points * self.at_rest.robot.cables.len());
         for cable in &self.at_rest.equilibrium.cables {

@@ -43,11 +43,13 @@ mod _funicular {
     #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]
-    use crate::robot::PyRobot;
+    use crate::robot::{PyRobot, robot_of_source};
     #[pymodule_export]
     use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]
     use crate::vibration::peaks;
+    #[pymodule_export]
+    use crate::written::matlab_file;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name of a version")]

@@ -24,6 +24,7 @@ fn three(value: Option<Numbers>, keyword: &str) -> PyResult<Option<[f64; 3]>> {
 pub(crate) struct StateKeywords<'a> {
     pub(crate) pose: Option<PoseLike>,
     pub(crate) lengths_m: Option<Numbers>,
+    pub(crate) hold_lengths_of_pose: bool,
     pub(crate) mass_kg: Option<Number>,
     pub(crate) static_model: &'a str,
     pub(crate) force_n: Option<Numbers>,
@@ -38,6 +39,7 @@ impl StateKeywords<'_> {
         Ok(State {
             lengths_m: self.lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
             pose: self.pose.map(|pose| pose.0),
+            hold_lengths_of_pose: self.hold_lengths_of_pose,
             mass_kg: number(self.mass_kg, "mass_kg")?,
             static_model: named("static_model", self.static_model)?,
             load: Load {

@@ -15,6 +15,7 @@ use funicular::robot::{Robot, State};
 use funicular_study::analyses;
 use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest};
 use funicular_study::robot_file::{self, MAX_BYTES, RobotFile};
+use funicular_study::sweep::MAX_HZ;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use std::fs;
@@ -25,14 +26,14 @@ use std::sync::Arc;
 /// Request for the points of a map or sweep, from the keywords of Python.
 fn each_point(
     quantities: Option<Vec<String>>,
-    up_to_hz: Number,
+    up_to_hz: Option<Number>,
     state: StateKeywords<'_>,
     tensions: TensionKeywords<'_>,
     model: requests::Model,
 ) -> PyResult<EachPoint> {
     Ok(EachPoint {
         quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
-        up_to_hz: up_to_hz.value("up_to_hz")?,
+        up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
         state: state.request()?,
         tensions: tensions.request()?,
         model,
@@ -52,7 +53,7 @@ pub(crate) struct PyRobot {
 }
 
 impl PyRobot {
-    fn read(py: Python<'_>, source: RobotText) -> PyResult<Py<Self>> {
+    pub(crate) fn read(py: Python<'_>, source: RobotText) -> PyResult<Py<Self>> {
         let RobotFile { robot, text, .. } = source.read().map_err(|error| errors::study(&error))?;
         let robot = Self { source, text, robot: Arc::new(robot) };
         Py::new(py, PyClassInitializer::from(PyAnalyses).add_subclass(robot))
@@ -238,6 +239,9 @@ impl PyRobot {
     ///     Velocity of the wind in world axes [m/s], instead of the wind in the robot file.
     /// cable_load_n_per_m
     ///     Load per metre of every cable besides its weight, in world axes [N/m].
+    /// hold_lengths_of_pose
+    ///     Hold the unstrained lengths with which the robot, as it was read and before `with_`, rests at the pose. All
+    ///     changes, those of `with_` and those of this call, then act at these lengths and move the platform.
     ///
     /// Raises
     /// ------
@@ -248,7 +252,7 @@ impl PyRobot {
     #[pyo3(signature = (
         pose=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
-        wind_m_s=None, cable_load_n_per_m=None
+        wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn equilibrium(
@@ -267,10 +271,12 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
     ) -> PyResult<Py<PyEquilibrium>> {
         let state = StateKeywords {
             pose,
             lengths_m,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -301,7 +307,7 @@ impl PyRobot {
     #[pyo3(signature = (
         poses=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
-        wind_m_s=None, cable_load_n_per_m=None, threads=None
+        wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, threads=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn equilibria(
@@ -320,12 +326,14 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
         threads: Option<Threads>,
     ) -> PyResult<batch::Equilibria> {
         let states = batch::States::read(poses, lengths_m)?;
         let state = StateKeywords {
             pose: None,
             lengths_m: None,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -335,7 +343,7 @@ impl PyRobot {
             cable_load_n_per_m,
         };
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        batch::equilibria(py, &self.robot, states, &state.request()?, &tensions.request()?, threads)
+        batch::equilibria(py, self, states, &state.request()?, &tensions.request()?, threads)
     }
 
     /// Computes quantities over poses, one row per pose.
@@ -357,7 +365,7 @@ impl PyRobot {
     ///     Values of the axes that the grid does not have: x, y, z [m], roll, pitch, yaw [degrees], or the pose of
     ///     unstrained lengths [m]; the state of the robot file if not given.
     /// up_to_hz
-    ///     Limit of the search for natural frequencies [Hz].
+    ///     Limit of the search for natural frequencies [Hz]; 1000 if not given.
     /// file
     ///     File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
     ///     holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -387,10 +395,10 @@ impl PyRobot {
     ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
-        threads=None, executor=None, chunks_per_task=None, progress=None
+        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
+        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn map(
@@ -405,7 +413,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: Number,
+        up_to_hz: Option<Number>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
@@ -416,6 +424,7 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
         file: Option<PathBuf>,
         resume: bool,
         discard: bool,
@@ -428,6 +437,7 @@ impl PyRobot {
         let state = StateKeywords {
             pose,
             lengths_m,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -459,10 +469,10 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ), tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, file=None, resume=false, discard=false, part=None,
-        threads=None, executor=None, chunks_per_task=None, progress=None
+        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
+        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn sweep(
@@ -476,7 +486,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: Number,
+        up_to_hz: Option<Number>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
@@ -487,6 +497,7 @@ impl PyRobot {
         load_point_m: Option<Numbers>,
         wind_m_s: Option<Numbers>,
         cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
         file: Option<PathBuf>,
         resume: bool,
         discard: bool,
@@ -499,6 +510,7 @@ impl PyRobot {
         let state = StateKeywords {
             pose,
             lengths_m,
+            hold_lengths_of_pose,
             mass_kg,
             static_model,
             force_n,
@@ -536,6 +548,11 @@ impl PyRobot {
     ///     First mass [kg], last mass [kg] and number of masses.
     /// lengths_m
     ///     Unstrained lengths of all masses [m], one per cable; those of the robot file if not given.
+    /// pose
+    ///     Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`, rests
+    ///     there. A robot file with a pose gives it if it is not given here.
+    /// tension_rule, target_tension_n, min_tension_n, max_tension_n
+    ///     Choice of the tensions at this pose, as in `equilibrium`.
     /// tolerance_mm
     ///     Distance between spring and catenary pose below which the spring is good enough [mm]; `threshold` then gives
     ///     the mass from which on this holds.
@@ -543,12 +560,21 @@ impl PyRobot {
     /// Returns
     /// -------
     /// The keys of the program's JSON: `points` with one entry for each mass.
-    #[pyo3(signature = (mass_kg, *, lengths_m=None, tolerance_mm=None))]
+    #[pyo3(signature = (
+        mass_kg, *, lengths_m=None, pose=None, tension_rule=None, target_tension_n=None, min_tension_n=None,
+        max_tension_n=None, tolerance_mm=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn pose_error<'py>(
         &self,
         py: Python<'py>,
         mass_kg: (Number, Number, Count),
         lengths_m: Option<Numbers>,
+        pose: Option<PoseLike>,
+        tension_rule: Option<&str>,
+        target_tension_n: Option<Numbers>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
         tolerance_mm: Option<Number>,
     ) -> PyResult<TextKeyed<'py>> {
         let (from, to, count) = mass_kg;
@@ -558,6 +584,8 @@ impl PyRobot {
             robot: self.source.clone(),
             mass_kg: (from.value("mass_kg[0]")?, to.value("mass_kg[1]")?, count.within("mass_kg[2]", 2..=max, &rule)?),
             lengths_m: lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
+            pose: pose.map(|pose| pose.0),
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
             tolerance_mm: tolerance_mm.map(|tolerance| tolerance.value("tolerance_mm")).transpose()?,
         };
 
@@ -609,9 +637,11 @@ impl PyRobot {
         slf.py().import("funicular._show")?.call_method1("html", (slf,))
     }
 
+    /// The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (String,)>> {
-        let rebuild = slf.get_type().getattr("from_toml")?;
-        Ok((rebuild, (slf.get().text.clone(),)))
+        let rebuild = slf.py().import("funicular._funicular")?.getattr("robot_of_source")?;
+        let source = serde_json::to_string(&slf.get().source).map_err(|error| errors::input(error.to_string()))?;
+        Ok((rebuild, (source,)))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -622,4 +652,11 @@ impl PyRobot {
         let _ = memo;
         slf
     }
+}
+
+/// Robot of the text and the changes that a pickle contains, as JSON.
+#[pyfunction]
+pub(crate) fn robot_of_source(py: Python<'_>, source: &str) -> PyResult<Py<PyRobot>> {
+    let source = serde_json::from_str(source).map_err(|error| errors::input(error.to_string()))?;
+    PyRobot::read(py, source)
 }

@@ -1,7 +1,8 @@
 //! Static state that an analysis starts from, given by the request or else by the robot file.
 
+use crate::error::with_warnings;
 use crate::names::TensionRuleName;
-use crate::request::{self, Load, Model, ResponsePoints, Tensions, Terms};
+use crate::request::{self, Load, Model, ResponsePoints, RobotText, Tensions, Terms};
 use crate::signals::{Input, Output};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -25,17 +26,65 @@ pub struct AtRest {
     pub requested_pose: Option<(Pose, f64)>,
     /// Rule that chose the tensions, if there was a choice.
     pub rule: Option<TensionRule>,
+    /// Pose whose unstrained lengths are held, before the changes of the request; absent if no lengths are held.
+    pub held_pose: Option<Pose>,
 }
 
-/// Solves the static problem of a request.
+/// Solves the static problem of a request. `source` is the text from which the robot was read.
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, or a robot without such an equilibrium.
-pub fn equilibrium(robot: Robot, state: &request::State, tensions: &Tensions) -> Result<AtRest> {
+pub fn equilibrium(robot: Robot, source: &RobotText, state: &request::State, tensions: &Tensions) -> Result<AtRest> {
     let robot = with_limits(&with_state(robot, state)?, tensions)?;
-    refuse_no_state(&robot)?;
-    let Solution { equilibrium, requested_pose, rule } = statics::solve(&robot, state.static_model, rule(tensions)?)?;
-    Ok(AtRest { robot, equilibrium, requested_pose, rule })
+    let rule = rule(tensions)?;
+    let solution = if state.hold_lengths_of_pose {
+        let holder = holder(source, state, tensions)?;
+        refuse_no_pose(&holder)?;
+        statics::solve_held(&holder, &robot, state.static_model, rule)
+    } else {
+        refuse_no_state(&robot)?;
+        statics::solve(&robot, state.static_model, rule)
+    };
+    let solution = solution.map_err(|error| with_warnings(error.into(), warnings::of_robot(&robot)))?;
+    let Solution { equilibrium, requested_pose, rule, held_pose } = solution;
+    Ok(AtRest { robot, equilibrium, requested_pose, rule, held_pose })
+}
+
+/// Robot whose unstrained lengths at a pose are held: the robot of the file without any change of the request, except
+/// for its state and its tension limits.
+///
+/// # Errors
+/// A file that is no robot without its changes, or a request that contradicts itself or the robot.
+pub fn holder(source: &RobotText, state: &request::State, tensions: &Tensions) -> Result<Robot> {
+    holder_of(holder_text(source).read()?.robot, state, tensions)
+}
+
+/// Text of the [`holder`]: only changes of `[state]` are made.
+pub(crate) fn holder_text(source: &RobotText) -> RobotText {
+    let set = source.set.iter().filter(|change| change.is_of_state()).cloned().collect();
+    RobotText { set, ..source.clone() }
+}
+
+/// Holder from the robot of its text, with the pose and the tension limits of a request.
+///
+/// # Errors
+/// A pose that the platform cannot have, or limits that exclude each other.
+pub(crate) fn holder_of(robot: Robot, state: &request::State, tensions: &Tensions) -> Result<Robot> {
+    let pose_alone = request::State { pose: state.pose, ..request::State::default() };
+    with_limits(&with_state(robot, &pose_alone)?, tensions)
+}
+
+/// Refuses to hold the lengths of a pose if the robot has none.
+///
+/// # Errors
+/// A message that says which value to give.
+pub fn refuse_no_pose(robot: &Robot) -> Result<()> {
+    match robot.state {
+        State::Pose(_) => Ok(()),
+        State::Lengths(_) | State::Unknown => {
+            bail!("⟪hold_lengths_of_pose⟫ needs a pose: give ⟪pose⟫, or the robot file a [state] with `position_m`")
+        }
+    }
 }
 
 /// Refuses a robot with neither known lengths nor a known pose.
@@ -100,6 +149,9 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     state.check()?;
     if state.lengths_m.is_some() && state.pose.is_some() {
         bail!("give ⟪pose⟫ or ⟪lengths_m⟫, not both: each follows from the other");
+    }
+    if state.lengths_m.is_some() && state.hold_lengths_of_pose {
+        bail!("give ⟪lengths_m⟫ or ⟪hold_lengths_of_pose⟫, not both: both give the lengths");
     }
     if let Some(lengths) = &state.lengths_m {
         robot.state = State::Lengths(lengths.clone());
@@ -199,9 +251,11 @@ impl AtRest {
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
-    /// Warnings about the statics and, if given, about a cable model up to a frequency [Hz].
+    /// Warnings about implausible values, about the statics and, if given, about a cable model up to a frequency [Hz].
     pub fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
-        let mut warnings = warnings::of_statics(&self.robot, &self.equilibrium);
+        let mut warnings = warnings::of_robot(&self.robot);
+        warnings.extend(warnings::of_plausibility(&self.robot, &self.equilibrium));
+        warnings.extend(warnings::of_statics(&self.robot, &self.equilibrium));
         if let Some((model, up_to_hz)) = dynamics {
             warnings.extend(warnings::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }

@@ -9,7 +9,7 @@ mod points;
 
 use crate::at_rest;
 use crate::names::Named;
-use crate::request::{NewRequest, State, Tensions, check};
+use crate::request::{NewRequest, RobotText, State, Tensions, check};
 use crate::values::{not_negative, positive};
 use crate::wording::{Words, worded};
 use anyhow::{Result, anyhow, bail};
@@ -186,7 +186,8 @@ fn with_stable_state(file: &NewFile, poses: &[Pose]) -> Result<(String, Option<S
             anyhow!("a robot file cannot hold this robot: {}", issues.join("; "))
         })?;
 
-        let reason = match at_rest::equilibrium(robot, &State::default(), &Tensions::default()) {
+        let source = RobotText { name: String::new(), text: text.clone(), set: Vec::new() };
+        let reason = match at_rest::equilibrium(robot, &source, &State::default(), &Tensions::default()) {
             Ok(found) if !matches!(found.equilibrium.stability, Stability::Stable { .. }) => {
                 "the equilibrium at the pose of the file is not stable".to_owned()
             }
@@ -277,8 +278,9 @@ mod tests {
     }
 
     /// Solves the statics of the file independently of the search inside `run`.
-    fn is_stable(robot: Robot) -> bool {
-        let found = at_rest::equilibrium(robot, &State::default(), &Tensions::default()).unwrap();
+    fn is_stable(robot: Robot, new: &NewRobot) -> bool {
+        let source = RobotText { name: String::new(), text: new.text.clone(), set: Vec::new() };
+        let found = at_rest::equilibrium(robot, &source, &State::default(), &Tensions::default()).unwrap();
         // The pose of the file is held, to the digits that it is written with.
         let held = found.requested_pose.is_none_or(|(_, distance)| distance < 1e-3);
         held && found.warnings(None).is_empty() && matches!(found.equilibrium.stability, Stability::Stable { .. })
@@ -290,7 +292,7 @@ mod tests {
             for cables in (fewest..=16).chain([33, MAX_CABLES]) {
                 let (robot, new) = made(&NewRequest { cables: Some(cables), motion, ..NewRequest::default() });
                 assert_eq!((robot.cables.len(), new.warnings.len()), (cables, 0), "{motion:?} {:?}", new.warnings);
-                assert!(is_stable(robot), "{motion:?}, {cables} cables:\n{}", new.text);
+                assert!(is_stable(robot, &new), "{motion:?}, {cables} cables:\n{}", new.text);
             }
         }
         let (robot, _) = made(&NewRequest::default());
@@ -313,7 +315,7 @@ mod tests {
                 let expected = Vec3::new(b * b + c * c, a * a + c * c, a * a + b * b) * (mass_kg / 12.0);
                 // The file has four digits.
                 assert!((robot.platform.inertia_p.diagonal() - expected).amax() < 1e-3 * expected.amax());
-                assert!(is_stable(robot), "{}", new.text);
+                assert!(is_stable(robot, &new), "{}", new.text);
             }
         }
     }
@@ -380,7 +382,7 @@ mod tests {
         };
 
         let (robot, new) = made(&csv(&table(true, 1.0)));
-        assert!(new.warnings.is_empty() && is_stable(robot.clone()), "{:?}\n{}", new.warnings, new.text);
+        assert!(new.warnings.is_empty() && is_stable(robot.clone(), &new), "{:?}\n{}", new.warnings, new.text);
         let names: Vec<&str> = robot.cables.iter().map(|cable| cable.name.as_str()).collect();
         assert_eq!(names, ["a", "b", "c", "d"]);
         assert_eq!(robot.cables[1].attachment_p, Vec3::new(0.5, -0.5, 0.25));

@@ -10,13 +10,13 @@ mod parts;
 pub use keys::KEYS;
 pub(crate) use parts::check;
 pub use parts::{
-    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
-    State, Tensions, Terms,
+    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
+    ResponsePoints, RobotText, State, Tensions, Terms,
 };
 
 use crate::error::Error;
 use crate::import::SourceFile;
-use crate::names::suggestion;
+use crate::names::{ModelForm, suggestion};
 use crate::new_robot::{LengthUnit, NewMotion, WireRope};
 use crate::signals::{Input, Output};
 use crate::values::{not_negative, positive};
@@ -50,7 +50,7 @@ pub enum Request {
     PoseError(PoseErrorRequest),
     /// Dynamic stiffness of one cable over frequency.
     Cable(CableRequest),
-    /// Second-order model for control design.
+    /// Model for control design: state space or second-order form.
     Reduce(ReduceRequest),
     /// Quantities over poses.
     Map(MapRequest),
@@ -117,6 +117,9 @@ pub struct StiffnessRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -147,6 +150,9 @@ pub struct ModesRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -160,10 +166,13 @@ pub struct FrfRequest {
     /// Frequencies.
     #[serde(flatten)]
     pub range: FrequencyRange,
-    /// Input signal, as `fz` or `cable:3@0.5:fz`.
-    pub input: String,
-    /// Output signal, as `ay` or `cable:3@0.5:az`.
-    pub output: String,
+    /// Add frequencies until every peak has its height and the drawn curve is accurate.
+    #[serde(default)]
+    pub adaptive: bool,
+    /// Input signal, as `fz` or `cable:3@0.5:fz`, or a list of input signals.
+    pub input: OneOrSeveral,
+    /// Output signal, as `ay` or `cable:3@0.5:az`, or a list of output signals.
+    pub output: OneOrSeveral,
     /// Points of the platform.
     #[serde(flatten)]
     pub signal_points: ResponsePoints,
@@ -173,6 +182,9 @@ pub struct FrfRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -188,6 +200,9 @@ pub struct CompareRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Terms of the stiffness.
     #[serde(flatten)]
     pub terms: Terms,
@@ -203,6 +218,12 @@ pub struct PoseErrorRequest {
     /// Unstrained lengths [m], one per cable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lengths_m: Option<Vec<f64>>,
+    /// Pose whose unstrained lengths are held: those with which the robot of the file rests there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
+    /// Rule and limits of the tensions at this pose.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance_mm: Option<f64>,
@@ -221,6 +242,9 @@ pub struct CableRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Cable model.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
     pub cable_model: Option<funicular::cable::CableModel>,
@@ -245,15 +269,25 @@ pub struct ReduceRequest {
     /// Points of the platform.
     #[serde(flatten)]
     pub points: ResponsePoints,
-    /// Maximum relative error of the responses due to omitted modes.
-    #[serde(default = "one_thousandth")]
-    pub tolerance: f64,
+    /// Form of the model.
+    #[serde(default, with = "crate::names")]
+    pub form: ModelForm,
+    /// Maximum number of states of a state space, instead of a tolerance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<usize>,
+    /// Maximum error of a response relative to its peak (0.01 if neither tolerance nor order is given); for the
+    /// second-order form the maximum relative error due to omitted modes (0.001).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Frequency at which viscous damping reproduces constant damping ratios [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_at_hz: Option<f64>,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -307,6 +341,9 @@ pub struct ReportRequest {
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
@@ -423,10 +460,6 @@ fn one() -> f64 {
 
 fn yes() -> bool {
     true
-}
-
-fn one_thousandth() -> f64 {
-    1e-3
 }
 
 fn twenty() -> f64 {

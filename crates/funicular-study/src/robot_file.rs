@@ -91,6 +91,11 @@ impl RobotText {
 }
 
 impl Change {
+    /// True for a value of `[state]`.
+    pub(crate) fn is_of_state(&self) -> bool {
+        set_values::path(&self.path).is_ok_and(|path| path.is_of_state())
+    }
+
     /// Change in the form that the editor of robot files takes.
     fn assignment(&self) -> Result<Assignment> {
         let Self { path, value } = self;

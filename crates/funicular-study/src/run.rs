@@ -8,7 +8,7 @@ use crate::analyses::{
     modes::{self, Modes},
     parameters::{self, ParameterList},
     pose_error::{self, PoseErrors},
-    reduce::{self, Reduced},
+    reduce::{self, ReducedForm},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
     validate::{self, Validated},
@@ -36,7 +36,7 @@ pub enum Results {
     Compare(Compared),
     PoseError(PoseErrors),
     Cable(CableResult),
-    Reduce(Reduced),
+    Reduce(ReducedForm),
     Validate(Validated),
 }
 

@@ -60,6 +60,11 @@ impl Path {
         &self.keys
     }
 
+    /// True for a value of `[state]`, which gives the pose.
+    pub(crate) fn is_of_state(&self) -> bool {
+        self.keys.first().is_some_and(|key| key == "state")
+    }
+
     /// True if another path leads to the same value, for any quoting, and for names and indices of components.
     pub fn is_same(&self, other: &Self) -> bool {
         let place = |path: &Self| {

@@ -29,6 +29,7 @@ pub use steps::{Steps, digits};
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
 use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest};
+use crate::robot_file::RobotFile;
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
@@ -44,6 +45,8 @@ pub struct PreparedSweep {
     robot: Robot,
     /// Text of the robot file, with its changes.
     robot_file: String,
+    /// Text of the robot whose lengths are held, if lengths are held and it differs from `robot_file`.
+    holder_file: Option<String>,
     points: Box<dyn Points + Send>,
     /// Orientation of a grid along axes that the grid does not have, with every digit.
     base: Option<Pose>,
@@ -57,16 +60,31 @@ impl PreparedSweep {
     /// # Errors
     /// A request of another command, or a request that contradicts itself or the robot.
     pub fn new(request: &Request) -> Result<Self> {
+        Self::with_holder(request, None)
+    }
+
+    /// Prepares a request. If lengths are held, `holder` is the text of the robot that gives them; if it is absent, that
+    /// robot follows from the request.
+    fn with_holder(request: &Request, holder: Option<RobotText>) -> Result<Self> {
+        let holder = |robot| holder.unwrap_or_else(|| at_rest::holder_text(robot));
         match request {
-            Request::Map(map) => Self::of_map(map),
-            Request::Sweep(sweep) => Self::of_sweep(sweep),
+            Request::Map(map) => Self::of_map(map, &holder(&map.robot)),
+            Request::Sweep(sweep) => Self::of_sweep(sweep, &holder(&sweep.robot)),
             other => bail!("`{}` is neither a map nor a sweep", other.command()),
         }
     }
 
-    fn of_map(request: &MapRequest) -> Result<Self> {
+    fn of_map(request: &MapRequest, holder: &RobotText) -> Result<Self> {
         let file = request.robot.read()?;
         let robot = adjusted(file.robot, &request.point)?;
+        let EachPoint { state, tensions, .. } = &request.point;
+        let mut holder_file = None;
+        let mut holding = None;
+        if state.hold_lengths_of_pose {
+            let RobotFile { robot, text, .. } = holder.read()?;
+            holding = Some(at_rest::holder_of(robot, state, tensions)?);
+            holder_file = (text != file.text).then_some(text);
+        }
         let mut request = request.clone();
 
         // The poses: a list, or a grid around the pose of the state.
@@ -83,7 +101,7 @@ impl PreparedSweep {
             None if request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫: a map needs poses"),
             None => {
                 let axes = steps_of(&request.grid, "grid")?;
-                base = self::base(&robot, &request)?;
+                base = self::base(holding.as_ref().unwrap_or(&robot), &request)?;
                 Poses::grid(robot.clone(), &axes, base.as_ref())?
             }
         };
@@ -92,11 +110,11 @@ impl PreparedSweep {
         }
 
         let (quantities, options) = resolve(&robot, &mut request.point)?;
-        let (request, points) = (Request::Map(request), Box::new(points));
-        Ok(Self { request, robot, robot_file: file.text, points, base, quantities, options })
+        let (request, points) = (Request::Map(request), Box::new(points.holding(holding)));
+        Ok(Self { request, robot, robot_file: file.text, holder_file, points, base, quantities, options })
     }
 
-    fn of_sweep(request: &SweepRequest) -> Result<Self> {
+    fn of_sweep(request: &SweepRequest, holder: &RobotText) -> Result<Self> {
         let text = request.robot.changed_text()?;
         let mut request = request.clone();
         if request.vary.is_empty() {
@@ -109,13 +127,24 @@ impl PreparedSweep {
             .map_err(|reason| anyhow!("⟪vary⟫: {reason}"))?;
         let point = request.point.clone();
         let adjust = Box::new(move |robot| adjusted(robot, &point).map_err(|error| format!("{error:#}")));
-        let points = RobotValues::new(text.clone(), axes, adjust).map_err(|reason| anyhow!("{reason}"))?;
+        let mut points = RobotValues::new(text.clone(), axes, adjust).map_err(|reason| anyhow!("{reason}"))?;
         let robot = points.first().map_err(|reason| anyhow!("{reason}"))?;
+        let mut holder_file = None;
+        if request.point.state.hold_lengths_of_pose {
+            at_rest::refuse_no_pose(&robot)?;
+            let EachPoint { state, tensions, .. } = request.point.clone();
+            let adjust = Box::new(move |robot| {
+                at_rest::holder_of(robot, &state, &tensions).map_err(|error| format!("{error:#}"))
+            });
+            let of_holder = holder.changed_text()?;
+            points = points.holding(of_holder.clone(), adjust).map_err(|reason| anyhow!("{reason}"))?;
+            holder_file = (of_holder != text).then_some(of_holder);
+        }
         refuse_no_state(&robot)?;
 
         let (quantities, options) = resolve(&robot, &mut request.point)?;
         let (request, points) = (Request::Sweep(request), Box::new(points));
-        Ok(Self { request, robot, robot_file: text, points, base: None, quantities, options })
+        Ok(Self { request, robot, robot_file: text, holder_file, points, base: None, quantities, options })
     }
 
     /// Restores the sweep of a file from the plan in the file.
@@ -127,7 +156,10 @@ impl PreparedSweep {
         let robot = RobotText { name: String::new(), text: record.robot_file.clone(), set: Vec::new() };
         plan.insert("robot".to_owned(), serde_json::to_value(robot)?);
         plan.remove("orientation_wxyz");
-        let prepared = Self::new(&Request::from_value(Value::Object(plan)).map_err(|error| anyhow!("{error}"))?)?;
+        let holder = plan.remove("holder_file").and_then(|text| text.as_str().map(str::to_owned));
+        let holder = holder.map(|text| RobotText { name: String::new(), text, set: Vec::new() });
+        let request = Request::from_value(Value::Object(plan)).map_err(|error| anyhow!("{error}"))?;
+        let prepared = Self::with_holder(&request, holder)?;
 
         // The plan is made again and compared, which proves that nothing was left out.
         if prepared.description() != record.plan {
@@ -182,6 +214,9 @@ impl PreparedSweep {
         let Value::Object(mut keys) = self.request.to_value() else { return Map::new() };
         keys.remove("schema");
         keys.insert("robot".to_owned(), json!(self.robot.name));
+        if let Some(text) = &self.holder_file {
+            keys.insert("holder_file".to_owned(), json!(text));
+        }
         if let Request::Map(MapRequest { poses, .. }) = &self.request {
             if let Some(poses) = poses {
                 keys.remove("grid");

@@ -63,7 +63,22 @@ fn requests() -> Vec<Value> {
             "modes",
             &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0, "stations": 21, "damped": false })],
         ),
-        of("frf", &[&robot, &state, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0 })]),
+        of(
+            "frf",
+            &[&robot, &state, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0, "adaptive": false })],
+        ),
+        of(
+            "frf",
+            &[
+                &robot,
+                &lengths,
+                &model,
+                &json!({
+                    "from_hz": 0.1, "to_hz": 10.0, "log": false, "adaptive": true, "prominence_db": 1.0,
+                    "input": ["fx", "mz"], "output": ["x", "cable:3@0.5:az"],
+                }),
+            ],
+        ),
         of("compare", &[&robot, &state, &json!({ "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false })]),
         of(
             "pose-error",

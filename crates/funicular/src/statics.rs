@@ -4,10 +4,12 @@
 //! | Question | Function |
 //! |---|---|
 //! | equilibrium of a robot at its state | [`solve`], at another state [`solve_at`] |
+//! | equilibrium at the lengths that hold a pose with another mass or load | [`solve_held`], [`solve_held_at`] |
 //! | pose from unstrained lengths | [`forward`] |
 //! | all equilibria of given lengths | [`all_equilibria`], [`another_stable_equilibrium`] |
 //! | lengths from a pose, fully constrained (as many cables as degrees of freedom) | [`inverse`] |
 //! | lengths from a pose, redundantly constrained (more cables than degrees of freedom) | [`distribute_tensions`] by a [`TensionRule`] |
+//! | minimum and maximum payload that cables within their limits hold at a pose | [`payload_bound`] |
 //! | nearest pose that fewer cables can hold (under-constrained) | [`nearest_equilibrium`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | derivatives of an equilibrium with respect to a number of the robot | [`derivatives`] |
@@ -43,7 +45,7 @@ mod drag; // stiffness added by the turn of the wind's drag
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
-pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, tangent_with_drag};
+pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
@@ -53,8 +55,12 @@ pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub use residual::{is_unloaded, wrench};
-pub use solve::{Solution, inverse, solve, solve_at};
-pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};
-pub use tension::{TensionRule, distribute_tensions};
+pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
+pub use stiffness::tangent_stiffness;
+pub(crate) use tension::spread;
+pub use tension::{
+    LimitAtCable, Obstacle, OneSidedCause, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule,
+    distribute_tensions, payload_bound,
+};
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

@@ -10,8 +10,8 @@ use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
 use funicular_study::new_robot::{LengthUnit, NewMotion, WireRope};
 use funicular_study::request::{
-    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
-    State, Tensions, Terms,
+    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
+    ResponsePoints, RobotText, State, Tensions, Terms,
 };
 use std::path::Path;
 
@@ -27,6 +27,7 @@ impl StateArgs {
         State {
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
             pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            hold_lengths_of_pose: self.hold_lengths_of_pose,
             mass_kg: self.mass_kg,
             static_model: self.static_model.into(),
             load: self.load.request(),
@@ -92,7 +93,7 @@ impl PointArgs {
 
 impl RangeArgs {
     fn request(&self) -> FrequencyRange {
-        FrequencyRange { from_hz: self.from_hz, to_hz: self.to_hz, points: self.points as usize, log: self.log }
+        FrequencyRange { from_hz: self.from_hz, to_hz: self.to_hz, points: Some(self.points as usize), log: self.log }
     }
 }
 
@@ -104,7 +105,13 @@ impl StaticsArgs {
 
 impl StiffnessArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::StiffnessRequest {
-        request::StiffnessRequest { robot, at_hz: self.at_hz, state: self.state.request(), model: self.model.request() }
+        request::StiffnessRequest {
+            robot,
+            at_hz: self.at_hz,
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
+        }
     }
 }
 
@@ -119,6 +126,7 @@ impl ModesArgs {
             stations: self.stations,
             damped: true,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -128,12 +136,19 @@ impl FrfArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
         request::FrfRequest {
             robot,
-            range: self.range.request(),
-            input: self.input.name.clone(),
-            output: self.output.name.clone(),
-            signal_points: self.points.request(),
+            range: FrequencyRange {
+                from_hz: self.from_hz,
+                to_hz: self.to_hz,
+                points: self.points.map(|points| points as usize),
+                log: self.log,
+            },
+            adaptive: self.adaptive,
+            input: OneOrSeveral::of(self.input.iter().map(|input| input.name.clone()).collect()),
+            output: OneOrSeveral::of(self.output.iter().map(|output| output.name.clone()).collect()),
+            signal_points: self.signal_points.request(),
             prominence_db: self.prominence_db,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -145,6 +160,7 @@ impl CompareArgs {
             robot,
             below_hz: self.below_hz,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             terms: self.terms.request(),
         }
     }
@@ -157,6 +173,8 @@ impl PoseErrorArgs {
             robot,
             mass_kg: (range.from, range.to, range.count),
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
+            pose: self.pose.map(|pose| Pose::Angles(pose.0)),
+            tensions: self.tensions.request(),
             tolerance_mm: self.tolerance_mm,
         }
     }
@@ -169,6 +187,7 @@ impl CableArgs {
             name: self.name.clone(),
             range: self.range.request(),
             state: self.state.request(),
+            tensions: self.tensions.request(),
             cable_model: self.cable_model.map(CableModelName::into),
             in_plane_only: self.in_plane_only,
         }
@@ -183,9 +202,12 @@ impl ReduceArgs {
             input: self.input.iter().map(|input| input.name.clone()).collect(),
             output: self.output.iter().map(|output| output.name.clone()).collect(),
             points: self.points.request(),
+            form: self.form.into(),
+            order: self.order,
             tolerance: self.tolerance,
             damping_at_hz: self.damping_at_hz,
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }
@@ -227,6 +249,7 @@ impl ReportArgs {
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
             state: self.state.request(),
+            tensions: self.tensions.request(),
             model: self.model.request(),
         }
     }

@@ -11,12 +11,13 @@ fn line(label: &str, text: &str) -> String {
 impl Printed for CableResult {
     fn text(&self) -> String {
         let mut out = format!(
-            "{}: cable \"{}\", stiffness of its platform end\n{} statics, {} model{}\n\n",
+            "{}: cable \"{}\", stiffness of its platform end\n{} statics, {} model{}{}\n\n",
             self.robot,
             self.name,
             self.static_model,
             self.cable_model,
-            if self.in_plane_only { ", in plane only" } else { "" }
+            if self.in_plane_only { ", in plane only" } else { "" },
+            self.origin.phrase()
         );
         let mut say = |label: &str, text: String| out.push_str(&line(label, &text));
         say("chord", format!("{} m", decimals(self.chord_m, 4)));

@@ -30,13 +30,14 @@ impl Printed for Compared {
         }
 
         let head = format!(
-            "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}\n\n",
+            "{}: cable models below {} Hz, each against {}\n{} statics, {} assembly{}{}\n\n",
             self.robot,
             self.below_hz,
             self.reference,
             self.static_model,
             self.assembly,
-            if self.in_plane_only { ", in plane only" } else { "" }
+            if self.in_plane_only { ", in plane only" } else { "" },
+            self.origin.phrase()
         );
         let mut lines = Vec::new();
 

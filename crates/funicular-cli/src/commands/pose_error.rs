@@ -1,7 +1,7 @@
 //! `pose-error`: text and CSV.
 
 use crate::output::Printed;
-use crate::table::{self, Table, decimals, decimals_or_none, short, significant};
+use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use funicular_study::analyses::pose_error::{PoseDifferenceRow, PoseErrors, ThresholdRow};
 
 impl Printed for PoseErrors {
@@ -24,8 +24,9 @@ impl Printed for PoseErrors {
             table.row(row);
         }
         format!(
-            "{}: distance and angle between the poses of static models\n\n{table}\n{}\n",
+            "{}: distance and angle between the poses of static models\n{}\n{table}\n{}\n",
             self.robot,
+            held_line(self),
             threshold_line(self)
         )
     }
@@ -51,6 +52,18 @@ impl Printed for PoseErrors {
         }
         Ok(())
     }
+}
+
+/// Line on the origin of the lengths; empty if they are given.
+fn held_line(found: &PoseErrors) -> String {
+    found.held.as_ref().map_or_else(String::new, |held| {
+        let rule = held.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
+        format!(
+            "at the unstrained lengths with which {} kg rest at ({}) m{rule}\n",
+            short(held.mass_kg, 6),
+            vector(&held.pose.position_m, 6)
+        )
+    })
 }
 
 fn threshold_line(found: &PoseErrors) -> String {

@@ -45,6 +45,15 @@ impl Printed for Statics {
         let rule = self.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
         let load = self.load.as_ref().map_or_else(String::new, |load| format!(", {}", load.text()));
         let wind = self.wind.as_ref().map_or_else(String::new, |wind| format!(", wind {}", wind.text()));
+        let held = self.held.as_ref().map_or_else(String::new, |held| {
+            format!(
+                "  displacement     ({}) m, {} mm in all, {}°, at the lengths that hold ({}) m\n",
+                vector(&held.motion.translation_m, 6),
+                decimals(1e3 * held.motion.distance_m, 3),
+                decimals(held.motion.angle_deg, 4),
+                vector(&held.pose.position_m, 6)
+            )
+        });
         let nearest = self.nearest_pose_distance_m.map_or_else(String::new, |distance| {
             format!("  nearest pose that the cables can hold, {} m from the requested pose\n", short(distance, 4))
         });
@@ -61,7 +70,7 @@ impl Printed for Statics {
         };
 
         format!(
-            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}\n\
+            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}{held}\n\
              {cables}\n{stability}. {balance} after {}.\n{others}",
             self.robot,
             self.static_model,

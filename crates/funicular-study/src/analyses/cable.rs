@@ -1,7 +1,7 @@
 //! `cable`: dynamic stiffness of the platform end of one cable, with the anchor fixed.
 
 use super::found;
-use super::shared::SagNumbers;
+use super::shared::{Origin, SagNumbers};
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::names::suggestion;
@@ -27,6 +27,8 @@ pub struct CableResult {
     pub static_model: &'static str,
     pub cable_model: &'static str,
     pub in_plane_only: bool,
+    #[serde(flatten)]
+    pub origin: Origin,
     pub chord_m: f64,
     pub parallel_tension_n: f64,
     #[serde(flatten)]
@@ -87,7 +89,7 @@ pub struct World {
 pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
     let frequency_hz = request.range.frequencies()?;
     place(&robot, &request.name)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let requested = RequestedCable {
         name: &request.name,
         frequency_hz,
@@ -150,6 +152,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
         static_model: at_rest.equilibrium.model.name(),
         cable_model: model.name(),
         in_plane_only,
+        origin: Origin::of(at_rest),
         chord_m: sag.chord,
         parallel_tension_n: sag.tension,
         sag: SagNumbers::of(&sag),

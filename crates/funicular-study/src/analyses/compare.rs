@@ -2,6 +2,7 @@
 
 use super::found;
 use super::modes::ModeRow;
+use super::shared::Origin;
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
@@ -21,6 +22,8 @@ pub struct Compared {
     pub static_model: &'static str,
     pub assembly: &'static str,
     pub in_plane_only: bool,
+    #[serde(flatten)]
+    pub origin: Origin,
     pub reference: &'static str,
     pub tolerance: f64,
     pub models: Vec<ModelRow>,
@@ -68,7 +71,7 @@ pub struct AdviceRow {
 /// A robot without such an equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
-    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
 }
 
 /// Compares the cable models for a robot at equilibrium. The state of the request is not used.
@@ -100,6 +103,7 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
         static_model: at_rest.equilibrium.model.name(),
         assembly: linearisation.assembly.name(),
         in_plane_only: linearisation.in_plane_only,
+        origin: Origin::of(at_rest),
         reference: reference.name(),
         tolerance: TOLERANCE,
         models: models.into_iter().map(ModelRow::from).collect(),

@@ -111,7 +111,7 @@ pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     // Signals that the robot does not have are refused before the work.
     signals(&robot, pair(request)?.as_ref(), request)?;
-    about(&at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?, request)
+    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
 }
 
 /// Computes the natural frequencies of a robot at equilibrium. The state of the request is not used.
@@ -127,7 +127,7 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
     modes::check_count(&dynamics, request.below_hz, modes::MAX_MODES)?;
     let found = modes::below(&dynamics, request.below_hz);
     warnings.extend(found.caveat());
-    let AtRest { robot, equilibrium, .. } = at_rest;
+    let AtRest { robot, .. } = at_rest;
 
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
     let (damped, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
@@ -164,7 +164,7 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
     Ok(Modes {
         robot: robot.name.clone(),
         below_hz: request.below_hz,
-        models: Models::of(equilibrium, linearisation),
+        models: Models::of(at_rest, linearisation),
         count_below: found.count_below,
         certified: found.certified,
         unstable_directions: found.unstable_directions,

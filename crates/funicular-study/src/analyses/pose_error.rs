@@ -1,14 +1,17 @@
 //! `pose-error`: pose errors of simpler static models over platform mass.
 
 use super::found;
+use super::statics::PoseRow;
 use crate::Watch;
+use crate::at_rest;
 use crate::error::{Cancelled, NoSolution};
-use crate::request;
+use crate::request::{self, PoseErrorRequest};
 use crate::text::counted;
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};
 use funicular::pose_error::{self, PoseDifference, PoseErrorPoint, Threshold};
 use funicular::robot::{Robot, State};
+use funicular::statics::{self, Solution, StaticModel, StaticsError, TensionRule};
 use serde::Serialize;
 
 /// Results of `pose-error`: distances between the poses of static models over platform mass.
@@ -16,11 +19,25 @@ use serde::Serialize;
 pub struct PoseErrors {
     #[serde(skip)]
     pub robot: String,
+    /// Unstrained lengths, the same at every mass.
+    pub unstrained_length_m: Vec<f64>,
+    /// Origin of these lengths; absent if they are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<HeldPoseRow>,
     pub points: Vec<PoseErrorRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<ThresholdRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Pose whose unstrained lengths are held, with the mass and the rule for which they hold it.
+#[derive(Serialize)]
+pub struct HeldPoseRow {
+    pub pose: PoseRow,
+    pub mass_kg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_rule: Option<&'static str>,
 }
 
 /// Pose differences at one mass. A difference is absent if one of the two models has no equilibrium.
@@ -35,7 +52,7 @@ pub struct PoseErrorRow {
     pub spring_from_catenary: Option<PoseDifferenceRow>,
 }
 
-/// PoseDifferenceRow of two poses.
+/// Translation and rotation between two poses.
 #[derive(Serialize, Clone, Copy)]
 pub struct PoseDifferenceRow {
     pub translation_m: [f64; 3],
@@ -69,22 +86,13 @@ pub struct ThresholdRow {
 /// A range that does not ascend, a robot without lengths, no mass at which two models have an equilibrium, or work that
 /// was stopped.
 pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn Watch) -> Result<PoseErrors> {
-    let lengths = match (&request.lengths_m, &robot.state) {
-        (Some(lengths), _) | (None, State::Lengths(lengths)) => lengths,
-        (None, State::Pose(_) | State::Unknown) => bail!(
-            "the robot file has no unstrained lengths, which the comparison needs: give ⟪lengths_m⟫ (`funicular \
-             statics` prints the lengths of a pose)"
-        ),
-    };
     let masses = masses(request)?;
+    let (lengths, held) = lengths(robot, request)?;
+    let lengths = &lengths[..];
 
     // Lengths that do not fit the robot are wrong at every mass. They are reported once, as bad input.
     let first = PoseErrorPoint::at_mass(robot, lengths, masses[0]);
-    if let Err(
-        error @ (funicular::statics::StaticsError::LengthCount { .. }
-        | funicular::statics::StaticsError::CableCount { .. }),
-    ) = &first.catenary
-    {
+    if let Err(error @ (StaticsError::LengthCount { .. } | StaticsError::CableCount { .. })) = &first.catenary {
         return Err(error.clone().into());
     }
     let mut points = Vec::with_capacity(masses.len());
@@ -113,6 +121,8 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
     Ok(PoseErrors {
         robot: robot.name.clone(),
         warnings: warnings(&points),
+        unstrained_length_m: lengths.to_vec(),
+        held,
         points: points
             .iter()
             .map(|point| PoseErrorRow {
@@ -124,6 +134,40 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
             .collect(),
         threshold,
     })
+}
+
+/// Unstrained lengths of all masses: given ones, or those with which the robot of the file rests at a pose; then also
+/// that pose and the mass there.
+fn lengths(robot: &Robot, request: &request::PoseErrorRequest) -> Result<(Vec<f64>, Option<HeldPoseRow>)> {
+    let PoseErrorRequest { lengths_m, pose, tensions, .. } = request;
+    let given = match (lengths_m, &robot.state) {
+        (Some(_), _) if pose.is_some() => {
+            bail!("give ⟪pose⟫ or ⟪lengths_m⟫, not both: each follows from the other")
+        }
+        (Some(lengths), _) => Some(lengths),
+        (None, State::Lengths(lengths)) if pose.is_none() => Some(lengths),
+        _ => None,
+    };
+    let rule = at_rest::rule(tensions)?;
+    if let Some(lengths) = given {
+        if rule.is_some() {
+            return Err(StaticsError::RuleOfLengths.into());
+        }
+        return Ok((lengths.clone(), None));
+    }
+
+    let state = request::State { pose: *pose, ..request::State::default() };
+    let holder = at_rest::holder(&request.robot, &state, tensions)?;
+    if holder.state == State::Unknown {
+        bail!("the robot file gives neither unstrained lengths nor a pose: give ⟪lengths_m⟫ or ⟪pose⟫");
+    }
+    let Solution { equilibrium, rule, .. } = statics::solve(&holder, StaticModel::Catenary, rule)?;
+    let row = HeldPoseRow {
+        pose: PoseRow::of(&equilibrium.pose),
+        mass_kg: holder.platform.mass,
+        tension_rule: rule.as_ref().map(TensionRule::name),
+    };
+    Ok((equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect(), Some(row)))
 }
 
 /// Maximum number of masses of a range.
@@ -155,7 +199,7 @@ fn masses(request: &request::PoseErrorRequest) -> Result<Vec<f64>> {
 fn warnings(points: &[PoseErrorPoint]) -> Vec<String> {
     let mut warnings = Vec::new();
     for (name, of) in [
-        ("ideal", (|p| p.ideal.as_ref().err()) as fn(&PoseErrorPoint) -> Option<&funicular::statics::StaticsError>),
+        ("ideal", (|p| p.ideal.as_ref().err()) as fn(&PoseErrorPoint) -> Option<&StaticsError>),
         ("spring", |p| p.spring.as_ref().err()),
         ("catenary", |p| p.catenary.as_ref().err()),
     ] {

@@ -1,8 +1,9 @@
 //! Rows that several commands share.
 
+use crate::at_rest::AtRest;
 use funicular::cable::Sag;
 use funicular::dynamics::Linearisation;
-use funicular::statics::Equilibrium;
+use funicular::statics::TensionRule;
 use serde::Serialize;
 
 /// Models used for a result, by the names that JSON has.
@@ -12,12 +13,39 @@ pub struct Models {
     pub cable_model: &'static str,
     pub assembly: &'static str,
     pub in_plane_only: bool,
+    #[serde(flatten)]
+    pub origin: Origin,
+}
+
+/// Origin of the tensions of an equilibrium.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Origin {
+    /// Rule that chose the tensions; absent if there was no choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_rule: Option<&'static str>,
+    /// True if the unstrained lengths of a pose are held; absent otherwise.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub lengths_held: bool,
+}
+
+impl Origin {
+    pub fn of(at_rest: &AtRest) -> Self {
+        let tension_rule = at_rest.rule.as_ref().map(TensionRule::name);
+        Self { tension_rule, lengths_held: at_rest.held_pose.is_some() }
+    }
+
+    /// Description that continues a line; empty if the tensions follow from the state alone.
+    pub fn phrase(&self) -> String {
+        let rule = self.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
+        format!("{rule}{}", if self.lengths_held { ", lengths of the pose held" } else { "" })
+    }
 }
 
 impl Models {
-    pub fn of(equilibrium: &Equilibrium, linearisation: Linearisation) -> Self {
+    pub fn of(at_rest: &AtRest, linearisation: Linearisation) -> Self {
         Self {
-            static_model: equilibrium.model.name(),
+            origin: Origin::of(at_rest),
+            static_model: at_rest.equilibrium.model.name(),
             cable_model: linearisation.cable_model.name(),
             assembly: linearisation.assembly.name(),
             in_plane_only: linearisation.in_plane_only,
@@ -27,7 +55,8 @@ impl Models {
     /// Description in one line.
     pub fn line(&self) -> String {
         let plane = if self.in_plane_only { ", in plane only" } else { "" };
-        format!("{} statics, {} cables, {} assembly{plane}", self.static_model, self.cable_model, self.assembly)
+        let origin = self.origin.phrase();
+        format!("{} statics, {} cables, {} assembly{plane}{origin}", self.static_model, self.cable_model, self.assembly)
     }
 }
 

@@ -2,12 +2,14 @@
 
 use super::check::{LoadRow, WindRow};
 use super::found;
+use super::pose_error::PoseDifferenceRow;
 use super::shared::SagNumbers;
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::Sag;
 use funicular::math::rotation;
+use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
 use serde::Serialize;
@@ -29,6 +31,9 @@ pub struct Statics {
     /// Distance from the requested pose; present only with fewer cables than degrees of freedom and a requested pose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest_pose_distance_m: Option<f64>,
+    /// Motion from the pose whose lengths are held to the equilibrium; absent if no lengths are held.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<HeldRow>,
     /// Tension rule; absent if there was no choice of tensions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tension_rule: Option<&'static str>,
@@ -121,12 +126,26 @@ pub struct PoseRow {
 }
 
 impl PoseRow {
-    fn of(pose: &Pose) -> Self {
+    pub(super) fn of(pose: &Pose) -> Self {
         Self {
             position_m: pose.position_w.into(),
             quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
             roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
         }
+    }
+}
+
+/// Pose whose unstrained lengths are held, and the motion from there to the equilibrium.
+#[derive(Serialize)]
+pub struct HeldRow {
+    pub pose: PoseRow,
+    #[serde(flatten)]
+    pub motion: PoseDifferenceRow,
+}
+
+impl HeldRow {
+    fn of(held: &Pose, reached: &Pose) -> Self {
+        Self { pose: PoseRow::of(held), motion: PoseDifference::between(held, reached).into() }
     }
 }
 
@@ -182,7 +201,7 @@ impl LimitNumbers {
 /// # Errors
 /// A request that contradicts itself or the robot, or a robot without such an equilibrium.
 pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
-    about(&at_rest::equilibrium(robot, &request.state, &request.tensions)?, request.all)
+    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request.all)
 }
 
 /// Rows of the cables of a robot at equilibrium, one per cable.
@@ -247,6 +266,7 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         wind: WindRow::of(&robot.wind),
         pose: PoseRow::of(&equilibrium.pose),
         nearest_pose_distance_m: at_rest.requested_pose.map(|(_, distance)| distance),
+        held: at_rest.held_pose.map(|held| HeldRow::of(&held, &equilibrium.pose)),
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
         residual: equilibrium.residual,

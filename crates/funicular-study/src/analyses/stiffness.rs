@@ -36,7 +36,7 @@ pub struct Stiffness {
 /// A robot without such an equilibrium, or a cable model that has no stiffness there.
 pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffness> {
     crate::request::check_not_negative("at_hz", request.at_hz)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &request::Tensions::default())?;
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let linearisation = linearisation_at(&at_rest, request.model, request.at_hz);
     let matrix = matrices(&at_rest, request.model, &[request.at_hz])?[0];
 
@@ -51,7 +51,7 @@ pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffnes
     Ok(Stiffness {
         robot: at_rest.robot.name.clone(),
         frequency_hz: request.at_hz,
-        models: Models::of(&at_rest.equilibrium, linearisation),
+        models: Models::of(&at_rest, linearisation),
         real: rows(|k| k.re),
         imag: rows(|k| k.im),
         antisymmetric_fraction,

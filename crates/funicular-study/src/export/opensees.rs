@@ -258,7 +258,7 @@ mod tests {
         let robot = Robot::from_toml(text).unwrap();
         let State::Lengths(lengths) = &robot.state else { panic!("it has lengths") };
         let equilibrium = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
-        AtRest { robot, equilibrium, requested_pose: None, rule: None }
+        AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None }
     }
 
     /// Measured on this robot with OpenSees, beyond the error of the bars: the first frequency is off by 4e-5 at 1,600

@@ -6,7 +6,7 @@ mod parts;
 pub use of_request::{about, of_request};
 
 use super::Shell;
-use super::figure::response::{Marks, ResponseCurve, sampled};
+use super::figure::response::{Marks, ResponseCurve};
 use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_style, response, robot as drawing};
 use super::table::{PageTable, fixed, significant};
@@ -19,7 +19,8 @@ use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Vec6, rotation};
 use funicular::modes::{self, Kind, Modes};
-use funicular::response::{Peak, Quantity, peaks};
+use funicular::pose_error::PoseDifference;
+use funicular::response::{Peak, Quantity};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
 
@@ -113,7 +114,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
         source: robot.source.trim_end_matches('.'),
-        key: key_numbers(robot, equilibrium, &found),
+        key: key_numbers(at_rest, &found),
         state: state_text(equilibrium),
         robot_figure: drawing::complete(robot, equilibrium),
         platform_figure: drawing::close_up(robot, equilibrium),
@@ -160,7 +161,8 @@ fn sentence(text: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
-fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(&'static str, String)> {
+fn key_numbers(at_rest: &AtRest, found: &Modes) -> Vec<(&'static str, String)> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let p = equilibrium.pose.position_w;
     let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
     let (minimum, maximum) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
@@ -177,6 +179,13 @@ fn key_numbers(robot: &Robot, equilibrium: &Equilibrium, found: &Modes) -> Vec<(
     }
     if let Some(wind) = WindRow::of(&robot.wind) {
         key.push(("wind", wind.text()));
+    }
+    if let Some(held) = &at_rest.held_pose {
+        let [x, y, z] = PoseDifference::between(held, &equilibrium.pose).translation.map(|part| fixed(1e3 * part, 2));
+        key.push(("displacement at held lengths", format!("{x}, {y}, {z} mm")));
+    }
+    if let Some(rule) = &at_rest.rule {
+        key.push(("tension rule", rule.name().to_owned()));
     }
     key.push(("tensions at the platform", format!("{} to {} N", significant(minimum, 4), significant(maximum, 4))));
     if let Some(first) = found.modes.first() {
@@ -266,7 +275,7 @@ fn respond(
     let (motion, v, quantity) = &input.frf_output;
     let draw = |dynamics: &Dynamics, found: &Modes| {
         let model = dynamics.linearisation.cable_model;
-        let at = (dynamics, sampled(below_hz, &found.modes));
+        let at = (dynamics, below_hz, &found.modes[..]);
         ResponseCurve::of(model.name(), model_style(model), at, u, &[*v], *quantity)
     };
     let mut curves = vec![draw(dynamics, found)?];
@@ -291,7 +300,7 @@ fn respond(
             }
         }
     }
-    let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);
+    let tops = curves[0].peaks(PEAK_PROMINENCE_DB);
     let caption = format!(
         "Response of {motion} to {force}: magnitude and phase. Ticks: natural frequencies with the model {}; numbers: \
          frequencies [Hz] of its most prominent peaks. Models with constant cable stiffness (spring, shallow-static, \

@@ -8,7 +8,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::tracking::Tracked;
 use funicular::modes::{self, Kind, LowestError, Mode};
 use funicular::robot::Robot;
-use funicular::statics::{self, Equilibrium, Stability};
+use funicular::statics::{Equilibrium, Stability};
 
 /// Lowest modes of a point, ascending, with their motions for mode tracking.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +26,7 @@ pub struct PointModes {
 /// The reason why there are no modes, as in the row of a sweep.
 pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<PointModes, String> {
     let (robot, state) = point.robot.as_ref().map_err(Clone::clone)?;
-    let found = statics::solve_at(robot, state, options.static_model, &options.tension_rule);
-    let rest = found.map_err(|error| error.to_string())?.equilibrium;
+    let rest = point.solve(robot, state, options).map_err(|error| error.to_string())?.equilibrium;
     if let Some(status) = Status::refusing(robot, &rest) {
         return Err(status.reason);
     }
@@ -106,7 +105,8 @@ mod tests {
             let step = |i: u32| {
                 let heavy = robot.with_mass(10.55 + (86.35 - 10.55) * f64::from(i) / f64::from(count - 1));
                 let state = heavy.state.clone();
-                let point = Point { coordinates: Vec::new(), robot: Ok((Cow::Owned(heavy), Cow::Owned(state))) };
+                let point =
+                    Point { coordinates: Vec::new(), robot: Ok((Cow::Owned(heavy), Cow::Owned(state))), holder: None };
                 let found = lowest_modes(&point, MODES, &options).unwrap();
                 assert!(found.modes.len() == MODES && found.tracked.len() == MODES);
                 found.tracked

@@ -13,7 +13,7 @@ use super::row;
 use super::status::Status;
 use funicular::dynamics::Linearisation;
 use funicular::robot::Robot;
-use funicular::statics::{self, StaticModel, StaticsError, TensionRule};
+use funicular::statics::{StaticModel, StaticsError, TensionRule};
 use thiserror::Error;
 
 /// Options of the evaluation of every point.
@@ -209,8 +209,7 @@ impl<'a> Plan<'a> {
     fn check_first(&self) -> Result<(), SweepError> {
         let first = self.points.point(0);
         let Ok((robot, state)) = &first.robot else { return Ok(()) };
-        let Options { static_model, tension_rule, .. } = self.options;
-        match statics::solve_at(robot, state, *static_model, tension_rule) {
+        match first.solve(robot, state, self.options) {
             Err(error) if Status::of_error(&error).code == "invalid-state" => Err(error.into()),
             _ => Ok(()),
         }

@@ -1,10 +1,11 @@
 //! Points of a sweep: grids and lists of poses, or robots that the caller supplies.
 
 use super::columns::{Column, ColumnKind};
-use super::plan::SweepError;
+use super::plan::{Options, SweepError};
 use super::steps::{Steps, digits};
 use funicular::math::rotation;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
+use funicular::statics::{self, Solution, StaticsError};
 use std::borrow::Cow;
 
 /// Points of a sweep, in a fixed order.
@@ -26,6 +27,19 @@ pub struct Point<'a> {
     pub coordinates: Vec<f64>,
     /// Robot and its state, or the reason why there is no robot.
     pub robot: Result<(Cow<'a, Robot>, Cow<'a, State>), String>,
+    /// Robot whose unstrained lengths at the state are held; `None` if none are held.
+    pub holder: Option<Cow<'a, Robot>>,
+}
+
+impl Point<'_> {
+    /// Equilibrium of a robot of this point at a state.
+    pub(super) fn solve(&self, robot: &Robot, state: &State, options: &Options) -> Result<Solution, StaticsError> {
+        let Options { static_model, tension_rule, .. } = options;
+        match &self.holder {
+            None => statics::solve_at(robot, state, *static_model, tension_rule),
+            Some(holder) => statics::solve_held_at(holder, robot, state, *static_model, tension_rule),
+        }
+    }
 }
 
 /// Names of the axes of a pose, in the order of its six numbers.
@@ -35,6 +49,8 @@ pub const AXES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 #[derive(Debug, Clone)]
 pub struct Poses {
     robot: Robot,
+    /// Robot whose unstrained lengths at each pose are held.
+    holder: Option<Robot>,
     which: Which,
 }
 
@@ -96,12 +112,18 @@ impl Poses {
             let value = at_base.next().unwrap_or(0.0);
             steps.unwrap_or_else(|| Steps::List(vec![value]))
         }));
-        Ok(Self { robot, which: Which::Grid { axes, turns, base } })
+        Ok(Self { robot, holder: None, which: Which::Grid { axes, turns, base } })
     }
 
     /// List of poses in the given order: position [m] and roll, pitch, yaw [degrees].
     pub fn list(robot: Robot, poses: Vec<[f64; 6]>) -> Self {
-        Self { robot, which: Which::List(poses) }
+        Self { robot, holder: None, which: Which::List(poses) }
+    }
+
+    /// These poses with held lengths: those with which `holder` rests at each pose.
+    #[must_use]
+    pub fn holding(self, holder: Option<Robot>) -> Self {
+        Self { holder, ..self }
     }
 
     /// Values along the six axes of a grid, including axes with one value; `None` for a list.
@@ -191,6 +213,7 @@ impl Points for Poses {
         Point {
             coordinates: at[..self.width()].to_vec(),
             robot: Ok((Cow::Borrowed(&self.robot), Cow::Owned(State::Pose(pose)))),
+            holder: self.holder.as_ref().map(Cow::Borrowed),
         }
     }
 }

@@ -39,6 +39,8 @@ pub struct RobotValues {
     /// is not a number of the file; every robot is then read from its own text.
     numbers: Option<(Parameters, Vec<usize>)>,
     adjust: Adjust,
+    /// Robots whose unstrained lengths are held: only the values of `[state]` vary in them.
+    holders: Option<Box<Self>>,
 }
 
 impl RobotValues {
@@ -57,7 +59,7 @@ impl RobotValues {
             }
         }
 
-        let mut variations = Self { text, axes, numbers: None, adjust };
+        let mut variations = Self { text, axes, numbers: None, adjust, holders: None };
         for axis in &variations.axes {
             let tried = match &axis.steps {
                 Steps::Range { from, to, .. } => vec![*from, *to],
@@ -82,6 +84,26 @@ impl RobotValues {
 
         variations.numbers = variations.find_numbers();
         Ok(variations)
+    }
+
+    /// These robots with held lengths: those with which robots of another text rest at the pose of each point. In that
+    /// text only the values of `[state]` vary, if they do.
+    ///
+    /// # Errors
+    /// A message for the user: a robot that the text does not make.
+    pub fn holding(mut self, text: String, adjust: Adjust) -> Result<Self, String> {
+        let axes = self.axes.iter().filter(|axis| axis.path.is_of_state()).cloned().collect();
+        let holders = Self::new(text, axes, adjust)?;
+        holders.first()?;
+        self.holders = Some(Box::new(holders));
+        Ok(self)
+    }
+
+    /// Robot whose lengths are held at a point with these values.
+    fn holder_at(&self, values: &[f64]) -> Option<Result<Robot, String>> {
+        let holders = self.holders.as_ref()?;
+        let of_state = self.axes.iter().zip(values).filter(|(axis, _)| axis.path.is_of_state());
+        Some(holders.robot_at(&of_state.map(|(_, value)| *value).collect::<Vec<_>>()))
     }
 
     /// Numbers that vary, found in the text of the first point, which contains all of them.
@@ -159,11 +181,20 @@ impl Points for RobotValues {
 
     fn point(&self, i: usize) -> Point<'_> {
         let coordinates = self.values(i);
-        let robot = self.robot_at(&coordinates).map(|robot| {
+        let (holder, reason) = match self.holder_at(&coordinates) {
+            None => (None, None),
+            Some(Ok(holder)) => (Some(Cow::Owned(holder)), None),
+            Some(Err(reason)) => (None, Some(reason)),
+        };
+        let robot = match reason {
+            None => self.robot_at(&coordinates),
+            Some(reason) => Err(reason),
+        };
+        let robot = robot.map(|robot| {
             let state = robot.state.clone();
             (Cow::Owned(robot), Cow::Owned(state))
         });
-        Point { coordinates, robot }
+        Point { coordinates, robot, holder }
     }
 }
 

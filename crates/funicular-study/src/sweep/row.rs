@@ -60,8 +60,7 @@ pub(super) fn cells(
 /// Robot of a point and its equilibrium, or the reason why no equilibrium within the limits exists.
 fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solution), Status> {
     let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("invalid-robot", reason))?;
-    let rest = statics::solve_at(robot, state, options.static_model, &options.tension_rule)
-        .map_err(|error| Status::of_error(&error))?;
+    let rest = point.solve(robot, state, options).map_err(|error| Status::of_error(&error))?;
     match Status::refusing(robot, &rest.equilibrium) {
         Some(status) => Err(status),
         None => Ok((robot, rest)),

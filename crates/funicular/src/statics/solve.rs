@@ -20,6 +20,8 @@ pub struct Solution {
     pub requested_pose: Option<(Pose, f64)>,
     /// Rule by which the tensions were chosen, if there was a choice.
     pub rule: Option<TensionRule>,
+    /// Pose whose unstrained lengths are held, if another robot was at rest there; see [`solve_held_at`].
+    pub held_pose: Option<Pose>,
 }
 
 /// Equilibrium at [`Robot::state`] by [`solve_at`]. A given rule must have a choice.
@@ -72,7 +74,7 @@ pub fn solve_at(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Solution, StaticsError> {
-    let found = |equilibrium| Solution { equilibrium, requested_pose: None, rule: None };
+    let found = |equilibrium| Solution { equilibrium, requested_pose: None, rule: None, held_pose: None };
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
@@ -88,6 +90,56 @@ pub fn solve_at(
             }
         },
     }
+}
+
+/// Equilibrium of a robot at held unstrained lengths by [`solve_held_at`]: those with which `holder` rests at its own
+/// state. A given rule must have a choice.
+///
+/// # Errors
+/// [`StaticsError`], as for [`solve`] of the holder and for [`forward`] of the robot.
+pub fn solve_held(
+    holder: &Robot,
+    robot: &Robot,
+    model: StaticModel,
+    rule: Option<TensionRule>,
+) -> Result<Solution, StaticsError> {
+    if rule.is_some() {
+        refuse_rule_without_choice(holder)?;
+    }
+    solve_held_at(holder, robot, &holder.state, model, &rule.unwrap_or_default())
+}
+
+/// Equilibrium of a robot at held unstrained lengths: those with which `holder`, a robot with the same cables and, for
+/// example, another mass, rests at a state. The search starts at the pose of the holder, so that it finds the
+/// equilibrium to which the platform moves if several hold these lengths.
+///
+/// # Errors
+/// [`StaticsError`], as for [`solve_at`] of the holder and for [`forward`] of the robot.
+///
+/// # Example
+/// ```
+/// use funicular::robot::{Pose, Robot, State};
+/// use funicular::statics::{self, StaticModel, TensionRule};
+///
+/// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
+/// let state = State::Pose(Pose::new([1.0, 2.0, 1.5], [0.0; 3]));
+/// let (heavier, rule) = (robot.with_mass(2.0 * robot.platform.mass), TensionRule::Lowest);
+/// let rest = statics::solve_held_at(&robot, &heavier, &state, StaticModel::Catenary, &rule)?;
+/// assert!(rest.equilibrium.pose.position_w.z < 1.5); // the heavier platform rests lower
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solve_held_at(
+    holder: &Robot,
+    robot: &Robot,
+    state: &State,
+    model: StaticModel,
+    rule: &TensionRule,
+) -> Result<Solution, StaticsError> {
+    let held = solve_at(holder, state, model, rule)?;
+    let pose = held.equilibrium.pose;
+    let lengths: Vec<f64> = held.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+    let equilibrium = forward(robot, &lengths, model, Some(&pose))?;
+    Ok(Solution { equilibrium, requested_pose: held.requested_pose, rule: held.rule, held_pose: Some(pose) })
 }
 
 /// Inverse statics: unstrained lengths and tensions that hold the platform at a pose.

@@ -12,6 +12,8 @@ mod bounds;
 mod cable_at_pose;
 mod feasible_set;
 mod null_space;
+mod obstacle;
+mod payload;
 mod proof;
 mod search;
 mod stiffest;
@@ -24,6 +26,10 @@ use super::model::StaticModel;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use cable_at_pose::CableAtPose;
+pub use cable_at_pose::TensionPlace;
+pub(crate) use obstacle::spread;
+pub use obstacle::{Obstacle, OneSidedCause};
+pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 use search::TensionSearch;
 
 /// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
@@ -90,23 +96,8 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
-    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    if cables < dof {
-        return Err(StaticsError::InverseCableCount { cables, dof });
-    }
-
-    robot.platform.motion.check(pose)?;
-    for cable in &robot.cables {
-        if cable.chord_w(pose).norm() == 0.0 {
-            return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
-        }
-    }
-
-    let coordinates = Coordinates::of(robot);
-    let cables_at_pose: Vec<CableAtPose> =
-        (0..cables).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
-    check(robot, model, rule, &cables_at_pose)?;
-    let mut search = TensionSearch::new(robot, pose, cables_at_pose);
+    let cables = robot.cables.len();
+    let mut search = TensionSearch::new(robot, pose, model, cables_at(robot, pose, model, rule)?);
 
     match rule {
         TensionRule::Lowest => {
@@ -131,6 +122,36 @@ pub fn distribute_tensions(
     let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
     let hanging = held.into_iter().map(|cable| cable.hanging).collect();
     Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
+}
+
+/// Cables at a pose, taut, with their limits.
+///
+/// # Errors
+/// Fewer cables than degrees of freedom, a pose that the platform cannot have, coinciding ends, or limits or data that
+/// the rule excludes.
+fn cables_at(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    rule: &TensionRule,
+) -> Result<Vec<CableAtPose>, StaticsError> {
+    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+    if cables < dof {
+        return Err(StaticsError::InverseCableCount { cables, dof });
+    }
+
+    robot.platform.motion.check(pose)?;
+    for cable in &robot.cables {
+        if cable.chord_w(pose).norm() == 0.0 {
+            return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
+        }
+    }
+
+    let coordinates = Coordinates::of(robot);
+    let cables_at_pose: Vec<CableAtPose> =
+        (0..cables).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
+    check(robot, model, rule, &cables_at_pose)?;
+    Ok(cables_at_pose)
 }
 
 /// Maximum number of cables for the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred

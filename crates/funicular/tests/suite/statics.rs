@@ -7,6 +7,7 @@ mod ideal;
 mod inverse;
 mod nearest_pose;
 mod residual;
+mod solve;
 mod stiffness;
 mod tension;
 mod tension_gain;

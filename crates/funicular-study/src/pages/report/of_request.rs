@@ -4,7 +4,7 @@ use super::{Report, ReportInput, report};
 use crate::analyses::frf;
 use crate::at_rest::{self, AtRest};
 use crate::pages::table::listed;
-use crate::request::{self, Tensions};
+use crate::request;
 use crate::robot_file::RobotFile;
 use crate::signals::{Input, Output};
 use anyhow::{Result, anyhow};
@@ -22,7 +22,7 @@ pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_lin
     // Invalid signals are refused before the computation.
     let (from, to) = response(request, &robot)?;
     at_rest::signals(&robot, &from, &to, &request.points)?;
-    let at_rest = at_rest::equilibrium(robot, &request.state, &Tensions::default())?;
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     about(&at_rest, request, &name, &text, command_line)
 }
 

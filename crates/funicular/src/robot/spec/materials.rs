@@ -6,7 +6,7 @@ use super::limits;
 use super::read::{MAX_NUMBER, MIN_NUMBER, Reader, Section};
 use crate::math::Vec3;
 use crate::robot::parameters::Range;
-use crate::robot::{Damping, Material};
+use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -176,7 +176,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         limits::check(reader, section, limits, breaking_load.flatten());
     }
 
-    let drag_width = drag_width(reader, section, stiffness.diameter());
+    let drag = drag(reader, section, stiffness.diameter());
     let load_per_length = reader.vector_or_default(section, "load_n_per_m");
 
     Some(Material {
@@ -186,14 +186,15 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         damping: damping?,
         tension_limits: tension_limits?,
         breaking_load: breaking_load?,
-        drag_width: drag_width?,
+        drag_width: drag?.map(|[coefficient, diameter]| coefficient * diameter),
         load_per_length_w: Vec3::from(load_per_length?),
+        dimensions: RopeDimensions { section: stiffness.section(), drag_diameter: drag?.map(|[_, diameter]| diameter) },
     })
 }
 
-/// Drag coefficient times diameter [m], if a coefficient is given.
+/// Drag coefficient and diameter [m], if a coefficient is given.
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
-fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>) -> Option<Option<f64>> {
+fn drag(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>) -> Option<Option<[f64; 2]>> {
     let own = section.get("drag_diameter_m");
     // An issue of the rope's own diameter has been reported together with its stiffness.
     let of_rope = section.get("diameter_m").map(|_| rope_diameter);
@@ -216,7 +217,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
             .help("give the `drag_diameter_m` that the wind meets");
         return None;
     };
-    Some(Some(coefficient? * diameter?))
+    Some(Some([coefficient?, diameter?]))
 }
 
 /// Valid numbers that determine the stiffness of a rope.
@@ -243,6 +244,12 @@ impl StiffnessKeys {
 
     fn diameter(&self) -> Option<f64> {
         self.numbers[2]
+    }
+
+    /// Cross-section of the file.
+    fn section(&self) -> Option<RopeSection> {
+        let [_, _, diameter, area] = self.numbers;
+        diameter.map(RopeSection::Diameter).or(area.map(RopeSection::Area))
     }
 
     /// Axial stiffness EA [N], given in one of the two ways.

@@ -5,7 +5,7 @@ use crate::catenary::{Catenary, Rope};
 use crate::math::{Mat3, Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, wrench_of};
 use crate::robot::{Pose, Robot};
-use crate::statics::limits::TensionRange;
+use crate::statics::limits::{Limit, TensionRange};
 use crate::statics::loaded_cable::LoadedCable;
 use crate::statics::model::StaticModel;
 
@@ -28,6 +28,31 @@ pub(super) struct CableAtPose {
     tau: f64,
     /// Derivative dL0/dτ [m/N].
     length_rate: f64,
+}
+
+/// Place in a cable where its tension has its minimum or maximum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TensionPlace {
+    /// End at the platform.
+    Platform,
+    /// End at the anchor.
+    Anchor,
+    /// Lowest point, between the ends.
+    LowestPoint,
+    /// Anywhere: a cable without load has the same tension everywhere.
+    Anywhere,
+}
+
+impl TensionPlace {
+    /// Name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Platform => "platform",
+            Self::Anchor => "anchor",
+            Self::LowestPoint => "lowest point",
+            Self::Anywhere => "anywhere",
+        }
+    }
 }
 
 /// Tension at a point of the cable and its derivative with respect to τ.
@@ -105,6 +130,29 @@ impl CableAtPose {
         }
     }
 
+    /// Place where the tension is at its minimum or maximum.
+    pub(super) fn place(&self, limit: Limit) -> TensionPlace {
+        if self.rope().weight_per_length == 0.0 {
+            return TensionPlace::Anywhere;
+        }
+        match (limit, self.rise > 0.0) {
+            (Limit::Minimum, _) if self.lowest_between_ends() => TensionPlace::LowestPoint,
+            (Limit::Minimum, true) | (Limit::Maximum, false) => TensionPlace::Platform,
+            (Limit::Minimum, false) | (Limit::Maximum, true) => TensionPlace::Anchor,
+        }
+    }
+
+    /// True if the lowest point of the cable is between its ends.
+    fn lowest_between_ends(&self) -> bool {
+        let catenary = &self.hanging.catenary;
+        catenary.vertical_force_at_start() < 0.0 && catenary.vertical_force_at_end() > 0.0
+    }
+
+    /// Axial stiffness EA [N].
+    pub(super) fn axial_stiffness(&self) -> f64 {
+        self.rope().axial_stiffness
+    }
+
     fn rope(&self) -> Rope {
         self.hanging.catenary.rope()
     }
@@ -143,9 +191,8 @@ impl CableAtPose {
     pub(super) fn min_tension(&self) -> TensionByTau {
         let [lower, _] = self.ends();
         let cos = self.span / self.hanging.chord_w().norm();
-        let catenary = &self.hanging.catenary;
-        if catenary.vertical_force_at_start() < 0.0 && catenary.vertical_force_at_end() > 0.0 {
-            TensionByTau { value: catenary.horizontal_force(), slope: cos }
+        if self.lowest_between_ends() {
+            TensionByTau { value: self.hanging.catenary.horizontal_force(), slope: cos }
         } else {
             lower
         }

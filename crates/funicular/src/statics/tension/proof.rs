@@ -205,6 +205,11 @@ impl Infeasibility<'_> {
         verdict
     }
 
+    /// True if this direction proves that the load cannot be balanced.
+    pub(super) fn is_proof(&self, y: &Vec6) -> bool {
+        self.test_direction(y).0
+    }
+
     /// True if one direction is a proof, with the points of maximum contribution of the cables in it.
     fn test_direction(&self, y: &Vec6) -> (bool, Vec<SharePoint>) {
         let mut parts: Vec<TauInterval> = Vec::with_capacity(self.reaches.len());

@@ -3,6 +3,7 @@
 mod lengths;
 mod limits;
 mod out_of_reach;
+mod payload;
 mod rules;
 mod straight;
 
