@@ -62,7 +62,7 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
-    if option in ("--input", "--output", "--name") or re.search("[a-z]{2}", text):
+    if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text
     found = numbers(text)
     return found[0] if len(found) == 1 else found

@@ -11,6 +11,7 @@ mod import;
 mod links;
 mod modes;
 mod motion;
+mod new_robot;
 mod pages;
 mod plots;
 mod pose_error;
