@@ -100,7 +100,20 @@ fn requests() -> Vec<Value> {
                 &state,
                 &model,
                 &points,
-                &json!({ "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "tolerance": 1e-3, "damping_at_hz": 1.0 }),
+                &json!({
+                    "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "form": "second-order", "tolerance": 1e-3,
+                    "damping_at_hz": 1.0
+                }),
+            ],
+        ),
+        of(
+            "reduce",
+            &[
+                &robot,
+                &state,
+                &model,
+                &points,
+                &json!({ "below_hz": 5.0, "input": [], "output": ["az"], "form": "state-space", "order": 8 }),
             ],
         ),
         of("map", &[&robot, &point, &json!({ "grid": grid })]),
@@ -111,6 +124,16 @@ fn requests() -> Vec<Value> {
         of("report", &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0 })]),
         of("paper", &[]),
         of("import", &[&files, &ropes]),
+        of(
+            "new",
+            &[&json!({
+                "name": "rig", "cables": 6, "motion": "planar-xz", "csv_unit": "mm", "mass_kg": 20.0,
+                "from_csv": { "path": "a.csv", "text": "1,2,3,4,5,6" }, "box_m": [0.4, 0.3, 0.2], "rope": "7x7",
+                "diameter_m": 0.003, "axial_stiffness_n": 1e6, "mass_kg_per_m": 0.1,
+                "pose": [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            })],
+        ),
+        of("schema", &[]),
         of("export", &[&robot, &state, &tensions, &json!({ "to": "vtk", "segments": 5, "modes_below_hz": 10.0 })]),
         of("validate", &[]),
     ]
