@@ -132,6 +132,7 @@ pub(crate) fn state_space(
         tolerance: keywords.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
         damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
         state: of.state.clone(),
+        tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
     };
     let at_rest = Arc::clone(&of.at_rest);

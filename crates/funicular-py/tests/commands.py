@@ -9,6 +9,7 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode"}
 # Options without a value.
 SWITCHES = {"--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"}
 # Options that may be given several times.

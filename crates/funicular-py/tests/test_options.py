@@ -7,6 +7,7 @@ from typing import Any
 
 import commands
 import funicular
+import funicular.plot
 import numpy as np
 import pytest
 from conftest import ROOT
@@ -25,7 +26,10 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "compare": ("`robot.equilibrium(…).compare(…)`", [Robot.equilibrium, Equilibrium.compare]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
-    "reduce": ("`robot.equilibrium(…).reduce(…)`", [Robot.equilibrium, Equilibrium.reduce]),
+    "reduce": (
+        "`robot.equilibrium(…).state_space(…)`, `robot.equilibrium(…).reduce(…)` for the second-order form",
+        [Robot.equilibrium, Equilibrium.state_space],
+    ),
     "map": ("`robot.map(…)`", [Robot.map]),
     "sweep": ("`robot.sweep(…)`", [Robot.sweep]),
     "merge": ("`funicular.merge(parts, path)`", [funicular.merge]),
@@ -51,7 +55,14 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     (None, "--points"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
     (None, "--log"): ("`hz=numpy.geomspace(from_hz, to_hz, points)`", np.geomspace),
     (None, "--quantity"): ("`quantities=` of `Robot.map`, `Robot.sweep`", Robot.map),
-    (None, "--matrices"): ("`model.save(path)`; `model.state_space()`, `to_scipy()`, `to_control()`", funicular.ReducedModel.save),
+    (None, "--form"): ("`state_space(…)` or `reduce(…)` of the equilibrium", Equilibrium.reduce),
+    (None, "--matrices"): ("`model.save(path)`; `model.A`, …, `to_scipy()`, `to_control()`", funicular.StateSpaceModel.save),
+    (None, "--figure-width-mm"): ("`width=` of `funicular.plot.bode`, `funicular.plot.map`, `funicular.plot.shape`", funicular.plot.bode),
+    (None, "--font-size-pt"): ("`font_size_pt=` of these functions of `funicular.plot`", funicular.plot.bode),
+    (None, "--figure-mode"): ("`mode=` of `funicular.plot.shape`, from 0", funicular.plot.shape),
+    ("plot", "--quantity"): ("`column=` of `funicular.plot.map`", funicular.plot.map),
+    (None, "--plane"): ("`plane=` of `funicular.plot.map`", funicular.plot.map),
+    (None, "--at"): ("`at=` of `funicular.plot.map`", funicular.plot.map),
     ("map", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
     ("sweep", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
     ("map", "--output-file"): ("`file=` of `Robot.map`, `Robot.sweep`", Robot.map),

@@ -35,9 +35,10 @@ MORE = [
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic --in-plane-only",
     f"funicular pose-error {ROBOT} --mass-kg 10.55:86.35:5 {LENGTHS} --tolerance-mm 5",
-    f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --damping-at-hz 1",
-    f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
-    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 {STATE} {WHOLE}",
+    f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --order 12",
+    f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 "
+    "--damping-at-hz 1 --tolerance 0.1",
+    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 --form second-order {STATE} {WHOLE}",
     f"funicular map robots/cogiro.toml --grid z=1:2:2 {TENSIONS} {STATE} {MODEL} --quantity tensions --up-to-hz 50",
     f"funicular sweep {ROBOT} --vary cables.3.unstrained_length_m=6.7,6.8 --static-model spring --set platform.mass_kg=12",
     f"funicular report {ROBOT} --below-hz 3 --input mz --output arz --cable-model spring --mass-kg 12",
@@ -173,7 +174,8 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         case "compare":
             assert plain(rest.compare(**own)) == theirs
         case "reduce":
-            assert rest.reduce(**own).to_dict() == theirs
+            reduced = rest.reduce if own.pop("form", "") == "second-order" else rest.state_space
+            assert reduced(**own).to_dict() == theirs
         case "cable":
             assert plain(rest.cable(hz=hz, **own)) == theirs
         case "frf":
@@ -212,7 +214,7 @@ def test_a_reduced_model_has_the_frequencies_and_responses_of_the_robot(tmp_path
         assert np.abs(response - expected).max() < bound * np.abs(expected).max()
     model.save(tmp_path / "model.npz")
     assert np.array_equal(np.load(tmp_path / "model.npz")["ss_A"], a)
-    with pytest.raises(funicular.InputError, match=r"must end in \.npz"):
+    with pytest.raises(funicular.InputError, match=r"must end in \.npz or \.mat"):
         model.save(tmp_path / "model.csv")
 
 
@@ -265,6 +267,8 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
     assert Path("ours.html").read_text() == page.html and "robot.equilibrium(" in page.html
     assert "<iframe" in page._repr_html_() and "<html" not in page._repr_html_()
     rows = robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}, file="map.parquet")
+    with pytest.raises(funicular.InputError, match="would hold one figure"):
+        rows.plot("map.pdf")
     shown = rows.plot("map.html")
     assert Path("map.html").read_text() == shown.html and "tension" in shown.html
     assert "rows in memory" in robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}).plot().html

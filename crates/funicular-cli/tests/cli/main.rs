@@ -4,6 +4,7 @@ mod bad_input;
 mod cable;
 mod compare;
 mod export;
+mod figures;
 mod files;
 mod frf;
 mod import;
