@@ -47,6 +47,12 @@ MORE = [
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
     "funicular paper",
+    "funicular new",
+    "funicular new --cables 6 --motion planar-xz --name rig --mass-kg 20 --box-m 0.4,0.3,0.2 --rope 7x7 --diameter-m 0.003 --pose 0,0,1.5",
+    "funicular new --motion point-mass --axial-stiffness-n 1e6 --mass-kg-per-m 0.1",
+    "funicular new --from-csv docs/robot-file.csv --csv-unit mm --mass-kg 60",
+    "funicular schema",
+    f"funicular parameters {ROBOT} --set loads.force_n.2=-5 --set cables.1.anchor_m.2=5.5",
     "funicular import docs/import/tripod.txt --mass-kg 7 --inertia-kg-m2 1,1,1,0,0,0 --center-of-mass-m 0,0,0.1 --diameter-m 0.01",
     "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml --mass-kg-per-m 0.05 --youngs-modulus-pa 1e11 "
     "--diameter-m 0.005 --pose 0,0,1",
@@ -103,7 +109,11 @@ def ours(line: str) -> dict[str, Any]:
     if command == "import":
         sources = [json.loads(funicular._study.source_file(Path(path))) for path in files]
         return funicular._study.request(command, None, {"files": sources, **keywords})
-    if command in ("paper", "validate"):
+    if command == "new":
+        if "from_csv" in keywords:
+            keywords["from_csv"] = json.loads(funicular._study.source_file(Path(keywords["from_csv"])))
+        return funicular._study.request(command, None, keywords)
+    if command in ("paper", "schema", "validate"):
         return funicular._study.request(command, None, keywords)
     return commands.robot_of(files, changes).request(command, **keywords)
 
@@ -243,10 +253,22 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
     with pytest.raises(funicular.InputError, match="`mass_kg_per_m`"):
         funicular.import_robot(files)
 
+    run("new --from-csv docs/robot-file.csv --csv-unit mm --mass-kg 60 -o new-theirs.toml")
+    new = funicular.new_robot(from_csv="docs/robot-file.csv", csv_unit="mm", mass_kg=60)
+    new.write("new-ours.toml")
+    assert Path("new-ours.toml").read_bytes() == Path("new-theirs.toml").read_bytes()
+    assert new.warnings == () and new.robot.equilibrium().stable
+    with pytest.raises(FileExistsError, match="may hold your own numbers"):
+        new.write("new-ours.toml")
+    with pytest.raises(funicular.InputError, match="`cables` 1: one cable"):
+        funicular.new_robot(cables=1)
+
     page = rest.report("ours.html", below_hz=3)
     assert Path("ours.html").read_text() == page.html and "robot.equilibrium(" in page.html
     assert "<iframe" in page._repr_html_() and "<html" not in page._repr_html_()
     rows = robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}, file="map.parquet")
+    with pytest.raises(funicular.InputError, match="would hold one figure"):
+        rows.plot("map.pdf")
     shown = rows.plot("map.html")
     assert Path("map.html").read_text() == shown.html and "tension" in shown.html
     assert "rows in memory" in robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}).plot().html
