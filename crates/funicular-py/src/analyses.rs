@@ -6,7 +6,7 @@ use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
 use crate::robot::PyRobot;
-use crate::vibration::{self, ModesKeywords, ModesObject, Pair};
+use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, Pair};
 use crate::written::{self, PageKeywords, ReduceKeywords};
 use funicular_study::analyses;
 use funicular_study::request::{State, Tensions};
@@ -93,12 +93,15 @@ impl PyAnalyses {
     ///     Number of points along every cable, ends included, whose displacements are wanted.
     /// cable_model, assembly, in_plane_only
     ///     Models, as in `stiffness`.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
+    ///     platform.
     /// damped
     ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
     ///     damping, and there are no eigenvalues.
     #[pyo3(signature = (
         below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, damped=true
+        assembly="consistent", in_plane_only=false, platform_share=Number::of(funicular::modes::PLATFORM_SHARE), damped=true
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn modes(
@@ -113,6 +116,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        platform_share: Number,
         damped: bool,
     ) -> PyResult<ModesObject> {
         let keywords = ModesKeywords {
@@ -125,6 +129,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            platform_share,
             damped,
         };
         Self::at(slf, |rest| vibration::modes(py, rest, keywords))
@@ -196,21 +201,35 @@ impl PyAnalyses {
     /// ----------
     /// below_hz
     ///     Limit of the frequencies [Hz].
+    /// platform
+    ///     Compare the modes of the platform alone.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for a mode of the platform.
+    /// tolerance
+    ///     Maximum relative difference of frequency for a model that is good enough.
     /// assembly, in_plane_only
     ///     Terms of the stiffness, as in `stiffness`.
     ///
     /// Returns
     /// -------
     /// The keys of the program's JSON; lists of numbers are arrays.
-    #[pyo3(signature = (below_hz, *, assembly="consistent", in_plane_only=false))]
+    #[pyo3(signature = (
+        below_hz, *, platform=false, platform_share=Number::of(funicular::modes::PLATFORM_SHARE),
+        tolerance=Number::of(funicular::compare::TOLERANCE), assembly="consistent", in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn compare<'py>(
         slf: &Bound<'py, Self>,
         py: Python<'py>,
         below_hz: Number,
+        platform: bool,
+        platform_share: Number,
+        tolerance: Number,
         assembly: &str,
         in_plane_only: bool,
     ) -> PyResult<TextKeyed<'py>> {
-        Self::at(slf, |rest| vibration::compare(py, rest, below_hz, assembly, in_plane_only))
+        let keywords = CompareKeywords { below_hz, platform, platform_share, tolerance, assembly, in_plane_only };
+        Self::at(slf, |rest| vibration::compare(py, rest, keywords))
     }
 
     /// Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
@@ -335,9 +354,11 @@ impl PyAnalyses {
     ///     platform that cannot move along z.
     /// input_point_m, output_point_m, cable_model, assembly, in_plane_only
     ///     Points and models, as in `frf`.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
     #[pyo3(signature = (
         path=None, *, below_hz=Number::of(20.0), input=None, output=None, input_point_m=None, output_point_m=None,
-        cable_model=None, assembly="consistent", in_plane_only=false
+        cable_model=None, assembly="consistent", in_plane_only=false, platform_share=Number::of(funicular::modes::PLATFORM_SHARE)
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn report(
@@ -352,6 +373,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        platform_share: Number,
     ) -> PyResult<written::PageObject> {
         let keywords = PageKeywords {
             below_hz,
@@ -362,6 +384,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            platform_share,
         };
         Self::at(slf, |rest| written::report(py, rest, path, keywords))
     }

@@ -106,7 +106,18 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) platform_share: Number,
     pub(crate) damped: bool,
+}
+
+/// Keywords of `compare`.
+pub(crate) struct CompareKeywords<'a> {
+    pub(crate) below_hz: Number,
+    pub(crate) platform: bool,
+    pub(crate) platform_share: Number,
+    pub(crate) tolerance: Number,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
 }
 
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
@@ -121,6 +132,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
         stations: keywords.stations.map(stations).transpose()?,
+        platform_share: keywords.platform_share.value("platform_share")?,
         damped: keywords.damped,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
@@ -137,16 +149,17 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
 pub(crate) fn compare<'py>(
     py: Python<'py>,
     of: &PyEquilibrium,
-    below_hz: Number,
-    assembly: &str,
-    in_plane_only: bool,
+    keywords: CompareKeywords<'_>,
 ) -> PyResult<TextKeyed<'py>> {
     let request = request::CompareRequest {
         robot: of.of.get().source.clone(),
-        below_hz: below_hz.value("below_hz")?,
+        below_hz: keywords.below_hz.value("below_hz")?,
+        platform: keywords.platform,
+        platform_share: keywords.platform_share.value("platform_share")?,
+        tolerance: keywords.tolerance.value("tolerance")?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        terms: terms(assembly, in_plane_only)?,
+        terms: terms(keywords.assembly, keywords.in_plane_only)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;

@@ -132,6 +132,7 @@ pub(crate) struct PageKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) platform_share: Number,
 }
 
 pub(crate) fn report(
@@ -146,6 +147,7 @@ pub(crate) fn report(
         input: keywords.input,
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
+        platform_share: keywords.platform_share.value("platform_share")?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,

@@ -10,7 +10,10 @@ import funicular
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
 # Options without a value.
-SWITCHES = {"--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"}
+SWITCHES = {
+    *("--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
+    *("--platform", "--hold-lengths-of-pose"),
+}
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}}
 

@@ -9,6 +9,7 @@ pub mod compare;
 pub mod frf;
 pub mod modes;
 pub mod parameters;
+pub mod payload;
 pub mod pose_error;
 pub mod reduce;
 pub mod shared;

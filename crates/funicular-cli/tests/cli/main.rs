@@ -12,6 +12,7 @@ mod modes;
 mod motion;
 mod pages;
 mod plots;
+mod payload;
 mod pose_error;
 mod readme;
 mod reduce;

@@ -45,7 +45,14 @@ pub const KEYS: &[(&str, &str)] = &[
         "damped",
         "compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping",
     ),
-    ("tolerance", "maximum relative error of the responses due to omitted modes"),
+    (
+        "tolerance",
+        "maximum relative error of the responses due to omitted modes; for `compare` the maximum relative difference of \
+         frequency for a model that is good enough",
+    ),
+    ("platform", "compare the modes of the platform alone"),
+    ("platform_share", "minimum fraction of the kinetic energy in the platform for a mode of the platform"),
+    ("payload_center_m", "centre of mass of the payload, platform frame [m]"),
     ("tolerance_mm", "maximum distance between spring pose and catenary pose at which springs are good enough [mm]"),
     ("damping_at_hz", "frequency at which viscous damping reproduces constant damping ratios [Hz]"),
     ("name", "name of a cable"),
