@@ -79,9 +79,9 @@ pub(crate) fn holder_of(robot: Robot, state: &request::State, tensions: &Tension
 pub fn refuse_no_pose(robot: &Robot) -> Result<()> {
     match robot.state {
         State::Pose(_) => Ok(()),
-        State::Lengths(_) | State::Unknown => bail!(
-            "⟪hold_lengths_of_pose⟫ needs a pose: give ⟪pose⟫, or the robot file a [state] with `position_m`"
-        ),
+        State::Lengths(_) | State::Unknown => {
+            bail!("⟪hold_lengths_of_pose⟫ needs a pose: give ⟪pose⟫, or the robot file a [state] with `position_m`")
+        }
     }
 }
 

@@ -28,7 +28,7 @@ pub use steps::{Steps, digits};
 
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
-use crate::request::{check_fraction, Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest};
+use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest, check_fraction};
 use crate::robot_file::RobotFile;
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};

@@ -31,7 +31,8 @@ fn requests() -> Vec<Value> {
         "mass_kg": 0.1, "static_model": "spring", "force_n": [1.0, -0.0, 1e-300], "moment_n_m": [0.1, 0.2, 0.3],
         "load_point_m": [0.0, 0.0, 0.1], "wind_m_s": [5.0, 0.0, 0.0], "cable_load_n_per_m": [0.0, 0.0, -0.1],
     });
-    let state = joined(&[&loads, &json!({ "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 1.0 / 3.0], "hold_lengths_of_pose": true })]);
+    let state =
+        joined(&[&loads, &json!({ "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 1.0 / 3.0], "hold_lengths_of_pose": true })]);
     let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8], "hold_lengths_of_pose": false })]);
     let share = json!({ "platform_share": 0.7 });
     let center = json!({ "payload_center_m": [0.0, 0.1, -0.2] });
@@ -44,8 +45,14 @@ fn requests() -> Vec<Value> {
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
-    let point =
-        joined(&[&state, &tensions, &model, &share, &center, &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 })]);
+    let point = joined(&[
+        &state,
+        &tensions,
+        &model,
+        &share,
+        &center,
+        &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 }),
+    ]);
     let files = json!({ "files": [{ "path": "a.xml", "text": "<a/>", "guessed_encoding": "windows-1252" }] });
     let ropes = json!({
         "mass_kg_per_m": 0.05, "axial_stiffness_n": 1e6, "youngs_modulus_pa": 1e11, "diameter_m": 0.005,
@@ -88,7 +95,10 @@ fn requests() -> Vec<Value> {
             ],
         ),
         of("payload", &[&robot, &state, &tensions, &center]),
-        of("pose-error", &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })]),
+        of(
+            "pose-error",
+            &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })],
+        ),
         of(
             "pose-error",
             &[&robot, &json!({ "mass_kg": [10.55, 86.35, 100], "lengths_m": [6.9, 6.6], "tolerance_mm": 5.0 })],

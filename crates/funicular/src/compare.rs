@@ -187,7 +187,15 @@ pub fn compare(
                 let modes = Ok(truth.clone());
                 let (matches, within) = (Vec::new(), compared.len());
                 let largest_difference = None;
-                return ModelResult { model, modes, matches, missed: 0, within, largest_difference, first_wrong_hz: None };
+                return ModelResult {
+                    model,
+                    modes,
+                    matches,
+                    missed: 0,
+                    within,
+                    largest_difference,
+                    first_wrong_hz: None,
+                };
             }
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
             let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
@@ -216,7 +224,8 @@ pub fn compare(
             ModelResult { model, modes, matches, missed, within, largest_difference, first_wrong_hz }
         })
         .collect();
-    let advice = Advisor { robot, equilibrium, dynamics: &dynamics, below_hz, truth: &truth, models: &models, criterion };
+    let advice =
+        Advisor { robot, equilibrium, dynamics: &dynamics, below_hz, truth: &truth, models: &models, criterion };
     let advice = advice.advise(compared.len());
     let clamped = dynamics.clamped_frequencies_below(below_hz * TAU);
     let frozen_sag = clamped.first().and_then(|(omega, _)| frozen_sag(&models, omega / TAU, criterion));
@@ -233,7 +242,9 @@ fn frozen_sag(models: &[ModelResult], clamped_hz: f64, criterion: Criterion) -> 
             let spring = springs.iter().find(|m| m.reference_index == with_sag.reference_index);
             let Some(spring) = spring else { continue };
             let too_soft = -with_sag.relative_difference;
-            if with_sag.reference_hz > clamped_hz && too_soft > spring.relative_difference.abs().max(criterion.tolerance) {
+            if with_sag.reference_hz > clamped_hz
+                && too_soft > spring.relative_difference.abs().max(criterion.tolerance)
+            {
                 worse.push((with_sag, spring));
             }
         }

@@ -2,8 +2,9 @@
 
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
-    ImportArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs,
-    ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs,
+    ImportArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs,
+    RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName,
+    TermArgs,
 };
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;

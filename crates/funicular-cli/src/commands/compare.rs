@@ -100,9 +100,9 @@ impl Printed for Compared {
 fn platform_line(found: &Compared, model: &ModelRow) -> String {
     let total = found.compared.len();
     let wrong = model.first_wrong_hz.map_or_else(String::new, |hz| format!(", first wrong at {} Hz", decimals(hz, 4)));
-    let largest = model.largest_difference.map_or_else(String::new, |difference| {
-        format!(", largest difference {}%", decimals(100.0 * difference, 2))
-    });
+    let largest = model
+        .largest_difference
+        .map_or_else(String::new, |difference| format!(", largest difference {}%", decimals(100.0 * difference, 2)));
     format!(
         "{} of {} found, {} within {} %{largest}{wrong}",
         total - model.missed,

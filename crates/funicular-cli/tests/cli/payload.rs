@@ -128,7 +128,8 @@ fn held_lengths_move_the_platform_of_every_command() {
     }
 
     // A sweep has the poses of the single commands, and so has a map.
-    let rows = csv(&[&["sweep", &cogiro, "--vary", "platform.mass_kg=160,250", "--quantity", "pose"], &hold[..]].concat());
+    let rows =
+        csv(&[&["sweep", &cogiro, "--vary", "platform.mass_kg=160,250", "--quantity", "pose"], &hold[..]].concat());
     let z = rows.0.iter().position(|column| column == "pose_z_m").unwrap();
     let expected = numbers(&statics(&["--mass-kg", "250"])["pose"]["position_m"])[2];
     assert_eq!(rows.1[1][z].parse::<f64>().unwrap(), expected);
@@ -138,7 +139,8 @@ fn held_lengths_move_the_platform_of_every_command() {
     assert_eq!(rows.1[0][z].parse::<f64>().unwrap(), expected);
 
     // Masses of `pose-error` at the lengths of a pose: the catenary pose moves as the equilibrium does.
-    let error = json(&["pose-error", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--mass-kg", "160:250:2"]);
+    let error =
+        json(&["pose-error", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--mass-kg", "160:250:2"]);
     assert_eq!(numbers(&error["unstrained_length_m"]), held);
     assert_eq!(error["held"]["tension_rule"], "middle");
 

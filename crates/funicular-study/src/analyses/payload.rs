@@ -72,7 +72,8 @@ pub fn run(robot: Robot, request: &request::PayloadRequest) -> Result<Payload> {
         Err(error) => {
             let no_solution = error.downcast_ref().is_some_and(StaticsError::is_no_solution);
             let robot = at_rest::with_limits(&at_rest::with_state(robot, state)?, tensions)?;
-            let (true, false, State::Pose(pose)) = (no_solution, state.hold_lengths_of_pose, robot.state.clone()) else {
+            let (true, false, State::Pose(pose)) = (no_solution, state.hold_lengths_of_pose, robot.state.clone())
+            else {
                 return Err(error);
             };
             let center_p = center_p.unwrap_or(robot.platform.center_of_mass_p);

@@ -92,11 +92,7 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
 
     // Lengths that do not fit the robot are wrong at every mass. They are reported once, as bad input.
     let first = PoseErrorPoint::at_mass(robot, lengths, masses[0]);
-    if let Err(
-        error @ (StaticsError::LengthCount { .. }
-        | StaticsError::CableCount { .. }),
-    ) = &first.catenary
-    {
+    if let Err(error @ (StaticsError::LengthCount { .. } | StaticsError::CableCount { .. })) = &first.catenary {
         return Err(error.clone().into());
     }
     let mut points = Vec::with_capacity(masses.len());

@@ -1,8 +1,8 @@
 //! Rows that several commands share.
 
+use crate::at_rest::AtRest;
 use funicular::cable::Sag;
 use funicular::dynamics::Linearisation;
-use crate::at_rest::AtRest;
 use funicular::statics::TensionRule;
 use serde::Serialize;
 

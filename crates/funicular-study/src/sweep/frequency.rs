@@ -122,7 +122,8 @@ mod tests {
             let step = |i: u32| {
                 let heavy = robot.with_mass(10.55 + (86.35 - 10.55) * f64::from(i) / f64::from(count - 1));
                 let state = heavy.state.clone();
-                let point = Point { coordinates: Vec::new(), robot: Ok((Cow::Owned(heavy), Cow::Owned(state))), holder: None };
+                let point =
+                    Point { coordinates: Vec::new(), robot: Ok((Cow::Owned(heavy), Cow::Owned(state))), holder: None };
                 let found = lowest_modes(&point, MODES, &options).unwrap();
                 assert!(found.modes.len() == MODES && found.tracked.len() == MODES);
                 found.tracked

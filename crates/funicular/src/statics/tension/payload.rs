@@ -32,8 +32,9 @@ const STILL: f64 = 1e-10;
 const AT_LIMIT: f64 = 1e-6;
 
 /// Payload weights beyond the extreme one, over the size of the tensions, for which the proof is attempted, nearest
-/// first. The shares of sagging cables are not quite concave in the tension. For taut cables this costs up to some 1e-5.
-const BEYOND: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+/// first. The shares of sagging cables are not quite concave in the tension. This costs some 1e-5 for taut
+/// cables, and up to 1e-3 for robots whose lower cables are nearly slack.
+const BEYOND: [f64; 7] = [1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3];
 
 /// Payload that the cables hold at a pose: the minimum or the maximum.
 #[derive(Debug, Clone, PartialEq)]
@@ -225,12 +226,7 @@ impl PayloadSearch<'_> {
 
     /// Solves the linear problem (40c); `None` if no payload satisfies it. With a `climb` the payload changes by a
     /// limited amount instead, and the tensions move little.
-    fn step(
-        &self,
-        linear: &Linear,
-        weight: f64,
-        climb: Option<ProximalStep>,
-    ) -> Result<Option<Optimum>, StaticsError> {
+    fn step(&self, linear: &Linear, weight: f64, climb: Option<ProximalStep>) -> Result<Option<Optimum>, StaticsError> {
         let cables = self.search.cables();
         let (count, dof) = (cables.len(), self.robot.platform.motion.count());
         let sign = self.requested.side.sign();
@@ -302,10 +298,18 @@ impl PayloadSearch<'_> {
         let iterations = self.iterations;
         if optimum.unlimited && self.requested.side == PayloadSide::Maximum {
             let (cables, limits) = (Vec::new(), Vec::new());
-            return Ok(PayloadBound { mass: f64::INFINITY, cables, limits, residual: 0.0, iterations, excluded_from: None });
+            return Ok(PayloadBound {
+                mass: f64::INFINITY,
+                cables,
+                limits,
+                residual: 0.0,
+                iterations,
+                excluded_from: None,
+            });
         }
 
-        let excluded_from = if self.requested.prove { self.excluded_weight(optimum).map(|weight| weight / g) } else { None };
+        let excluded_from =
+            if self.requested.prove { self.excluded_weight(optimum).map(|weight| weight / g) } else { None };
         let Self { robot, pose, mut search, requested, .. } = self;
         search.set(&optimum.tau);
         let cables = search.into_cables();

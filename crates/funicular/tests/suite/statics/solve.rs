@@ -18,8 +18,7 @@ fn held_lengths_of_the_same_robot_hold_the_pose() {
         let robot = Robot::from_toml(text).unwrap();
         let state = State::Pose(pose);
         let held = statics::solve_at(&robot, &state, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
-        let rest =
-            statics::solve_held_at(&robot, &robot, &state, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
+        let rest = statics::solve_held_at(&robot, &robot, &state, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
         let moved = statics::pose_distance(&robot, &rest.equilibrium.pose, &pose);
         assert!(moved < 1e-9, "{}: {moved:e} m", robot.name);
         assert_eq!(rest.held_pose, Some(pose));

@@ -2,8 +2,8 @@
 
 mod lengths;
 mod limits;
-mod payload;
 mod out_of_reach;
+mod payload;
 mod rules;
 mod straight;
 

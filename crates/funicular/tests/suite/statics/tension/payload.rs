@@ -134,9 +134,15 @@ fn the_maximum_payload_is_where_tensions_within_the_limits_end() {
             let expected = bisected(&robot, &pose, model, &center_p, held, 4.0 * found.mass.abs() + 10.0);
 
             // The limits are met to a millionth, in both ways.
-            assert!((found.mass - expected).abs() < 2e-6 * size, "{}, {model:?}: {} {expected}", robot.name, found.mass);
+            assert!(
+                (found.mass - expected).abs() < 2e-6 * size,
+                "{}, {model:?}: {} {expected}",
+                robot.name,
+                found.mass
+            );
             let excluded = found.excluded_from.unwrap_or_else(|| panic!("{}, {model:?}", robot.name));
-            assert!(excluded > found.mass && excluded < found.mass + 1e-3 * size, "{}: {excluded}", robot.name);
+            // The last attempt of a proof is a thousandth of the forces beyond, which contain the minimum tensions.
+            assert!(excluded > found.mass && excluded < found.mass + 3e-3 * size, "{}: {excluded}", robot.name);
             assert!(found.residual < statics::RESIDUAL_LIMIT && found.iterations < 10, "{}", found.iterations);
 
             for (i, cable) in found.cables.iter().enumerate() {
