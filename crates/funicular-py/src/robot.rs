@@ -720,7 +720,7 @@ impl PyRobot {
         slf.py().import("funicular._show")?.call_method1("html", (slf,))
     }
 
-    /// The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
+    // The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (String,)>> {
         let rebuild = slf.py().import("funicular._funicular")?.getattr("robot_of_source")?;
         let source = serde_json::to_string(&slf.get().source).map_err(|error| errors::input(error.to_string()))?;
