@@ -14,6 +14,7 @@ use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
 use funicular::modes::PLATFORM_SHARE;
 use funicular::statics::StaticModel;
+use funicular_study::names::ModelForm;
 use funicular_study::request::Change;
 use funicular_study::signals::{Input, Output};
 pub(crate) use import::ImportArgs;
@@ -55,7 +56,8 @@ pub(crate) enum Command {
         funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20\n  \
         funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6\n  \
         funicular statics robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250\n  \
-        funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200")]
+        funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200\n  \
+        funicular statics robots/cogiro.toml -o robot.pdf")]
     Statics(StaticsArgs),
     /// 6×6 stiffness at one frequency, static at 0 Hz
     #[command(after_help = "Examples:\n  funicular stiffness robots/yuan2014-4mm.toml\n  \
@@ -66,7 +68,8 @@ pub(crate) enum Command {
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv\n  \
-        funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75")]
+        funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75\n  \
+        funicular modes robots/cogiro.toml --below-hz 5 --figure-mode 3 -o shape.pdf")]
     Modes(ModesArgs),
     /// Frequency response of the platform or of points on cables, and its peaks
     #[command(after_help = "Examples:\n  \
@@ -74,12 +77,17 @@ pub(crate) enum Command {
         --input fz --output ay\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    \
         --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv\n  \
-        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
-        --input fz --output cable:3@0.5:az")]
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
+        --input fz --output ay\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
+        --input fx --input fz --output x --output cable:3@0.5:az -o frf.json\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
+        --input fz --output az --figure-width-mm ieee-single -o frf.pdf")]
     Frf(FrfArgs),
     /// Comparison of all cable models, and the simplest model that is good enough
     #[command(after_help = "Examples:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5\n  \
-        funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05")]
+        funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05\n  \
+        funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg")]
     Compare(CompareArgs),
     /// Minimum and maximum payload at a pose, with the cables and ends whose tension limits bind
     ///
@@ -97,12 +105,16 @@ pub(crate) enum Command {
     #[command(after_help = "Example:\n  \
         funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000")]
     Cable(CableArgs),
-    /// Small second-order model M, C, K for control design, and its state space
+    /// State space A, B, C, D for control design, or the second-order model M, C, K
+    ///
+    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the best
+    /// ones for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
     #[command(after_help = "Examples:\n  \
-        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output z --matrices model.npz\n  \
-        funicular reduce robots/cogiro.toml --below-hz 10 --tolerance 0.01 --matrices model\n\n\
-        In Python: m = numpy.load('model.npz'); m['M'], m['C'], m['K'], m['ss_A'], …\n\
-        In MATLAB: M = readmatrix('model/M.csv'); sys = ss(A, B, C, D) from ss_A.csv, …")]
+        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az --matrices model.mat\n  \
+        funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz\n  \
+        funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\n\
+        In Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\n\
+        In MATLAB: load model.mat; sys = ss(A, B, C, D)")]
     Reduce(ReduceArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
@@ -128,11 +140,13 @@ pub(crate) enum Command {
     ///
     /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and
     /// sweeps of one value are shown as curves; the curves of natural frequencies follow their modes through crossings
-    /// and veering. docs/sweeps.md explains the figures.
+    /// and veering. docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for a
+    /// paper instead of the page.
     #[command(
         after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
         --quantity tension-max,stiffness-min -o cogiro.parquet\n  funicular plot cogiro.parquet\n  \
-        funicular plot mass.parquet -o mass.html"
+        funicular plot mass.parquet -o mass.html\n  \
+        funicular plot cogiro.parquet --quantity tension-max --at z=1.5 -o tension.pdf"
     )]
     Plot(PlotArgs),
     /// HTML page with all analyses of a robot and their figures
@@ -284,13 +298,28 @@ pub(crate) struct TermArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
-    /// Format of the result [default: from the ending of FILE, else text]
+    /// Format of the result [default: from the ending of FILE, else text]; FILE.svg and FILE.pdf hold a figure
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 
     /// Write the result to FILE, completely or not at all, instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output_file: Option<PathBuf>,
+}
+
+/// Size of a figure.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Figure")]
+pub(crate) struct FigureArgs {
+    /// Width of the figure in FILE.svg or FILE.pdf [mm], or the column of a journal: ieee-single (88.9), ieee-double
+    /// (181), elsevier-single (90), elsevier-double (190), springer-single (84), springer-double (174) [default:
+    /// ieee-single]
+    #[arg(long, value_name = "MM|COLUMN", value_parser = funicular_study::figures::width_mm, allow_hyphen_values = true)]
+    pub(crate) figure_width_mm: Option<f64>,
+
+    /// Size of the texts in the figure [pt] [default: 8]
+    #[arg(long, value_name = "PT", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) font_size_pt: Option<f64>,
 }
 
 /// Range of frequencies.
@@ -335,6 +364,8 @@ pub(crate) struct StaticsArgs {
     pub(crate) all: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
 }
 
 /// Choice of the tensions at a pose, for a robot with more cables than degrees of freedom.
@@ -412,27 +443,54 @@ pub(crate) struct ModesArgs {
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+
+    /// Draw the shape of mode N of the list in the figure [default: the spectrum]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Figure")]
+    pub(crate) figure_mode: Option<usize>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct FrfArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
-    #[command(flatten)]
-    pub(crate) range: RangeArgs,
+
+    /// First frequency [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) from_hz: f64,
+
+    /// Last frequency [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) to_hz: f64,
+
+    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default with --adaptive:
+    /// 200]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
+        allow_hyphen_values = true, required_unless_present = "adaptive")]
+    pub(crate) points: Option<u64>,
+
+    /// Equal ratios between frequencies instead of equal steps
+    #[arg(long)]
+    pub(crate) log: bool,
+
+    /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the magnitude
+    /// are accurate to 1 %
+    #[arg(long)]
+    pub(crate) adaptive: bool,
 
     /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; or a force
-    /// on a cable, as in cable:3@0.5:fz
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
-    pub(crate) input: Input,
+    /// on a cable, as in cable:3@0.5:fz (repeatable)
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse, required = true)]
+    pub(crate) input: Vec<Input>,
 
     /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
     /// a:… along a direction, world axes; or the motion of a point on a cable (name, fraction of its length from the
-    /// platform), as in cable:3@0.5:az
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
-    pub(crate) output: Output,
+    /// platform), as in cable:3@0.5:az (repeatable)
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
+    pub(crate) output: Vec<Output>,
     #[command(flatten)]
-    pub(crate) points: PointArgs,
+    pub(crate) signal_points: PointArgs,
 
     /// Minimum height of a peak above the valleys beside it [dB]
     #[arg(long, value_name = "DB", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "1")]
@@ -446,6 +504,8 @@ pub(crate) struct FrfArgs {
     pub(crate) model: ModelArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
 }
 
 /// Points of the platform for the input and the output of a response.
@@ -479,16 +539,25 @@ pub(crate) struct ReduceArgs {
     #[command(flatten)]
     pub(crate) points: PointArgs,
 
-    /// Maximum relative error of the responses due to omitted modes
-    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0.001")]
-    pub(crate) tolerance: f64,
+    /// Form of the model
+    #[arg(long, value_name = "FORM", value_enum, default_value_t)]
+    pub(crate) form: ModelFormName,
+
+    /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as it
+    /// allows [default: 0.01]. With the second-order form: maximum relative error due to omitted modes [default: 0.001]
+    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+
+    /// Maximum number of states, instead of a tolerance
+    #[arg(long, value_name = "N")]
+    pub(crate) order: Option<usize>,
 
     /// Frequency at which viscous damping reproduces constant damping ratios [Hz] [default: every natural frequency]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) damping_at_hz: Option<f64>,
 
-    /// Write the matrices to an .npz file, or as CSV files to a new folder
-    #[arg(long, value_name = "FILE.npz|FOLDER")]
+    /// Write the matrices to an .npz or .mat file, or as CSV files to a new folder
+    #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) matrices: Option<PathBuf>,
 
     #[command(flatten)]
@@ -530,6 +599,8 @@ pub(crate) struct CompareArgs {
     pub(crate) terms: TermArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
 }
 
 #[derive(Debug, Args)]
@@ -661,6 +732,12 @@ pub(crate) struct RequestArgs {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) run: RunArgs,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+
+    /// Draw the shape of mode N of `modes` in the figure [default: the spectrum]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Figure")]
+    pub(crate) figure_mode: Option<usize>,
 }
 
 #[derive(Debug, Args)]
@@ -738,6 +815,25 @@ impl From<CableModelName> for CableModel {
             CableModelName::ShallowStatic => Self::ShallowStatic,
             CableModelName::CatenaryStatic => Self::CatenaryStatic,
             CableModelName::Spring => Self::Spring,
+        }
+    }
+}
+
+/// Form of a reduced model by name; see [`ModelForm`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum ModelFormName {
+    /// State space of the modes that inputs and outputs see
+    #[default]
+    StateSpace,
+    /// M, C, K of the platform and all modes of the cables with fixed ends, and their state space
+    SecondOrder,
+}
+
+impl From<ModelFormName> for ModelForm {
+    fn from(name: ModelFormName) -> Self {
+        match name {
+            ModelFormName::StateSpace => Self::StateSpace,
+            ModelFormName::SecondOrder => Self::SecondOrder,
         }
     }
 }

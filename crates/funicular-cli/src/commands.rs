@@ -16,8 +16,10 @@ mod statics;
 mod stiffness;
 mod validate;
 
-use crate::args::{Cli, Command, ExportArgs, ImportArgs, MapArgs, MergeArgs, OutputArgs, ReduceArgs, RobotArgs};
-use crate::output::{Content, Sink, Target};
+use crate::args::{
+    Cli, Command, ExportArgs, FigureArgs, ImportArgs, MapArgs, MergeArgs, OutputArgs, ReduceArgs, RobotArgs,
+};
+use crate::output::{Content, FigureSink, Sink, Target, refuse_without_figure};
 use crate::progress::{Shown, Waiting};
 use crate::table::counted;
 use crate::{errors, pose_csv, robot_file, sweep_run};
@@ -27,6 +29,7 @@ use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::analyses;
 use funicular_study::export::ExportFormat;
+use funicular_study::figures;
 use funicular_study::import::SourceFile;
 use funicular_study::request::{self as requests, Request, RobotText};
 use funicular_study::wording::Words;
@@ -66,19 +69,23 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
         Command::Statics(args) => {
-            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+            let guard = robot_file::guard(Some(&args.robot.robot));
+            analyse_or_draw(&request_of(&cli.command)?, &args.output, args.figure, None, guard)
         }
         Command::Stiffness(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
         Command::Modes(args) => {
-            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+            let guard = robot_file::guard(Some(&args.robot.robot));
+            analyse_or_draw(&request_of(&cli.command)?, &args.sink, args.figure, args.figure_mode, guard)
         }
         Command::Frf(args) => {
-            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+            let guard = robot_file::guard(Some(&args.robot.robot));
+            analyse_or_draw(&request_of(&cli.command)?, &args.sink, args.figure, None, guard)
         }
         Command::Compare(args) => {
-            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+            let guard = robot_file::guard(Some(&args.robot.robot));
+            analyse_or_draw(&request_of(&cli.command)?, &args.output, args.figure, None, guard)
         }
         Command::Payload(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
@@ -130,12 +137,41 @@ fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest>
     Ok(args.request(robot, poses))
 }
 
-/// Runs a request whose results are printed.
-fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
+/// Runs a request whose results are printed, or drawn if the ending of the file means a figure.
+fn analyse_or_draw(
+    request: &Request,
+    output: &OutputArgs,
+    figure: FigureArgs,
+    mode: Option<usize>,
+    mut guard: Guard,
+) -> Result<()> {
+    let draws = matches!(request, Request::Statics(_) | Request::Modes(_) | Request::Frf(_) | Request::Compare(_));
     // Errors of the robot file are reported before errors of the destination.
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
-    let sink = Sink::open(output, &mut guard)?;
+    // With --format the result is printed, and an ending that means a figure is refused.
+    let path = output.output_file.as_deref().filter(|_| draws && output.format.is_none());
+    let Some(sink) = FigureSink::open(path, figure, &mut guard)? else {
+        refuse_without_figure(mode.is_some(), "figure_mode")?;
+        return print_results(request, robot, &Sink::open(output, draws, &mut guard)?);
+    };
 
+    let robot = robot.context("a figure needs a robot")?;
+    let mut watch = Shown::default();
+    let waiting = Waiting::for_("the figure");
+    let made = figures::of_request(request, robot, &figures::Choice { mode }, &mut watch)?;
+    drop((watch, waiting));
+    sink.write(&made.figure)?;
+    made.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}
+
+/// Runs a request whose results are printed.
+fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
+    let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
+    print_results(request, robot, &Sink::open(output, false, &mut guard)?)
+}
+
+fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result<()> {
     let mut watch = Shown::default();
     let waiting = matches!(request, Request::Statics(_)).then(|| Waiting::for_("the equilibrium"));
     let results = run_on(request, robot, &mut watch)?;
@@ -165,13 +201,13 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let Request::Reduce(of) = request else { bail!("this is not a request of `reduce`") };
     let robot = of.robot.read()?.robot;
     let mut guard = robot_file::guard(Some(&args.robot.robot));
-    let sink = Sink::open(&args.sink, &mut guard)?;
+    let sink = Sink::open(&args.sink, false, &mut guard)?;
     let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
     let waiting = Waiting::for_("the model and its errors");
     let mut found = analyses::reduce::run(robot, of)?;
     drop(waiting);
-    found.matrices_file = args.matrices.as_ref().map(|path| path.display().to_string());
+    found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));
     if let Some(file) = file {
         file.write(&found)?;
     }

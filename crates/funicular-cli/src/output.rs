@@ -1,11 +1,13 @@
 //! Destination of a result: standard output, or a file that is written completely or not at all.
 
-use crate::args::{Format, OutputArgs};
+use crate::args::{FigureArgs, Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_files::Guard;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use funicular_study::analyses::Found;
+use funicular_study::figures::{Figure, Size};
+use funicular_study::wording::{Words, worded};
 use funicular_study::{NoSolution, json};
 use std::fs;
 use std::io::{self, Write};
@@ -41,6 +43,84 @@ pub(crate) struct Content {
 impl Content {
     /// HTML page.
     pub(crate) const PAGE: Self = Self { name: "the page", option: "-o", in_words: "a page", fitting: &[Kind::Html] };
+
+    /// Figure for a paper.
+    const FIGURE: Self =
+        Self { name: "the figure", option: "-o", in_words: "a figure", fitting: &[Kind::Svg, Kind::Pdf] };
+}
+
+/// Format of a figure's file.
+#[derive(Clone, Copy)]
+enum FigureFormat {
+    Svg,
+    Pdf,
+}
+
+impl FigureFormat {
+    /// Format given by the ending of the file; `None` if the file does not hold a figure.
+    fn of(path: Option<&Path>) -> Option<Self> {
+        match Kind::of(path?)? {
+            Kind::Svg => Some(Self::Svg),
+            Kind::Pdf => Some(Self::Pdf),
+            _ => None,
+        }
+    }
+}
+
+/// Destination of a figure.
+pub(crate) struct FigureSink {
+    format: FigureFormat,
+    size: Size,
+    target: Target,
+}
+
+impl FigureSink {
+    /// Destination of a figure if the ending of the file asks for one.
+    ///
+    /// # Errors
+    /// A size out of its limits, a size without such a file, or a destination that cannot be written.
+    pub(crate) fn open(path: Option<&Path>, args: FigureArgs, guard: &mut Guard) -> Result<Option<Self>> {
+        let FigureArgs { figure_width_mm, font_size_pt } = args;
+        let size = Size::new(figure_width_mm, font_size_pt)?;
+        let Some(format) = FigureFormat::of(path) else {
+            for (given, key) in [(figure_width_mm, "figure_width_mm"), (font_size_pt, "font_size_pt")] {
+                refuse_without_figure(given.is_some(), key)?;
+            }
+            return Ok(None);
+        };
+        Ok(Some(Self { format, size, target: Target::open(path, Content::FIGURE, guard)? }))
+    }
+
+    /// Draws and writes a figure.
+    pub(crate) fn write(&self, figure: &Figure) -> Result<()> {
+        let bytes = match self.format {
+            FigureFormat::Svg => figure.svg(self.size).into_bytes(),
+            FigureFormat::Pdf => figure.pdf(self.size),
+        };
+        self.target.write(&bytes)
+    }
+}
+
+/// Refuses an option of figures where no figure is written.
+pub(crate) fn refuse_without_figure(is_given: bool, key: &str) -> Result<()> {
+    if is_given {
+        bail!("⟪{key}⟫ belongs to a figure: write one with -o FILE.svg or -o FILE.pdf, or leave it out");
+    }
+    Ok(())
+}
+
+/// Refuses a page under the name of a figure, and names the commands that write figures.
+pub(crate) fn refuse_page_as_figure(path: &Path) -> Result<()> {
+    if FigureFormat::of(Some(path)).is_some() {
+        bail!(
+            "{} would hold one figure, but the page has many: write one with `funicular statics`, `modes`, `frf`, \
+             `compare` or `plot` and -o {}, or choose a name that ends in .html and use the buttons SVG and PNG of the \
+             page",
+            path.display(),
+            path.display()
+        );
+    }
+    Ok(())
 }
 
 /// Standard output, or a file that is written completely or not at all.
@@ -95,8 +175,8 @@ pub(crate) struct Sink {
 
 impl Sink {
     /// Chooses the requested format, or else the format of the file's ending. Refuses to overwrite a file that the
-    /// guard knows.
-    pub(crate) fn open(args: &OutputArgs, guard: &mut Guard) -> Result<Self> {
+    /// guard knows. `draws` is true for a command that also writes figures: messages then name their endings.
+    pub(crate) fn open(args: &OutputArgs, draws: bool, guard: &mut Guard) -> Result<Self> {
         let path = args.output_file.as_deref();
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
             Some(Kind::Json) => Format::Json,
@@ -104,6 +184,9 @@ impl Sink {
             _ => Format::Text,
         });
         let (in_words, fitting): (_, &[Kind]) = match (args.format, format) {
+            (None, Format::Text) if draws => {
+                ("text", &[Kind::Json, Kind::Csv, Kind::Svg, Kind::Pdf, Kind::Markdown, Kind::Text])
+            }
             (None, Format::Text) => ("text", &[Kind::Json, Kind::Csv, Kind::Markdown, Kind::Text]),
             (_, Format::Text) => ("text", &[Kind::Markdown, Kind::Text]),
             (_, Format::Json) => ("JSON", &[Kind::Json, Kind::Text]),
@@ -130,7 +213,7 @@ impl Sink {
                 if self.format == Format::Text {
                     bytes = results.text().into_bytes();
                     if self.target.is_file() {
-                        for warning in results.warnings() {
+                        for warning in in_words(results) {
                             writeln!(bytes, "\nwarning: {warning}")?;
                         }
                     }
@@ -146,7 +229,12 @@ impl Sink {
 }
 
 fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
-    json::write(out, results.command(), results.robot(), results, results.warnings())
+    json::write(out, results.command(), results.robot(), results, &in_words(results))
+}
+
+/// Warnings with the options of the program.
+fn in_words<R: Printed>(results: &R) -> Vec<String> {
+    results.warnings().iter().map(|warning| worded(warning, Words::Program)).collect()
 }
 
 fn to_stdout(bytes: &[u8]) -> Result<()> {

@@ -22,18 +22,24 @@ pub enum Kind {
     Vtp,
     /// Page for a browser.
     Html,
+    /// Figure of lines and texts for drawing programs and browsers.
+    Svg,
+    /// Figure of lines and texts for papers.
+    Pdf,
     /// Robot file.
     Toml,
     /// Python script.
     Python,
     /// Arrays of NumPy.
     Npz,
+    /// Variables of MATLAB.
+    Mat,
     /// Kind that is never written, in words.
     Other(&'static str),
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 31] = [
+const ENDINGS: [(&[&str], Kind); 33] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
     (&["json"], Kind::Json),
@@ -42,23 +48,25 @@ const ENDINGS: [(&[&str], Kind); 31] = [
     (&["vti"], Kind::Vti),
     (&["vtp"], Kind::Vtp),
     (&["html", "htm"], Kind::Html),
+    (&["svg"], Kind::Svg),
+    (&["pdf"], Kind::Pdf),
     (&["toml"], Kind::Toml),
     (&["py"], Kind::Python),
     (&["npz"], Kind::Npz),
+    (&["mat"], Kind::Mat),
     (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
     (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
     (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
     (&["xls", "xlsx", "xlsm", "xlsb", "ods"], Kind::Other("a spreadsheet")),
     (&["arrow", "arrows", "feather", "ipc"], Kind::Other("an Arrow file")),
     (&["h5", "hdf", "hdf5", "nc"], Kind::Other("an HDF5 file")),
-    (&["mat"], Kind::Other("variables of MATLAB")),
     (&["m"], Kind::Other("a script of MATLAB")),
     (&["npy"], Kind::Other("one array of NumPy")),
     (&["pkl", "pickle"], Kind::Other("Python's pickled objects")),
     (&["ipynb"], Kind::Other("a notebook")),
     (&["vtk", "vtu", "vtr", "vts", "vtm", "pvd"], Kind::Other("another format of VTK")),
-    (&["pdf", "ps", "eps"], Kind::Other("printed pages")),
-    (&["png", "jpg", "jpeg", "gif", "svg", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
+    (&["ps", "eps"], Kind::Other("printed pages")),
+    (&["png", "jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
     (&["doc", "docx", "odt", "rtf", "ppt", "pptx", "tex"], Kind::Other("a document")),
     (&["yaml", "yml", "ini"], Kind::Other("another format of settings")),
     (&["xml", "wcrfx"], Kind::Other("another format of XML")),
@@ -85,9 +93,12 @@ impl Kind {
             Self::Vti => "an image of VTK",
             Self::Vtp => "curves and polygons of VTK",
             Self::Html => "an HTML page",
+            Self::Svg => "a figure in SVG",
+            Self::Pdf => "a figure in PDF",
             Self::Toml => "TOML",
             Self::Python => "a Python script",
             Self::Npz => "arrays of NumPy",
+            Self::Mat => "variables of MATLAB",
             Self::Other(words) => words,
         }
     }

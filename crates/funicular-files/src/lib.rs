@@ -3,18 +3,19 @@
 //! A [`Job`] takes the [chunks](funicular_study::sweep::Chunk) of a [plan](funicular_study::sweep::Plan) in order and
 //! appends them to a [journal](Job) beside the file. A run that was interrupted, killed or lost its power can therefore
 //! be continued. The file itself is written from the journal when all chunks are there, and appears only when it is
-//! complete. Parquet, CSV and VTK files hold the same rows; `arrow::batch` gives the rows in memory.
+//! complete. Parquet, CSV and VTK files hold the same rows.
 //!
-//! The feature `parquet`, on by default, adds Parquet files and rows in memory. Without it the crate writes CSV and VTK
-//! and refuses Parquet files with a message.
+//! The feature `parquet`, on by default, adds Parquet files. Without it the crate writes CSV and VTK and refuses Parquet
+//! files with a message. The feature `arrow` adds rows in memory in the format of Apache Arrow, [`Table`](table::Table).
 
-#[cfg(feature = "parquet")]
+#[cfg(feature = "arrow")]
 pub mod arrow;
 pub mod atomic_file;
 mod csv;
 pub mod endings;
 mod guard;
 mod journal;
+pub mod mat;
 mod merge;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -25,7 +26,7 @@ mod reader;
 mod resumable_writer;
 #[cfg(feature = "parquet")]
 mod sealed;
-#[cfg(feature = "parquet")]
+#[cfg(feature = "arrow")]
 pub mod table;
 pub mod threads;
 mod vti;
@@ -34,7 +35,7 @@ pub use guard::Guard;
 pub use merge::merge;
 pub use reader::SweepFile;
 pub use resumable_writer::{Begin, Job, Opened};
-#[cfg(feature = "parquet")]
+#[cfg(feature = "arrow")]
 pub use table::Table;
 pub use threads::Outcome;
 

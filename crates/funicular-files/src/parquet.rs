@@ -1,16 +1,18 @@
 //! Rows as Parquet files, with units, robot and plan in the metadata.
 
-use crate::arrow::{self, ColumnBuilders};
+mod arrow_schema;
+mod columns;
+
 use crate::sealed::{self, Seal, SealingWriter};
 use crate::{FilesError, Format, Rows};
-use ::parquet::arrow::ArrowWriter;
-use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use ::parquet::basic::Compression;
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
+use ::parquet::file::reader::{FileReader, SerializedFileReader};
+use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::ColumnPath;
-use funicular_study::sweep::{Chunk, ColumnKind, Part, Record};
+use funicular_study::sweep::{Chunk, Column, ColumnKind, Part, Record, Values};
 use serde_json::Value;
 use std::fs::File;
 use std::io::{self, Write};
@@ -32,39 +34,50 @@ const NO_CHECKSUM: &str = "its metadata lack the checksum: another program or an
 
 /// Writes rows and the checksum of the complete file. The bytes depend only on the record and the rows.
 pub(crate) fn write(out: impl Write + Send, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {
-    let schema = Arc::new(arrow::schema(record));
-    let properties = properties(record, complete);
-    let mut writer =
-        ArrowWriter::try_new(SealingWriter::new(out), Arc::clone(&schema), Some(properties)).map_err(io_error)?;
+    let schema = columns::schema(&record.columns).map_err(io_error)?;
+    let properties = Arc::new(properties(record, complete));
+    let mut writer = SerializedFileWriter::new(SealingWriter::new(out), schema, properties).map_err(io_error)?;
 
-    // Batches have one size, whatever the chunks' size: their size decides where pages begin.
-    let mut group = ColumnBuilders::new(&record.columns);
-    let mut filled = 0;
+    // Row groups have one size, whatever the chunks' size.
+    let mut group = empty(&record.columns);
     rows.each(&mut |chunk| {
         let mut from = 0;
         while from < chunk.rows() {
-            let to = chunk.rows().min(from + GROUP_ROWS - filled);
-            group.add(&chunk, from..to);
-            filled += to - from;
+            let to = chunk.rows().min(from + GROUP_ROWS - group[0].len());
+            for (column, values) in group.iter_mut().zip(&chunk.columns) {
+                column.extend(values, from..to);
+            }
             from = to;
-            if filled == GROUP_ROWS {
-                writer.write(&group.finish(&schema).map_err(io::Error::other)?).map_err(io_error)?;
-                writer.flush().map_err(io_error)?;
-                filled = 0;
+            if group[0].len() == GROUP_ROWS {
+                let full = std::mem::replace(&mut group, empty(&record.columns));
+                write_group(&mut writer, &full).map_err(io_error)?;
             }
         }
         Ok(())
     })?;
-    if filled > 0 {
-        writer.write(&group.finish(&schema).map_err(io::Error::other)?).map_err(io_error)?;
-        writer.flush().map_err(io_error)?;
+    if group.first().is_some_and(|column| !column.is_empty()) {
+        write_group(&mut writer, &group).map_err(io_error)?;
     }
 
     // The footer follows, which holds the checksum of all pages: they have to be written before.
     writer.append_key_value_metadata(KeyValue::new(sealed::KEY.to_owned(), sealed::BLANK.to_owned()));
-    writer.sync()?;
+    writer.flush()?;
     writer.inner_mut().hold();
     writer.into_inner().map_err(io_error)?.seal()
+}
+
+/// Columns without rows.
+fn empty(columns: &[Column]) -> Vec<Values> {
+    columns.iter().map(|column| Values::new(column.kind, 0)).collect()
+}
+
+fn write_group<W: Write + Send>(writer: &mut SerializedFileWriter<W>, group: &[Values]) -> Result<(), ParquetError> {
+    let mut out = writer.next_row_group()?;
+    for values in group {
+        let column = out.next_column()?.expect("the schema has a field for each column");
+        columns::write(column, values)?;
+    }
+    out.close().map(drop)
 }
 
 fn properties(record: &Record, complete: bool) -> WriterProperties {
@@ -73,6 +86,7 @@ fn properties(record: &Record, complete: bool) -> WriterProperties {
         KeyValue::new(ROBOT.to_owned(), record.robot_file.clone()),
         KeyValue::new(COMPLETE.to_owned(), complete.to_string()),
     ];
+    about.push(KeyValue::new(arrow_schema::KEY.to_owned(), arrow_schema::encoded(&record.columns)));
     about.extend(record.part.map(|part| KeyValue::new(PART.to_owned(), part.to_string())));
 
     let mut properties = WriterProperties::builder()
@@ -134,7 +148,7 @@ impl ParquetFile {
         }
 
         let file = File::open(path).map_err(unreadable)?;
-        let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+        let reader = SerializedFileReader::new(file)
             .map_err(|error| not_ours(&format!("it is no Parquet file that this program can read ({error})")))?;
         let metadata = reader.metadata().file_metadata();
         let pairs = metadata.key_value_metadata();
@@ -163,16 +177,37 @@ impl ParquetFile {
         chunk_rows: usize,
         take: &mut dyn FnMut(Chunk) -> io::Result<()>,
     ) -> io::Result<()> {
-        let file = File::open(&self.path)?;
-        let reader = ParquetRecordBatchReaderBuilder::try_new(file).map_err(io_error)?;
-        let reader = reader.with_batch_size(chunk_rows).build().map_err(io_error)?;
-        for (i, batch) in reader.enumerate() {
-            let batch = batch.map_err(io::Error::other)?;
-            let columns = arrow::values(&batch).ok_or_else(|| {
+        let reader = SerializedFileReader::new(File::open(&self.path)?).map_err(io_error)?;
+        let mut index = first;
+        let mut chunk: Vec<Values> = Vec::new();
+
+        for group in 0..reader.num_row_groups() {
+            // A reader per column, and the kind of the column's values.
+            let group = reader.get_row_group(group).map_err(io_error)?;
+            let readers: Result<Vec<_>, _> = (0..group.num_columns()).map(|i| group.get_column_reader(i)).collect();
+            let mut readers = readers.map_err(io_error)?;
+            let kinds: Option<Vec<ColumnKind>> = readers.iter().map(columns::kind).collect();
+            let kinds = kinds.ok_or_else(|| {
                 io::Error::new(io::ErrorKind::InvalidData, "a column has a type that no sweep writes")
             })?;
-            take(Chunk { index: first + i, columns })?;
+
+            // Chunks may reach from one row group into the next.
+            let mut left = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+            while left > 0 {
+                if chunk.is_empty() {
+                    chunk = kinds.iter().map(|kind| Values::new(*kind, chunk_rows)).collect();
+                }
+                let count = left.min(chunk_rows - chunk[0].len());
+                for (reader, values) in readers.iter_mut().zip(&mut chunk) {
+                    columns::read(reader, count, values).map_err(io_error)?;
+                }
+                left -= count;
+                if chunk[0].len() == chunk_rows {
+                    take(Chunk { index, columns: std::mem::take(&mut chunk) })?;
+                    index += 1;
+                }
+            }
         }
-        Ok(())
+        if chunk.is_empty() { Ok(()) } else { take(Chunk { index, columns: chunk }) }
     }
 }

@@ -125,11 +125,9 @@ impl Table {
         let mut all: Option<Values> = None;
         for batch in &self.batches {
             let one = arrow::values(&batch.project(&[index]).ok()?)?.pop()?;
-            match (&mut all, one) {
-                (Some(Values::Real(all)), Values::Real(more)) => all.extend(more),
-                (Some(Values::Flag(all)), Values::Flag(more)) => all.extend(more),
-                (Some(Values::Text(all)), Values::Text(more)) => all.extend(more),
-                (all, one) => *all = Some(one),
+            match &mut all {
+                Some(all) => all.extend(&one, 0..one.len()),
+                None => all = Some(one),
             }
         }
         all.or_else(|| self.record.columns.get(index).map(|column| Values::new(column.kind, 0)))

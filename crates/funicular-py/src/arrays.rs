@@ -428,11 +428,6 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Number {
 }
 
 impl Number {
-    /// Default value of an argument.
-    pub(crate) const fn of(value: f64) -> Self {
-        Self(Ok(value))
-    }
-
     /// The number, finite or not.
     pub(crate) fn value(self, what: &str) -> PyResult<f64> {
         self.0.map_err(|error| error.named(what))
@@ -482,11 +477,6 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
 }
 
 impl Count {
-    /// Default value of an argument.
-    pub(crate) fn of(value: usize) -> Self {
-        Self(Ok(Integer { text: value.to_string(), value: Some(value) }))
-    }
-
     /// The number if it lies in a range; `rule` is the remedy in the message.
     pub(crate) fn within(self, what: &str, range: RangeInclusive<usize>, rule: &str) -> PyResult<usize> {
         let Integer { text, value } = self.0.map_err(|error| error.with(rule).named(what))?;

@@ -182,9 +182,10 @@ impl PyEquilibrium {
     /// Returns points along the hanging cables in world axes [m]: (cables, points, 3), from the platform to the anchor.
     ///
     /// The points are at equal steps of the unstrained length; 33 per cable if `points` is not given.
-    #[pyo3(signature = (points=Count::of(33)))]
-    fn cable_points(&self, points: Count) -> PyResult<Tensor> {
-        let points = points.within("points", 2..=10_000, "it must be from 2 to 10000")?;
+    #[pyo3(signature = (points=None))]
+    fn cable_points(&self, points: Option<Count>) -> PyResult<Tensor> {
+        let points =
+            points.map_or(Ok(33), |points| points.within("points", 2..=10_000, "it must be from 2 to 10000"))?;
 
         let mut flat = Vec::with_capacity(3 * points * self.at_rest.robot.cables.len());
         for cable in &self.at_rest.equilibrium.cables {

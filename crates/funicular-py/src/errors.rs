@@ -2,6 +2,7 @@
 
 use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::DynamicsError;
+use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
 use funicular_files::FilesError;
@@ -54,7 +55,7 @@ pub(crate) fn study(error: &anyhow::Error) -> PyErr {
     if cause.is::<ResponseError>() {
         return python::ResponseError::new_err(text());
     }
-    if cause.is::<NoSolution>() {
+    if cause.is::<NoSolution>() || cause.downcast_ref().is_some_and(ReductionError::is_no_solution) {
         return python::NoSolutionError::new_err(text());
     }
     input(text())

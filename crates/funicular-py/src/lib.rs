@@ -48,6 +48,8 @@ mod _funicular {
     use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]
     use crate::vibration::peaks;
+    #[pymodule_export]
+    use crate::written::matlab_file;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name of a version")]

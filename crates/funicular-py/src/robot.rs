@@ -8,13 +8,14 @@ use crate::dict_to_toml;
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::pose::PoseLike;
-use crate::request::{StateKeywords, TensionKeywords, model};
+use crate::request::{StateKeywords, TensionKeywords, model, share};
 use crate::sweep::{self, Axes, ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
 use crate::threads::Threads;
 use funicular::robot::{Robot, State};
 use funicular_study::analyses;
 use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest};
 use funicular_study::robot_file::{self, MAX_BYTES, RobotFile};
+use funicular_study::sweep::MAX_HZ;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use std::fs;
@@ -25,8 +26,8 @@ use std::sync::Arc;
 /// Request for the points of a map or sweep, from the keywords of Python.
 fn each_point(
     quantities: Option<Vec<String>>,
-    up_to_hz: Number,
-    platform_share: Number,
+    up_to_hz: Option<Number>,
+    platform_share: Option<Number>,
     payload_center_m: Option<Numbers>,
     state: StateKeywords<'_>,
     tensions: TensionKeywords<'_>,
@@ -34,8 +35,8 @@ fn each_point(
 ) -> PyResult<EachPoint> {
     Ok(EachPoint {
         quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
-        up_to_hz: up_to_hz.value("up_to_hz")?,
-        platform_share: platform_share.value("platform_share")?,
+        up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
+        platform_share: share(platform_share)?,
         payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
         state: state.request()?,
         tensions: tensions.request()?,
@@ -368,9 +369,9 @@ impl PyRobot {
     ///     Values of the axes that the grid does not have: x, y, z [m], roll, pitch, yaw [degrees], or the pose of
     ///     unstrained lengths [m]; the state of the robot file if not given.
     /// up_to_hz
-    ///     Limit of the search for natural frequencies [Hz].
+    ///     Limit of the search for natural frequencies [Hz]; 1000 if not given.
     /// platform_share
-    ///     Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`.
+    ///     Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`; 0.5 if not given.
     /// payload_center_m
     ///     Centre of mass of the payload for `payload-max`, platform frame [m]; that of the platform if not given.
     /// file
@@ -402,8 +403,8 @@ impl PyRobot {
     ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ),
-        platform_share=Number::of(funicular::modes::PLATFORM_SHARE), payload_center_m=None, tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -421,8 +422,8 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: Number,
-        platform_share: Number,
+        up_to_hz: Option<Number>,
+        platform_share: Option<Number>,
         payload_center_m: Option<Numbers>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
@@ -480,8 +481,8 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=Number::of(funicular_study::sweep::MAX_HZ),
-        platform_share=Number::of(funicular::modes::PLATFORM_SHARE), payload_center_m=None, tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -498,8 +499,8 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
-        up_to_hz: Number,
-        platform_share: Number,
+        up_to_hz: Option<Number>,
+        platform_share: Option<Number>,
         payload_center_m: Option<Numbers>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,

@@ -1,20 +1,24 @@
 //! Stiffness, modes and responses of a robot at an equilibrium.
 
 use crate::answers::{self, CtrlC};
-use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, Tensor, TextKeyed, Vector};
+use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, OwnedArray, Tensor, TextKeyed, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
-use crate::request::{model, named, points, terms};
+use crate::request::{model, named, points, share, terms};
+use funicular::compare::TOLERANCE;
 use funicular::math::CMat6;
 use funicular::response;
 use funicular_study::analyses::{self, cable, frf};
 use funicular_study::at_rest;
 use funicular_study::request;
+use funicular_study::wording::{Words, worded};
 use numpy::Complex64;
-use pyo3::inspect::PyStaticExpr;
+use numpy::ndarray::{ArrayD, IxDyn};
+use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
 use std::convert::Infallible;
+use std::ffi::CString;
 use std::sync::Arc;
 
 /// Number of frequencies between two checks for Ctrl-C: some 10 ms. It is a multiple of every number of lanes, so that
@@ -106,7 +110,7 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
-    pub(crate) platform_share: Number,
+    pub(crate) platform_share: Option<Number>,
     pub(crate) damped: bool,
 }
 
@@ -114,8 +118,8 @@ pub(crate) struct ModesKeywords<'a> {
 pub(crate) struct CompareKeywords<'a> {
     pub(crate) below_hz: Number,
     pub(crate) platform: bool,
-    pub(crate) platform_share: Number,
-    pub(crate) tolerance: Number,
+    pub(crate) platform_share: Option<Number>,
+    pub(crate) tolerance: Option<Number>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
 }
@@ -132,7 +136,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
         stations: keywords.stations.map(stations).transpose()?,
-        platform_share: keywords.platform_share.value("platform_share")?,
+        platform_share: share(keywords.platform_share)?,
         damped: keywords.damped,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
@@ -155,8 +159,8 @@ pub(crate) fn compare<'py>(
         robot: of.of.get().source.clone(),
         below_hz: keywords.below_hz.value("below_hz")?,
         platform: keywords.platform,
-        platform_share: keywords.platform_share.value("platform_share")?,
-        tolerance: keywords.tolerance.value("tolerance")?,
+        platform_share: share(keywords.platform_share)?,
+        tolerance: keywords.tolerance.map_or(Ok(TOLERANCE), |tolerance| tolerance.value("tolerance"))?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
         terms: terms(keywords.assembly, keywords.in_plane_only)?,
@@ -184,37 +188,127 @@ pub(crate) fn cable<'py>(
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
-/// Keywords for input and output of a response.
-pub(crate) struct Pair<'a> {
-    pub(crate) input: &'a str,
-    pub(crate) output: &'a str,
-    pub(crate) input_point_m: Option<Numbers>,
-    pub(crate) output_point_m: Option<Numbers>,
+/// Argument for one signal, or for a list of several.
+pub(crate) enum SignalNames {
+    One([String; 1]),
+    Several(Vec<String>),
 }
 
-pub(crate) fn frf(
-    py: Python<'_>,
-    of: &PyEquilibrium,
-    hz: Numbers,
-    pair: Pair<'_>,
-    cable_model: Option<&str>,
-    assembly: &str,
-    in_plane_only: bool,
-) -> PyResult<Vector<Complex64>> {
-    let (frequencies, _) = hz.frequencies()?;
-    let pair = frf::Pair {
-        input: pair.input,
-        output: pair.output,
-        points: points(pair.input_point_m, pair.output_point_m)?,
-        model: model(cable_model, assembly, in_plane_only)?,
+impl<'py> FromPyObject<'_, 'py> for SignalNames {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = PyStaticExpr::BinOp {
+        left: &PyStaticExpr::Name { id: "str" },
+        op: PyStaticOperator::BitOr,
+        right: &PyStaticExpr::Subscript {
+            value: &PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "collections.abc" }, attr: "Sequence" },
+            slice: &PyStaticExpr::Name { id: "str" },
+        },
     };
-    py.detach(|| {
-        let mut watch = CtrlC::new();
-        match frf::response(&of.at_rest, &pair, &frequencies, &mut watch) {
-            Ok(response) => Ok(response.values.into_iter().collect()),
-            Err(error) => Err(watch.or(&error)),
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(name) = object.extract::<String>() {
+            return Ok(Self::One([name]));
         }
+        object.extract().map(Self::Several).map_err(|_| {
+            let kind = object.get_type().name().map_or_else(|_| "object".to_owned(), |name| name.to_string());
+            errors::input(format!(
+                "a signal is of type {kind}: give its name as text, as in \"fz\", or a list of names"
+            ))
+        })
+    }
+}
+
+impl SignalNames {
+    fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => name,
+            Self::Several(names) => names,
+        }
+    }
+
+    fn is_one(&self) -> bool {
+        matches!(self, Self::One(_))
+    }
+}
+
+/// Responses of all pairs of output and input, with their frequencies if these were chosen.
+pub(crate) enum Responses {
+    Given(OwnedArray<Complex64, IxDyn>),
+    Adaptive(Vector, OwnedArray<Complex64, IxDyn>),
+}
+
+impl<'py> IntoPyObject<'py> for Responses {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    // scripts/test-python makes overloads of it, one per value of `adaptive`.
+    const OUTPUT_TYPE: PyStaticExpr = PyStaticExpr::BinOp {
+        left: &<Vector<Complex64> as IntoPyObject<'py>>::OUTPUT_TYPE,
+        op: PyStaticOperator::BitOr,
+        right: &<(Vector, Vector<Complex64>) as IntoPyObject<'py>>::OUTPUT_TYPE,
+    };
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        Ok(match self {
+            Self::Given(values) => values.into_pyobject(py)?.into_any(),
+            Self::Adaptive(hz, values) => (hz, values).into_pyobject(py)?.into_any(),
+        })
+    }
+}
+
+/// Keywords for inputs and outputs of responses.
+pub(crate) struct PairKeywords<'a> {
+    pub(crate) input: SignalNames,
+    pub(crate) output: SignalNames,
+    pub(crate) adaptive: bool,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+}
+
+pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
+    let (frequencies, _) = hz.frequencies()?;
+    let PairKeywords { input, output, adaptive, .. } = &keywords;
+    let (adaptive, one) = (*adaptive, input.is_one() && output.is_one());
+    let pairs = frf::Pairs {
+        inputs: input.names(),
+        outputs: output.names(),
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+    };
+
+    let found = py.detach(|| {
+        let mut watch = CtrlC::new();
+        frf::response(&of.at_rest, &pairs, frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
+    })?;
+    if let Some(caveat) = &found.caveat {
+        warn(py, caveat)?;
+    }
+
+    let frf::Response { frequencies_hz, mut values, .. } = found;
+    let shape = [pairs.outputs.len(), pairs.inputs.len(), frequencies_hz.len()];
+    let values = if one {
+        ArrayD::from_shape_vec(IxDyn(&shape[2..]), values.swap_remove(0)).expect("one row")
+    } else {
+        ArrayD::from_shape_vec(IxDyn(&shape), values.concat()).expect("a row per pair")
+    };
+    let values = OwnedArray(values);
+    Ok(if adaptive {
+        Responses::Adaptive(frequencies_hz.into_iter().collect(), values)
+    } else {
+        Responses::Given(values)
     })
+}
+
+/// Shows a warning at the line of the caller.
+fn warn(py: Python<'_>, caveat: &str) -> PyResult<()> {
+    let category = py.import("funicular._errors")?.getattr("ResponseWarning")?;
+    let text = CString::new(worded(caveat, Words::Python)).map_err(|error| errors::input(error.to_string()))?;
+    PyErr::warn(py, &category, &text, 1)
 }
 
 /// Computes values at all frequencies, with checks for Ctrl-C.
@@ -264,14 +358,14 @@ pub(crate) fn receptance(
 /// prominence_db
 ///     Minimum height of a peak above the valleys beside it [dB]; 1 if not given.
 #[pyfunction]
-#[pyo3(signature = (hz, response, *, prominence_db=Number::of(1.0)))]
+#[pyo3(signature = (hz, response, *, prominence_db=None))]
 pub(crate) fn peaks(
     hz: Numbers,
     response: ComplexNumbers,
-    prominence_db: Number,
+    prominence_db: Option<Number>,
 ) -> PyResult<(Vector, Vector, Vector)> {
     let (frequencies, _) = hz.frequencies()?;
-    let prominence_db = prominence_db.not_negative("prominence_db")?;
+    let prominence_db = prominence_db.map_or(Ok(1.0), |prominence| prominence.not_negative("prominence_db"))?;
     let values = response.row("response")?;
     if values.len() != frequencies.len() {
         return Err(errors::input(format!("{} frequencies for {} values", frequencies.len(), values.len())));

@@ -5,17 +5,20 @@ use crate::arrays::{Count, Matrix, Number, Numbers};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
-use crate::request::{model, named, points};
+use crate::request::{model, named, points, share};
 use funicular::math::DMat;
+use funicular_files::mat::{self, Value, Variable};
 use funicular_study::analyses;
+use funicular_study::analyses::reduce::MAX_ORDER;
 use funicular_study::export::{self, MAX_SEGMENTS};
+use funicular_study::names::ModelForm;
 use funicular_study::pages::report;
 use funicular_study::request;
 use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use serde_json::{Map, Value};
+use pyo3::types::{PyBytes, PyDict};
+use serde_json::Map;
 use std::convert::Infallible;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -41,6 +44,7 @@ macro_rules! object {
 }
 
 object!(ReducedObject, "funicular._results", "ReducedModel");
+object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
 
 /// Keywords of `reduce`.
@@ -50,7 +54,7 @@ pub(crate) struct ReduceKeywords<'a> {
     pub(crate) output: Option<Vec<String>>,
     pub(crate) input_point_m: Option<Numbers>,
     pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) tolerance: Number,
+    pub(crate) tolerance: Option<Number>,
     pub(crate) damping_at_hz: Option<Number>,
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
@@ -64,7 +68,9 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
         input: keywords.input.unwrap_or_default(),
         output: keywords.output.unwrap_or_default(),
         points: points(keywords.input_point_m, keywords.output_point_m)?,
-        tolerance: keywords.tolerance.value("tolerance")?,
+        form: ModelForm::SecondOrder,
+        order: None,
+        tolerance: keywords.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
         damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
@@ -94,6 +100,74 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
     Ok(ReducedObject(made.unbind()))
 }
 
+/// Keywords of `state_space`.
+pub(crate) struct StateSpaceKeywords<'a> {
+    pub(crate) below_hz: Number,
+    pub(crate) input: Option<Vec<String>>,
+    pub(crate) output: Option<Vec<String>>,
+    pub(crate) order: Option<Count>,
+    pub(crate) tolerance: Option<Number>,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) damping_at_hz: Option<Number>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+}
+
+pub(crate) fn state_space(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    keywords: StateSpaceKeywords<'_>,
+) -> PyResult<StateSpaceObject> {
+    let rule = format!("give a number of states from 2 to {MAX_ORDER}; a mode needs two");
+    let request = request::ReduceRequest {
+        robot: of.of.get().source.clone(),
+        below_hz: keywords.below_hz.value("below_hz")?,
+        input: keywords.input.unwrap_or_default(),
+        output: keywords.output.unwrap_or_default(),
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        form: ModelForm::StateSpace,
+        order: keywords.order.map(|order| order.within("order", 2..=MAX_ORDER, &rule)).transpose()?,
+        tolerance: keywords.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
+        damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
+        state: of.state.clone(),
+        tensions: of.tensions.clone(),
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::control_model::about(&at_rest, &request))?;
+    let found = found.map_err(|error| errors::study(&error))?;
+
+    let matrices = PyDict::new(py);
+    let space = &found.model.space;
+    for (name, matrix) in [("A", &space.a), ("B", &space.b), ("C", &space.c), ("D", &space.d)] {
+        matrices.set_item(name, array(matrix))?;
+    }
+    let description = answers::plain(py, &found)?;
+    let made = py.import("funicular._results")?.call_method1("state_space", (description.0, matrices))?;
+    Ok(StateSpaceObject(made.unbind()))
+}
+
+/// Makes the bytes of a file of MATLAB from matrices (name, number of rows, entries by columns) and columns of texts.
+#[pyfunction]
+pub(crate) fn matlab_file<'py>(
+    py: Python<'py>,
+    matrices: Vec<(String, usize, Vec<f64>)>,
+    texts: Vec<(String, Vec<String>)>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let of_matrices =
+        matrices.iter().map(|(name, rows, entries)| Variable { name, value: Value::Matrix(*rows, entries) });
+    let of_texts = texts
+        .iter()
+        .map(|(name, column)| Variable { name, value: Value::Texts(column.iter().map(String::as_str).collect()) });
+    let all: Vec<Variable> = of_matrices.chain(of_texts).collect();
+    let bytes = mat::bytes(&all).ok_or_else(|| {
+        errors::input("the matrices are too large for a file of MATLAB: write an .npz file".to_owned())
+    })?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
 fn array(matrix: &DMat) -> Matrix {
     Matrix::of_rows(matrix.transpose().iter().copied().collect(), matrix.ncols())
 }
@@ -103,14 +177,14 @@ pub(crate) fn export(
     of: &PyEquilibrium,
     to: &str,
     path: PathBuf,
-    segments: Count,
+    segments: Option<Count>,
     modes_below_hz: Option<Number>,
 ) -> PyResult<Vec<String>> {
     let rule = format!("give a whole number from 1 to {MAX_SEGMENTS}");
     let request = request::ExportRequest {
         robot: of.of.get().source.clone(),
         to: named("to", to)?,
-        segments: segments.within("segments", 1..=MAX_SEGMENTS, &rule)?,
+        segments: segments.map_or(Ok(20), |count| count.within("segments", 1..=MAX_SEGMENTS, &rule))?,
         modes_below_hz: modes_below_hz.map(|hz| hz.value("modes_below_hz")).transpose()?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
@@ -124,7 +198,7 @@ pub(crate) fn export(
 
 /// Keywords of `report`.
 pub(crate) struct PageKeywords<'a> {
-    pub(crate) below_hz: Number,
+    pub(crate) below_hz: Option<Number>,
     pub(crate) input: Option<String>,
     pub(crate) output: Option<String>,
     pub(crate) input_point_m: Option<Numbers>,
@@ -132,7 +206,7 @@ pub(crate) struct PageKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
-    pub(crate) platform_share: Number,
+    pub(crate) platform_share: Option<Number>,
 }
 
 pub(crate) fn report(
@@ -143,11 +217,11 @@ pub(crate) fn report(
 ) -> PyResult<PageObject> {
     let request = request::ReportRequest {
         robot: of.of.get().source.clone(),
-        below_hz: keywords.below_hz.value("below_hz")?,
+        below_hz: keywords.below_hz.map_or(Ok(20.0), |below_hz| below_hz.value("below_hz"))?,
         input: keywords.input,
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
-        platform_share: keywords.platform_share.value("platform_share")?,
+        platform_share: share(keywords.platform_share)?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
@@ -166,14 +240,14 @@ pub(crate) fn report(
 }
 
 /// Keys of several objects as one object in JSON.
-pub(crate) fn joined(parts: &[&serde_json::Result<Value>]) -> PyResult<String> {
+pub(crate) fn joined(parts: &[&serde_json::Result<serde_json::Value>]) -> PyResult<String> {
     let mut all = Map::new();
     for part in parts {
         match part {
-            Ok(Value::Object(keys)) => all.extend(keys.clone()),
+            Ok(serde_json::Value::Object(keys)) => all.extend(keys.clone()),
             Ok(_) => {}
             Err(error) => return Err(errors::input(error.to_string())),
         }
     }
-    Ok(Value::Object(all).to_string())
+    Ok(serde_json::Value::Object(all).to_string())
 }

@@ -139,7 +139,11 @@ def test_arrow_takes_the_rows_without_copies(rows: funicular.Sweep, tmp_path: Pa
     import pyarrow.parquet
 
     rows.to_parquet(tmp_path / "rows.parquet")
-    assert pyarrow.parquet.read_table(tmp_path / "rows.parquet").equals(rows.to_arrow())
+    read = pyarrow.parquet.read_table(tmp_path / "rows.parquet")
+    assert read.equals(rows.to_arrow())
+    # Each field of the file has the type, the unit and the description of the field in memory.
+    for field in rows.to_arrow().schema:
+        assert read.schema.field(field.name).equals(field, check_metadata=True)
 
 
 def test_tables_pickles_and_pages(rows: funicular.Sweep) -> None:

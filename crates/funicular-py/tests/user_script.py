@@ -35,8 +35,10 @@ def main() -> None:
     warnings: list[str] = rest.warnings
     print(tensions.max(), pose.matrix @ [0, 0, 0, 1], stable, warnings)
 
-    hz = np.geomspace(0.1, 20, 200)
+    hz, curve = rest.frf((0.1, 20), input="fz", output="az", output_point_m=(0, 0, -0.1), adaptive=True)
     response: NDArray[np.complex128] = rest.frf(hz, input="fz", output="az", output_point_m=(0, 0, -0.1))
+    several: NDArray[np.complex128] = rest.frf(hz, ["fx", "fz"], ["az"])
+    print(np.array_equal(curve, response), several.shape)
     frequencies, prominences, magnitudes = funicular.peaks(hz, response)
     print(frequencies, prominences, magnitudes, rest.receptance(hz).shape, rest.stiffness(hz).shape)
 

@@ -6,6 +6,7 @@
 pub mod cable;
 pub mod check;
 pub mod compare;
+pub mod control_model;
 pub mod frf;
 pub mod modes;
 pub mod parameters;

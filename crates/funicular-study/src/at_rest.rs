@@ -1,5 +1,6 @@
 //! Static state that an analysis starts from, given by the request or else by the robot file.
 
+use crate::error::with_warnings;
 use crate::names::TensionRuleName;
 use crate::request::{self, Load, Model, ResponsePoints, RobotText, Tensions, Terms};
 use crate::signals::{Input, Output};
@@ -39,11 +40,12 @@ pub fn equilibrium(robot: Robot, source: &RobotText, state: &request::State, ten
     let solution = if state.hold_lengths_of_pose {
         let holder = holder(source, state, tensions)?;
         refuse_no_pose(&holder)?;
-        statics::solve_held(&holder, &robot, state.static_model, rule)?
+        statics::solve_held(&holder, &robot, state.static_model, rule)
     } else {
         refuse_no_state(&robot)?;
-        statics::solve(&robot, state.static_model, rule)?
+        statics::solve(&robot, state.static_model, rule)
     };
+    let solution = solution.map_err(|error| with_warnings(error.into(), warnings::of_robot(&robot)))?;
     let Solution { equilibrium, requested_pose, rule, held_pose } = solution;
     Ok(AtRest { robot, equilibrium, requested_pose, rule, held_pose })
 }
@@ -262,9 +264,11 @@ impl AtRest {
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
-    /// Warnings about the statics and, if given, about a cable model up to a frequency [Hz].
+    /// Warnings about implausible values, about the statics and, if given, about a cable model up to a frequency [Hz].
     pub fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
-        let mut warnings = warnings::of_statics(&self.robot, &self.equilibrium);
+        let mut warnings = warnings::of_robot(&self.robot);
+        warnings.extend(warnings::of_plausibility(&self.robot, &self.equilibrium));
+        warnings.extend(warnings::of_statics(&self.robot, &self.equilibrium));
         if let Some((model, up_to_hz)) = dynamics {
             warnings.extend(warnings::of_dynamics(&self.robot, &self.equilibrium, model, up_to_hz));
         }

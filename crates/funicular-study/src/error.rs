@@ -2,8 +2,10 @@
 
 use crate::wording::{Words, message};
 use funicular::dynamics::DynamicsError;
+use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
 use funicular::statics::StaticsError;
+use funicular::warnings::Warning;
 use std::fmt;
 
 /// Kind of an error. Every front end maps it to an exit code or an exception.
@@ -34,6 +36,27 @@ pub struct NoSolution(pub String);
 #[error("stopped before the end")]
 pub(crate) struct Cancelled;
 
+/// Warnings that explain an error: values of the robot that are likely slips. [`message`] writes them below the error.
+#[derive(Debug)]
+pub(crate) struct Warned {
+    /// Warnings, one sentence each.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl fmt::Display for Warned {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the robot has implausible values")
+    }
+}
+
+/// Error together with warnings about the robot; without warnings the error itself. Its type stays known.
+pub(crate) fn with_warnings(error: anyhow::Error, warnings: Vec<Warning>) -> anyhow::Error {
+    if warnings.is_empty() {
+        return error;
+    }
+    error.context(Warned { warnings: warnings.iter().map(ToString::to_string).collect() })
+}
+
 impl Error {
     /// Kind of the error.
     pub fn kind(&self) -> ErrorKind {
@@ -62,6 +85,7 @@ impl ErrorKind {
             None => {
                 matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
                     || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
+                    || error.downcast_ref().is_some_and(ReductionError::is_no_solution)
                     || error.is::<NoSolution>()
             }
         };

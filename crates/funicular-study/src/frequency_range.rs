@@ -7,15 +7,27 @@ use anyhow::{Result, anyhow, bail};
 /// Maximum number of frequencies of one range.
 pub const MAX_POINTS: usize = 1_000_000;
 
+/// Number of frequencies from which an adaptive response starts if the request gives none.
+pub const START_POINTS: usize = 200;
+
 impl FrequencyRange {
+    /// Frequencies [Hz] from which an adaptive response starts, by default [`START_POINTS`].
+    ///
+    /// # Errors
+    /// The errors of [`frequencies`](Self::frequencies).
+    pub fn starts(&self) -> Result<Vec<f64>> {
+        Self { points: Some(self.points.unwrap_or(START_POINTS)), ..*self }.frequencies()
+    }
+
     /// Frequencies [Hz], ascending. The first and the last are exact.
     ///
     /// # Errors
-    /// A range that does not ascend, a logarithmic range from zero, or too few or too many points.
+    /// A range that does not ascend, a logarithmic range from zero, or no, too few or too many points.
     pub fn frequencies(&self) -> Result<Vec<f64>> {
         let Self { from_hz: from, to_hz: to, points, log } = *self;
         not_negative(from).map_err(|reason| anyhow!("⟪from_hz⟫: {reason}"))?;
         positive(to).map_err(|reason| anyhow!("⟪to_hz⟫: {reason}"))?;
+        let Some(points) = points else { bail!("⟪points⟫ is missing: give the number of frequencies") };
         if !(2..=MAX_POINTS).contains(&points) {
             bail!("⟪points⟫: {points} frequencies are not possible: give a number from 2 to {MAX_POINTS}");
         }
@@ -52,7 +64,7 @@ mod tests {
     use super::*;
 
     fn range(from_hz: f64, to_hz: f64, points: usize, log: bool) -> Result<Vec<f64>> {
-        FrequencyRange { from_hz, to_hz, points, log }.frequencies()
+        FrequencyRange { from_hz, to_hz, points: Some(points), log }.frequencies()
     }
 
     #[test]

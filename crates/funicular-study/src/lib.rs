@@ -7,7 +7,8 @@
 //! no decisions themselves.
 //!
 //! This crate uses no disk and no threads, and it compiles for WebAssembly. Besides the analyses it contains [`import`]
-//! and [`export`] of other programs' files, [`pages`] in HTML (feature `pages`), and [`validation`].
+//! and [`export`] of other programs' files, [`pages`] in HTML and [`figures`] as SVG and PDF (feature `pages`), and
+//! [`validation`].
 //!
 //! # Example
 //! ```
@@ -32,6 +33,8 @@ pub mod analyses;
 pub mod at_rest;
 mod error;
 pub mod export;
+#[cfg(feature = "pages")]
+pub mod figures;
 pub mod frequency_range;
 pub mod import;
 pub mod json;

@@ -118,6 +118,28 @@ impl From<&TensionRule> for TensionRuleName {
     }
 }
 
+/// Form of a reduced model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModelForm {
+    /// State space of the modes that inputs and outputs see.
+    #[default]
+    StateSpace,
+    /// Matrices M, C, K of all clamped modes, and their state space.
+    SecondOrder,
+}
+
+impl Named for ModelForm {
+    const WHAT: &'static str = "form";
+    const ALL: &'static [Self] = &[Self::StateSpace, Self::SecondOrder];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::StateSpace => "state-space",
+            Self::SecondOrder => "second-order",
+        }
+    }
+}
+
 /// Serialises a choice as its name: for `#[serde(with = "…")]`.
 pub(crate) fn serialize<T: Named, S: Serializer>(choice: &T, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_str(choice.name())

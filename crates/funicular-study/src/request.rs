@@ -10,13 +10,13 @@ mod parts;
 pub use keys::KEYS;
 pub(crate) use parts::check_vector;
 pub use parts::{
-    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
-    State, Tensions, Terms,
+    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
+    ResponsePoints, RobotText, State, Tensions, Terms,
 };
 
 use crate::error::Error;
 use crate::import::SourceFile;
-use crate::names::suggestion;
+use crate::names::{ModelForm, suggestion};
 use crate::signals::{Input, Output};
 use crate::values::{fraction, not_negative, positive};
 use anyhow::{anyhow, bail};
@@ -51,7 +51,7 @@ pub enum Request {
     PoseError(PoseErrorRequest),
     /// Dynamic stiffness of one cable over frequency.
     Cable(CableRequest),
-    /// Second-order model for control design.
+    /// Model for control design: state space or second-order form.
     Reduce(ReduceRequest),
     /// Quantities over poses.
     Map(MapRequest),
@@ -166,10 +166,13 @@ pub struct FrfRequest {
     /// Frequencies.
     #[serde(flatten)]
     pub range: FrequencyRange,
-    /// Input signal, as `fz` or `cable:3@0.5:fz`.
-    pub input: String,
-    /// Output signal, as `ay` or `cable:3@0.5:az`.
-    pub output: String,
+    /// Add frequencies until every peak has its height and the drawn curve is accurate.
+    #[serde(default)]
+    pub adaptive: bool,
+    /// Input signal, as `fz` or `cable:3@0.5:fz`, or a list of input signals.
+    pub input: OneOrSeveral,
+    /// Output signal, as `ay` or `cable:3@0.5:az`, or a list of output signals.
+    pub output: OneOrSeveral,
     /// Points of the platform.
     #[serde(flatten)]
     pub signal_points: ResponsePoints,
@@ -292,9 +295,16 @@ pub struct ReduceRequest {
     /// Points of the platform.
     #[serde(flatten)]
     pub points: ResponsePoints,
-    /// Maximum relative error of the responses due to omitted modes.
-    #[serde(default = "one_thousandth")]
-    pub tolerance: f64,
+    /// Form of the model.
+    #[serde(default, with = "crate::names")]
+    pub form: ModelForm,
+    /// Maximum number of states of a state space, instead of a tolerance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<usize>,
+    /// Maximum error of a response relative to its peak (0.01 if neither tolerance nor order is given); for the
+    /// second-order form the maximum relative error due to omitted modes (0.001).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Frequency at which viscous damping reproduces constant damping ratios [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_at_hz: Option<f64>,
@@ -442,10 +452,6 @@ fn one_per_cent() -> f64 {
 
 pub(crate) fn platform_share() -> f64 {
     funicular::modes::PLATFORM_SHARE
-}
-
-fn one_thousandth() -> f64 {
-    1e-3
 }
 
 fn twenty() -> f64 {

@@ -9,7 +9,7 @@ use crate::analyses::{
     parameters::{self, ParameterList},
     payload::{self, Payload},
     pose_error::{self, PoseErrors},
-    reduce::{self, Reduced},
+    reduce::{self, ReducedForm},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
     validate::{self, Validated},
@@ -38,7 +38,7 @@ pub enum Results {
     Payload(Payload),
     PoseError(PoseErrors),
     Cable(CableResult),
-    Reduce(Reduced),
+    Reduce(ReducedForm),
     Validate(Validated),
 }
 

@@ -3,6 +3,7 @@
 //! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program
 //! shows `--min-tension-n`, Python and JSON show `min_tension_n`.
 
+use crate::error::Warned;
 use funicular::statics::StaticsError;
 
 /// Ways in which front ends write the name of an option.
@@ -20,8 +21,13 @@ pub enum Words {
 const PROGRAM_NAMES: [(&str, &str); 2] = [("robot", "ROBOT"), ("files", "FILE")];
 
 /// Keys with another form in Python: switches with their value, a method, a shorter keyword.
-const PYTHON_NAMES: [(&str, &str); 4] =
-    [("resume", "resume=True"), ("discard", "discard=True"), ("set", "with_"), ("output_file", "file")];
+const PYTHON_NAMES: [(&str, &str); 5] = [
+    ("adaptive", "adaptive=True"),
+    ("resume", "resume=True"),
+    ("discard", "discard=True"),
+    ("set", "with_"),
+    ("output_file", "file"),
+];
 
 /// Text in which the names of options are written for a front end.
 ///
@@ -45,10 +51,19 @@ pub fn worded(text: &str, words: Words) -> String {
     out + rest
 }
 
-/// Message of an error of any analysis for a front end: the text of the error, and the option that helps.
+/// Message of an error of any analysis for a front end: the text of the error, the option that helps, and in lines of
+/// their own the warnings about values of the robot that may be the cause.
 pub fn message(error: &anyhow::Error, words: Words) -> String {
     let remedy = error.downcast_ref().and_then(remedy).unwrap_or_default();
-    worded(&format!("{error:#}{remedy}"), words)
+    let warned = error.downcast_ref::<Warned>();
+
+    // The warnings are the outermost part of the error.
+    let causes: Vec<String> = error.chain().skip(usize::from(warned.is_some())).map(ToString::to_string).collect();
+    let mut text = causes.join(": ") + remedy;
+    for warning in warned.iter().flat_map(|warned| &warned.warnings) {
+        text = text + "\nwarning: " + warning;
+    }
+    worded(&text, words)
 }
 
 /// Hint to an option that helps against an error of the core, which does not know the options.

@@ -1,8 +1,55 @@
 const page = (function () {
   "use strict";
   // On a narrow screen there is no room for the buttons beside the legend.
-  const config = { responsive: true, displayModeBar: window.innerWidth > 640 ? "hover" : false, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
+  const config = { responsive: true, displayModeBar: window.innerWidth > 640 ? "hover" : false, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d", "toImage"] };
   const plots = [];
+  // Pixels of a saved picture per pixel of the screen: 300 dots per inch for a figure printed 190 mm wide.
+  const FINE = 4;
+
+  // Saves a picture under the name of the page and the figure.
+  function save(address, id, ending) {
+    const name = document.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "");
+    const link = document.createElement("a");
+    link.href = address;
+    link.download = name + "-" + id.replace(/^figure-/, "") + "." + ending;
+    document.body.append(link);
+    link.click();
+    link.remove();
+  }
+  // Adds the buttons that save a figure: one for each ending in `formats`, which gives a promise of the picture's
+  // address. They stand above the figure, so that neither they nor plotly's buttons cover the legend.
+  function offer(place, formats, note) {
+    const row = document.createElement("div"), id = place.closest("figure").id;
+    row.className = "save";
+    if (note) {
+      const text = document.createElement("span");
+      text.textContent = note;
+      row.append(text);
+    }
+    Object.keys(formats).forEach(function (ending) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = ending.toUpperCase();
+      button.title = "Save this figure as " + ending.toUpperCase();
+      button.addEventListener("click", async function () {
+        button.disabled = true;
+        try { save(await formats[ending](), id, ending); } finally { button.disabled = false; }
+      });
+      row.append(button);
+    });
+    place.before(row);
+  }
+  function offerPlot(place) {
+    const picture = function (format, scale) {
+      return function () { return Plotly.toImage(place, { format: format, width: place.clientWidth, height: place.clientHeight, scale: scale }); };
+    };
+    // A view in space is drawn by the graphics card as pixels; inside an SVG file it would still be pixels.
+    if (place.classList.contains("scene")) {
+      offer(place, { png: picture("png", FINE) }, "pixels only; the program writes lines: -o FILE.svg");
+    } else {
+      offer(place, { svg: picture("svg", 1), png: picture("png", FINE) });
+    }
+  }
 
   // Unpacks data of the page: gzip in base64.
   async function unpack(id) {
@@ -37,6 +84,7 @@ const page = (function () {
       const place = document.getElementById(source.dataset.plot);
       Plotly.newPlot(place, figure.data, figure.layout, config);
       plots.push(place);
+      offerPlot(place);
     });
   }
   const drawn = draw();
@@ -57,8 +105,11 @@ const page = (function () {
   });
   // Draws or updates a figure of a page's own script. The script has to wait for `drawn` before.
   function show(place, data, layout) {
-    if (!plots.includes(place)) { plots.push(place); }
+    if (!plots.includes(place)) {
+      plots.push(place);
+      offerPlot(place);
+    }
     return Plotly.react(place, data, layout, config);
   }
-  return { unpack: unpack, excuse: excuse, drawn: drawn, show: show };
+  return { unpack: unpack, excuse: excuse, drawn: drawn, show: show, offer: offer, fine: FINE };
 }());

@@ -9,7 +9,8 @@
   const COLOURS = ["#fdc527", "#fca636", "#f2844b", "#e16462", "#cc4778", "#b12a90", "#8f0da4", "#6a00a8", "#41049d", "#0d0887"];
   const place = document.getElementById("shapes");
   const canvas = place.querySelector("canvas");
-  const context = canvas.getContext("2d");
+  // Where the view is drawn: the canvas, or a recorder of SVG while the figure is saved.
+  let context = canvas.getContext("2d");
   const slider = place.querySelector("input[type=range]");
   const button = function (name) { return place.querySelector("[data-do=" + name + "]"); };
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -234,6 +235,9 @@
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
+    paint();
+  }
+  function paint() {
     context.lineJoin = context.lineCap = "round";
     const view = projection(), mode = robot.modes[chosen], a = amplitude() * Math.cos(2 * Math.PI * phase);
     axes(view);
@@ -276,6 +280,58 @@
       context.strokeText(cable.label, at[0] + by[0], at[1] + by[1]);
       context.fillText(cable.label, at[0] + by[0], at[1] + by[1]);
     });
+  }
+
+  // Records what `paint` draws as elements of SVG, so that the saved figure has lines and texts.
+  function recorder(width, height) {
+    const elements = [];
+    let path = "";
+    const number = function (x) { return String(Math.round(100 * x) / 100); };
+    const escaped = function (text) { return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;"); };
+    const at = function (x, y) { return number(x) + " " + number(y); };
+    const lines = function (it) { return ' stroke="' + it.strokeStyle + '" stroke-width="' + number(it.lineWidth) + '" stroke-linejoin="round" stroke-linecap="round"'; };
+    const write = function (it, text, x, y, style) {
+      const anchor = it.textAlign === "right" ? "end" : it.textAlign === "center" ? "middle" : "start";
+      // A browser's middle line of a text lies a third of its size above the base line.
+      const size = parseFloat(/([0-9.]+)px/.exec(it.font)[1]), down = it.textBaseline === "middle" ? 0.35 * size : 0;
+      elements.push('<text x="' + number(x) + '" y="' + number(y + down) + '" font-size="' + number(size) + '" text-anchor="' + anchor + '"' + style + ">" + escaped(text) + "</text>");
+    };
+    return {
+      fillStyle: "#000000", strokeStyle: "#000000", lineWidth: 1, globalAlpha: 1, font: "12px sans-serif", textAlign: "start", textBaseline: "alphabetic",
+      beginPath: function () { path = ""; },
+      moveTo: function (x, y) { path += "M" + at(x, y); },
+      lineTo: function (x, y) { path += "L" + at(x, y); },
+      closePath: function () { path += "Z"; },
+      // Only complete circles are drawn.
+      arc: function (x, y, r) { path += "M" + at(x - r, y) + "a" + at(r, r) + " 0 1 0 " + at(2 * r, 0) + "a" + at(r, r) + " 0 1 0 " + at(-2 * r, 0) + "Z"; },
+      fill: function () { elements.push('<path d="' + path + '" fill="' + this.fillStyle + '" fill-opacity="' + this.globalAlpha + '"/>'); },
+      stroke: function () { elements.push('<path d="' + path + '" fill="none"' + lines(this) + "/>"); },
+      fillRect: function (x, y, w, h) { elements.push('<rect x="' + number(x) + '" y="' + number(y) + '" width="' + number(w) + '" height="' + number(h) + '" fill="' + this.fillStyle + '"/>'); },
+      fillText: function (text, x, y) { write(this, text, x, y, ' fill="' + this.fillStyle + '"'); },
+      strokeText: function (text, x, y) { write(this, text, x, y, ' fill="none"' + lines(this)); },
+      text: function () {
+        return '<svg xmlns="http://www.w3.org/2000/svg" width="' + width + '" height="' + height + '" viewBox="0 0 ' + width + " " + height +
+          '" font-family="Arial, Helvetica, sans-serif"><rect width="' + width + '" height="' + height + '" fill="#ffffff"/>' + elements.join("\n") + "</svg>";
+      }
+    };
+  }
+  // Address of the view at this moment as a picture.
+  function asSvg() {
+    const screen = context, record = recorder(canvas.clientWidth, canvas.clientHeight);
+    context = record;
+    try { paint(); } finally { context = screen; }
+    return "data:image/svg+xml;charset=utf-8," + encodeURIComponent(record.text());
+  }
+  function asPng() {
+    const screen = context, picture = document.createElement("canvas");
+    picture.width = page.fine * canvas.clientWidth;
+    picture.height = page.fine * canvas.clientHeight;
+    context = picture.getContext("2d");
+    context.scale(page.fine, page.fine);
+    context.fillStyle = "#ffffff";
+    context.fillRect(0, 0, canvas.clientWidth, canvas.clientHeight);
+    try { paint(); } finally { context = screen; }
+    return picture.toDataURL("image/png");
   }
 
   function show() { if (motion) { draw(); } }
@@ -473,6 +529,7 @@
     facing();
     zoom = 1;
     makeRowsButtons();
+    page.offer(place, { svg: async function () { return asSvg(); }, png: async function () { return asPng(); } });
     listen();
     play(playing);
     place.classList.add("ready");

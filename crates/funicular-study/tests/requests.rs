@@ -100,6 +100,32 @@ fn requests() -> Vec<Value> {
             &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })],
         ),
         of(
+            "frf",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &points,
+                &signals,
+                &range,
+                &json!({ "prominence_db": 3.0, "adaptive": false }),
+            ],
+        ),
+        of(
+            "frf",
+            &[
+                &robot,
+                &lengths,
+                &tensions,
+                &model,
+                &json!({
+                    "from_hz": 0.1, "to_hz": 10.0, "log": false, "adaptive": true, "prominence_db": 1.0,
+                    "input": ["fx", "mz"], "output": ["x", "cable:3@0.5:az"],
+                }),
+            ],
+        ),
+        of(
             "pose-error",
             &[&robot, &json!({ "mass_kg": [10.55, 86.35, 100], "lengths_m": [6.9, 6.6], "tolerance_mm": 5.0 })],
         ),

@@ -98,7 +98,7 @@ impl FrozenSag {
         };
         format!(
             "At {frequency_hz:.4} Hz{others} `{model}` ({:+.1} %) is worse than `spring` ({:+.1} %). This mode lies above \
-             the first cable resonance, {clamped_hz:.3} Hz: there the inertia of the cables keeps their sag from \
+             the first resonance of a cable with fixed ends, {clamped_hz:.3} Hz: there the inertia of the cables keeps their sag from \
              following the platform, so that a cable answers like a spring, while a static model lets the sag follow at \
              every frequency and is too soft.",
             100.0 * static_difference,
@@ -396,24 +396,28 @@ impl Advisor<'_> {
     fn for_all_modes(&self, simplest: CableModel, reference: CableModel) -> String {
         let Self { truth, below_hz, .. } = self;
 
-        // Vibrations of the cables below the limit.
-        let cable_modes = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).count();
+        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the moving
+        // platform there are modes of the cables below it.
+        let mut of_cables = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
+        let first_of_cables = of_cables.next();
+        let cable_modes = usize::from(first_of_cables.is_some()) + of_cables.count();
         let clamped = self.dynamics.clamped_frequencies_below(below_hz * TAU);
         let string = match clamped.first() {
             Some((omega, cable)) => format!(
-                "the first cable resonance, {:.3} Hz of cable \"{}\", lies below the limit of {below_hz} Hz",
+                "with fixed ends the cables resonate from {:.3} Hz on (cable \"{}\"), below the limit of {below_hz} Hz",
                 omega / TAU,
                 self.robot.cables[*cable].name
             ),
-            None => format!("no cable resonance lies below the limit of {below_hz} Hz"),
+            None => format!("with fixed ends no cable resonates below the limit of {below_hz} Hz"),
         };
 
         let percent = self.criterion.percent();
         let lost = self.result(CableModel::CatenaryStatic).map_or(0, |m| m.missed);
         let total = truth.modes.len();
+        let first = first_of_cables.map_or(String::new(), |hz| format!(" (the first at {hz:.3} Hz)"));
         let constant = format!(
-            "{string}, {cable_modes} of the {total} modes there have most of their energy in the cables, and a constant \
-             cable stiffness misses {lost} of them"
+            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in the \
+             cables{first}, and a constant cable stiffness misses {lost} of them"
         );
 
         match simplest {

@@ -37,7 +37,7 @@ impl Kind {
     /// Minimum fraction of the kinetic energy for which a mode belongs to the platform or to the cables.
     pub const SHARE: f64 = 0.75;
 
-    fn of(platform_fraction: f64) -> Self {
+    pub(crate) fn of(platform_fraction: f64) -> Self {
         if platform_fraction >= Self::SHARE {
             Self::Platform
         } else if platform_fraction <= 1.0 - Self::SHARE {
@@ -148,8 +148,40 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     let lowest = 1e-9 * first.min(limit);
     let unstable_directions = dynamics.modes_below(lowest);
 
-    let mut list = List { dynamics, modes: Vec::with_capacity(count_below), consistent: true };
-    let (mut from, mut count) = (lowest, unstable_directions);
+    let (modes, consistent) = in_interval(dynamics, (lowest, unstable_directions), (limit, count_below), &poles);
+    let certified = consistent
+        && dynamics.resolves(limit)
+        && modes.len() + unstable_directions == count_below
+        && modes.iter().all(|m| m.residual <= RESIDUAL_LIMIT);
+    Modes { modes, below_hz, count_below, unstable_directions, certified }
+}
+
+/// Natural modes in a range of frequencies [Hz], undamped, with multiplicity, ascending: a part of the list of [`below`]
+/// without its certificate, in time that does not depend on the number of modes below the range.
+pub fn within(dynamics: &Dynamics, from_hz: f64, to_hz: f64) -> Vec<Mode> {
+    let limit = to_hz * TAU;
+    let poles = dynamics.clamped_frequencies_below(limit);
+    let lowest = 1e-9 * poles.first().map_or(limit, |p| p.0).min(limit);
+    let from = (from_hz * TAU).max(lowest);
+    let above: Vec<(f64, usize)> = poles.into_iter().filter(|p| p.0 > from * (1.0 + 2.0 * POLE_WIDTH)).collect();
+    let counts = [from, limit].map(|omega| dynamics.modes_below(omega));
+    in_interval(dynamics, (from, counts[0]), (limit, counts[1]), &above).0
+}
+
+/// Number of natural modes in a range of frequencies [Hz], by the Wittrick–Williams count.
+pub fn count_within(dynamics: &Dynamics, from_hz: f64, to_hz: f64) -> usize {
+    dynamics.modes_below(to_hz * TAU).saturating_sub(dynamics.modes_below(from_hz * TAU))
+}
+
+/// Modes between two angular frequencies with known counts, ascending; `poles` are all clamped frequencies between them.
+/// The flag is true if the count has not decreased anywhere.
+fn in_interval(
+    dynamics: &Dynamics,
+    (mut from, mut count): (f64, usize),
+    (limit, count_limit): (f64, usize),
+    poles: &[(f64, usize)],
+) -> (Vec<Mode>, bool) {
+    let mut list = List { dynamics, modes: Vec::with_capacity(count_limit.saturating_sub(count)), consistent: true };
     let mut next = 0;
     while next < poles.len() {
         // Poles that coincide form one cluster.
@@ -168,15 +200,11 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
         (from, count) = (right, at_right);
         next = last + 1;
     }
-    list.between(from, count, limit, count_below);
+    list.between(from, count, limit, count_limit);
 
     let List { mut modes, consistent, .. } = list;
     modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
-    let certified = consistent
-        && dynamics.resolves(limit)
-        && modes.len() + unstable_directions == count_below
-        && modes.iter().all(|m| m.residual <= RESIDUAL_LIMIT);
-    Modes { modes, below_hz, count_below, unstable_directions, certified }
+    (modes, consistent)
 }
 
 /// List of modes under construction.

@@ -6,6 +6,14 @@
 //! ratio is replaced by viscous damping. Both errors are measured against the full model. Derivation: docs/theory.md,
 //! section 13.
 
+mod candidates;
+mod control_model;
+mod reference;
+
+pub use control_model::{
+    ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, Size, control_model,
+};
+
 use crate::cable::DynamicCable;
 use crate::cable_motion::CableMotionError;
 use crate::dynamics::{CableBlocks, Dynamics, PlatformBlocks};
@@ -116,6 +124,53 @@ pub enum ReductionError {
         "the mass matrix of the reduced model is not positive definite: check masses and inertia of the robot file"
     )]
     Mass,
+    /// A mode has no damping, so that its peak is not finite.
+    #[error(
+        "the natural frequency {frequency_hz} Hz has no damping: a response has no peak to which an error could be \
+         related; give the ropes or the platform damping, or take the second-order form"
+    )]
+    Undamped {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+    },
+    /// The equilibrium is unstable.
+    #[error(
+        "the equilibrium is unstable, so that it has no stable state space; choose another state, or take the \
+         second-order form"
+    )]
+    Unstable,
+    /// No input moves any output.
+    #[error("no input moves any output below the limit: choose other inputs or outputs")]
+    NoResponse,
+    /// The eigenvalues of the damped modes are not found.
+    #[error("the eigenvalues of the damped modes cannot be computed: choose a lower frequency limit")]
+    Eigenvalues,
+    /// Too few states for any mode.
+    #[error("{0} states hold no mode: a mode needs two")]
+    Order(usize),
+    /// No choice of modes keeps the tolerance.
+    #[error(
+        "no state space has an error of at most {requested} of the peaks: {order} states reach {reached:.2e}, because a \
+         constant damping ratio has no exact state space or because of modes that are left out; choose a larger tolerance"
+    )]
+    Tolerance {
+        /// Requested error.
+        requested: f64,
+        /// Smallest error.
+        reached: f64,
+        /// Number of states with this error.
+        order: usize,
+    },
+}
+
+impl ReductionError {
+    /// True if the request is valid, but the robot has no such model.
+    pub fn is_no_solution(&self) -> bool {
+        matches!(
+            self,
+            Self::Undamped { .. } | Self::Unstable | Self::NoResponse | Self::Eigenvalues | Self::Tolerance { .. }
+        )
+    }
 }
 
 /// Ratios to the limit up to which clamped modes are kept unchanged, tried in turn until the error is small enough.
@@ -343,6 +398,24 @@ impl Matrices {
     }
 }
 
+/// Matrices of a linearised robot whose cables have only the poles to be kept, and their coordinates.
+fn matrices(dynamics: &Dynamics) -> (Layout, Matrices) {
+    let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
+    let layout = Layout::new(dynamics.dof(), &cables);
+
+    let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), layout.coordinates.len());
+    for (cable, from) in cables.iter().zip(&layout.first_of_term) {
+        matrices.add_cable(cable, *from);
+    }
+    (layout, matrices)
+}
+
+/// Damping matrix without that of constant ratios, and the coefficient R of the damping `2ωR` by these.
+fn viscous_damping_and_ratios(dynamics: &Dynamics) -> (DMat, DMat) {
+    let (_, Matrices { damping, ratio, .. }) = matrices(dynamics);
+    (damping, ratio)
+}
+
 /// Reduced model from a linearised robot whose cables have only the poles to be kept.
 fn assembled(
     dynamics: &Dynamics,
@@ -350,14 +423,8 @@ fn assembled(
     outputs: &[(Signal, Quantity)],
     requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
-    let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
-    let layout = Layout::new(dynamics.dof(), &cables);
+    let (layout, mut matrices) = matrices(dynamics);
     let n = layout.coordinates.len();
-
-    let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), n);
-    for (cable, from) in cables.iter().zip(&layout.first_of_term) {
-        matrices.add_cable(cable, *from);
-    }
     if dynamics.has_damping_ratios() {
         matrices.damping = matrices.all_damping(requested.damping_at)?;
     }

@@ -2,8 +2,9 @@
 //!
 //! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are computed side by side in vector registers (the
 //! kernel). The plain version, [`receptance`], is the oracle of the kernel and replaces it where the kernel is not
-//! accurate.
+//! accurate. [`adaptive`] chooses frequencies such that no peak is missed.
 
+pub mod adaptive;
 mod kernel;
 mod peaks;
 mod signals;
@@ -11,9 +12,11 @@ mod signals;
 pub use peaks::{Peak, peaks};
 pub use signals::{Port, Signal, about, along};
 
+use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, Complex, Vec6};
+use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6};
 use std::f64::consts::TAU;
+use std::slice;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -84,31 +87,128 @@ pub fn between(
     output: &Port,
     quantity: Quantity,
 ) -> Result<Vec<Complex>, ResponseError> {
-    if let (Port::Platform(input), Port::Platform(output)) = (input, output) {
-        return frf(dynamics, frequencies_hz, input, output, quantity);
+    let rows = matrix(dynamics, frequencies_hz, slice::from_ref(input), &[(output.clone(), quantity)])?;
+    Ok(rows.into_iter().next().unwrap_or_default())
+}
+
+/// Responses between all pairs of ports at each frequency [Hz], one row per pair: the pairs of the first output with all
+/// inputs, then those of the next output. Each row is that of [`between`] for its pair, to the last digit.
+///
+/// # Errors
+/// The errors of [`between`].
+pub fn matrix(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    inputs: &[Port],
+    outputs: &[(Port, Quantity)],
+) -> Result<Vec<Vec<Complex>>, ResponseError> {
+    let on_platform = |port: &Port| if let Port::Platform(vector) = port { Some(*vector) } else { None };
+    let pairs =
+        || outputs.iter().flat_map(|(output, quantity)| inputs.iter().map(move |input| (input, output, *quantity)));
+
+    // Pairs of ports on the platform need no complete receptance.
+    let from: Vec<Vec6> = inputs.iter().filter_map(on_platform).collect();
+    let to: Vec<Vec6> = outputs.iter().filter_map(|(port, _)| on_platform(port)).collect();
+    let of_platform = match (&from[..], &to[..]) {
+        ([], _) | (_, []) => Vec::new(),
+        ([input], [output]) => vec![kernel::one_entry(dynamics, frequencies_hz, input, output)],
+        _ => kernel::entries(dynamics, frequencies_hz, &from, &to),
+    };
+    if of_platform.len() == inputs.len() * outputs.len() {
+        let finished = |(row, (_, _, quantity))| finished(row, frequencies_hz, quantity);
+        return of_platform.into_iter().zip(pairs()).map(finished).collect();
     }
 
-    // A force on a cable moves not only the platform, but also that cable itself.
-    let own = match (input, output) {
-        (
-            Port::Cable { stations, station: loaded, direction_w: force_w },
-            Port::Cable { stations: of_output, station, direction_w },
-        ) if stations.cable == of_output.cable => {
-            if !(Arc::ptr_eq(stations, of_output) && stations.has_own_receptance()) {
-                return Err(ResponseError::SameCable);
-            }
-            Some((stations, (*station, direction_w), (*loaded, force_w)))
-        }
-        _ => None,
-    };
-
+    let own = pairs().map(|(input, output, _)| OwnResponse::of(input, output)).collect::<Result<Vec<_>, _>>()?;
     let all = kernel::all_entries(dynamics, frequencies_hz);
-    let entry = |(receptance, frequency_hz): (&CMat6, &f64)| {
+    let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
+    for (receptance, frequency_hz) in all.iter().zip(frequencies_hz) {
         let omega = frequency_hz * TAU;
-        let through = (output.vector(dynamics, omega).transpose() * receptance * input.vector(dynamics, omega))[0];
-        own.map_or(through, |(stations, to, from)| through + stations.own_receptance(dynamics, to, from, omega))
+        let from: Vec<CVec6> = inputs.iter().map(|input| input.vector(dynamics, omega)).collect();
+        let mut row = 0;
+        for (output, _) in outputs {
+            let to = output.vector(dynamics, omega);
+            for input in &from {
+                let through = (to.transpose() * receptance * input)[0];
+                let added = own[row].as_ref().map(|own| own.at(dynamics, omega));
+                rows[row].push(added.map_or(through, |added| through + added));
+                row += 1;
+            }
+        }
+    }
+
+    let mut of_platform = of_platform.into_iter();
+    let finished = |(row, (input, output, quantity)): (Vec<Complex>, (&Port, &Port, Quantity))| {
+        let both = on_platform(input).is_some() && on_platform(output).is_some();
+        finished(if both { of_platform.next().unwrap_or(row) } else { row }, frequencies_hz, quantity)
     };
-    finished(all.iter().zip(frequencies_hz).map(entry).collect(), frequencies_hz, quantity)
+    rows.into_iter().zip(pairs()).map(finished).collect()
+}
+
+/// Motion of a cable under a force on itself, which adds to the motion through the platform.
+struct OwnResponse<'a> {
+    stations: &'a CableStations,
+    to: (usize, &'a Vec3),
+    from: (usize, &'a Vec3),
+}
+
+impl<'a> OwnResponse<'a> {
+    /// Own response of a pair of ports; `None` if they are not on the same cable.
+    fn of(input: &'a Port, output: &'a Port) -> Result<Option<Self>, ResponseError> {
+        match (input, output) {
+            (
+                Port::Cable { stations, station: loaded, direction_w: force_w },
+                Port::Cable { stations: of_output, station, direction_w },
+            ) if stations.cable == of_output.cable => {
+                if !(Arc::ptr_eq(stations, of_output) && stations.has_own_receptance()) {
+                    return Err(ResponseError::SameCable);
+                }
+                Ok(Some(Self { stations, to: (*station, direction_w), from: (*loaded, force_w) }))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    fn at(&self, dynamics: &Dynamics, omega: f64) -> Complex {
+        self.stations.own_receptance(dynamics, self.to, self.from, omega)
+    }
+}
+
+/// Fraction of the sum of its terms below which a response is lost in rounding: elimination keeps at least ten digits of
+/// the largest term.
+const LOST: f64 = 1e-9;
+
+/// Responses between all pairs of ports, in the order of [`matrix`], with the magnitude below which rounding hides each:
+/// one row per frequency [Hz].
+///
+/// # Errors
+/// The errors of [`between`].
+pub fn measured(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    inputs: &[Port],
+    outputs: &[(Port, Quantity)],
+) -> Result<Vec<Vec<adaptive::Measured>>, ResponseError> {
+    let values = matrix(dynamics, frequencies_hz, inputs, outputs)?;
+    let sizes = kernel::all_entries(dynamics, frequencies_hz);
+
+    let row = |(k, (receptance, frequency_hz)): (usize, (&CMat6, &f64))| {
+        let omega = frequency_hz * TAU;
+        let magnitudes = |port: &Port| port.vector(dynamics, omega).map(|v| v.norm());
+        let size = receptance.map(|entry| entry.norm());
+        let from: Vec<Vec6> = inputs.iter().map(|input| size * magnitudes(input)).collect();
+        let sums = outputs.iter().flat_map(|(output, quantity)| {
+            let to = magnitudes(output);
+            let by_time = match quantity {
+                Quantity::Displacement => 1.0,
+                Quantity::Velocity => omega,
+                Quantity::Acceleration => omega * omega,
+            };
+            from.iter().map(move |from| LOST * by_time * to.dot(from)).collect::<Vec<f64>>()
+        });
+        sums.enumerate().map(|(i, floor)| adaptive::Measured { value: values[i][k], floor }).collect()
+    };
+    Ok(sizes.iter().zip(frequencies_hz).enumerate().map(row).collect())
 }
 
 /// Converts receptances to the requested quantity.

@@ -123,6 +123,36 @@ pub struct Material {
     pub drag_width: Option<f64>,
     /// Dead load per unstrained length besides its weight, world axes [N/m].
     pub load_per_length_w: Vec3,
+    /// Dimensions that the file gives. No analysis uses them: they only show whether the other values are plausible.
+    pub dimensions: RopeDimensions,
+}
+
+/// Dimensions of a rope as its file gives them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RopeDimensions {
+    /// Cross-section that was multiplied by Young's modulus; `None` if the file gives the axial stiffness itself.
+    pub section: Option<RopeSection>,
+    /// Diameter that the wind meets [m]; `None` if the file gives no drag.
+    pub drag_diameter: Option<f64>,
+}
+
+/// Cross-section of a rope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RopeSection {
+    /// Full circle with this diameter [m].
+    Diameter(f64),
+    /// Area [m²], for wire rope mostly that of the metal.
+    Area(f64),
+}
+
+impl RopeSection {
+    /// Area [m²].
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Diameter(diameter) => 0.25 * std::f64::consts::PI * diameter * diameter,
+            Self::Area(area) => *area,
+        }
+    }
 }
 
 /// Tension limits of a cable [N]; `None` if the file gives none.

@@ -45,7 +45,7 @@ mod drag; // stiffness added by the turn of the wind's drag
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
-pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, tangent_with_drag};
+pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
@@ -56,10 +56,11 @@ pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
-pub use stiffness::{stiffness_along_coordinates, tangent_stiffness};
+pub use stiffness::tangent_stiffness;
+pub(crate) use tension::spread;
 pub use tension::{
-    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
-    payload_bound,
+    LimitAtCable, Obstacle, OneSidedCause, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule,
+    distribute_tensions, payload_bound,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

@@ -1,6 +1,10 @@
 //! Warnings about results outside the range of a model or a limit: each names the cable, the value, the limit and a
 //! remedy.
 
+pub mod plausibility;
+
+use plausibility::Implausible;
+
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
@@ -12,6 +16,8 @@ use std::fmt;
 /// Caveat that the user should know before using a result.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
+    /// A value that no usual robot has.
+    Implausible(Implausible),
     /// A cable carries no force.
     Slack {
         /// Name of the cable.
@@ -150,6 +156,7 @@ pub const AXIAL_FRACTION: f64 = 1.0 / 3.0;
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Implausible(value) => write!(f, "{value}"),
             Self::Slack { cable } => write!(
                 f,
                 "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
@@ -271,6 +278,17 @@ pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, requested: &Pose, dista
         turn_deg: found.rot_wp.angle_to(&requested.rot_wp).to_degrees(),
         distance,
     })
+}
+
+/// Warnings about the values of a robot that no usual robot has; mostly slips of a unit or of a sign
+/// ([`plausibility::of_robot`]).
+pub fn of_robot(robot: &Robot) -> Vec<Warning> {
+    plausibility::of_robot(robot).into_iter().map(Warning::Implausible).collect()
+}
+
+/// Warnings about values of an equilibrium that no usual robot has ([`plausibility::of_equilibrium`]).
+pub fn of_plausibility(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
+    plausibility::of_equilibrium(robot, equilibrium).into_iter().map(Warning::Implausible).collect()
 }
 
 /// Warnings about an equilibrium.

@@ -9,8 +9,8 @@ use super::{
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
 use funicular_study::request::{
-    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, Pose, ResponsePoints, RobotText,
-    State, Tensions, Terms,
+    self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
+    ResponsePoints, RobotText, State, Tensions, Terms,
 };
 use std::path::Path;
 
@@ -92,7 +92,7 @@ impl PointArgs {
 
 impl RangeArgs {
     fn request(&self) -> FrequencyRange {
-        FrequencyRange { from_hz: self.from_hz, to_hz: self.to_hz, points: self.points as usize, log: self.log }
+        FrequencyRange { from_hz: self.from_hz, to_hz: self.to_hz, points: Some(self.points as usize), log: self.log }
     }
 }
 
@@ -136,10 +136,16 @@ impl FrfArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
         request::FrfRequest {
             robot,
-            range: self.range.request(),
-            input: self.input.name.clone(),
-            output: self.output.name.clone(),
-            signal_points: self.points.request(),
+            range: FrequencyRange {
+                from_hz: self.from_hz,
+                to_hz: self.to_hz,
+                points: self.points.map(|points| points as usize),
+                log: self.log,
+            },
+            adaptive: self.adaptive,
+            input: OneOrSeveral::of(self.input.iter().map(|input| input.name.clone()).collect()),
+            output: OneOrSeveral::of(self.output.iter().map(|output| output.name.clone()).collect()),
+            signal_points: self.signal_points.request(),
             prominence_db: self.prominence_db,
             state: self.state.request(),
             tensions: self.tensions.request(),
@@ -210,6 +216,8 @@ impl ReduceArgs {
             input: self.input.iter().map(|input| input.name.clone()).collect(),
             output: self.output.iter().map(|output| output.name.clone()).collect(),
             points: self.points.request(),
+            form: self.form.into(),
+            order: self.order,
             tolerance: self.tolerance,
             damping_at_hz: self.damping_at_hz,
             state: self.state.request(),

@@ -1,6 +1,6 @@
 //! Options of `map`, `sweep`, `merge` and `plot`.
 
-use super::{Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
+use super::{FigureArgs, Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
 use clap::Args;
 use funicular_study::sweep::{Part, Quantity, Steps, ValueAxis};
 use std::num::NonZeroUsize;
@@ -129,7 +129,21 @@ pub(crate) struct PlotArgs {
     pub(crate) file: PathBuf,
 
     /// Write the page to FILE, completely or not at all; - is standard output [default: FILE.parquet with the ending
-    /// .html]
+    /// .html]. FILE.svg and FILE.pdf hold one figure
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output_file: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) figure: FigureArgs,
+
+    /// Quantity of the figure, by its name for `map` or by the name of its column; needed if there are several
+    #[arg(long, value_name = "Q", help_heading = "Figure")]
+    pub(crate) quantity: Option<String>,
+
+    /// Axes of the slice in the figure, as in x,z [default: the two axes with most values]
+    #[arg(long, value_name = "AXIS,AXIS", value_parser = values::plane, help_heading = "Figure")]
+    pub(crate) plane: Option<values::Plane>,
+
+    /// Value of another axis at which the slice lies (repeatable) [default: the middle of the grid]
+    #[arg(long, value_name = "AXIS=VALUE", value_parser = values::place, help_heading = "Figure")]
+    pub(crate) at: Vec<(String, f64)>,
 }

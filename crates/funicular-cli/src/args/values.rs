@@ -93,6 +93,24 @@ pub(crate) fn stations(text: &str) -> Result<usize, String> {
     }
 }
 
+/// Axes of a slice: horizontal and vertical.
+#[derive(Debug, Clone)]
+pub(crate) struct Plane(pub(crate) [String; 2]);
+
+/// Reads the two axes of a slice, as in `x,z`.
+pub(crate) fn plane(text: &str) -> Result<Plane, String> {
+    match text.split(',').map(str::trim).collect::<Vec<_>>()[..] {
+        [h, v] if !h.is_empty() && !v.is_empty() => Ok(Plane([h.to_owned(), v.to_owned()])),
+        _ => Err(format!("`{text}` is not a pair of axes: give two names, as in x,z")),
+    }
+}
+
+/// Reads the value of an axis, as in `z=1.5`.
+pub(crate) fn place(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or_else(|| format!("`{text}` has no value: give one, as in z=1.5"))?;
+    Ok((name.trim().to_owned(), finite(value)?))
+}
+
 /// Range of masses in equal steps [kg].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MassRange {

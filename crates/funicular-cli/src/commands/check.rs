@@ -75,7 +75,11 @@ impl Printed for Checked {
             None => "none: analyses need --lengths-m or --pose".to_owned(),
         };
         say(format!("  state       {state}"));
-        out + "\n" + &rope_table(self) + "\n" + &cable_table(self)
+        out += &("\n".to_owned() + &rope_table(self) + "\n" + &cable_table(self));
+        for note in &self.notes {
+            let _ = write!(out, "\nNote: {note}.\n");
+        }
+        out
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {

@@ -2,53 +2,89 @@
 
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant, vector};
-use funicular_study::analyses::frf::{Frf, PlaceRow};
+use funicular_study::analyses::frf::{Frf, PairRow, PlaceRow};
 
 impl Printed for Frf {
     fn text(&self) -> String {
-        let mut peaks = Table::new(&["peak [Hz]", "prominence [dB]", &format!("magnitude [{}]", self.unit)]);
-        for peak in &self.peaks {
-            peaks.row(vec![
-                decimals(peak.frequency_hz, 4),
-                decimals(peak.prominence_db, 2),
-                significant(peak.magnitude, 5),
-            ]);
+        let points = self.frequency_hz.len();
+        let (first, last) = (self.frequency_hz[0], self.frequency_hz[points - 1]);
+        let chosen = if self.adaptive { ", chosen so that every peak has its height" } else { "" };
+        let range = format!("{points} frequencies from {first} to {last} Hz{chosen}");
+        let (robot, models) = (&self.robot, self.models.line());
+
+        if let [one] = &self.responses[..] {
+            return format!(
+                "{robot}: {}\n{models}\n\n{range}; {}\n\n{} The whole curve: --format csv or --format json.\n",
+                heading(one),
+                largest(&self.frequency_hz, one),
+                peaks(one, self.prominence_db)
+            );
         }
 
-        let points = self.frequency_hz.len();
-        let magnitude = |i: usize| significant(self.real[i].hypot(self.imag[i]), 5);
-        let largest = (0..points)
-            .max_by(|&i, &j| self.real[i].hypot(self.imag[i]).total_cmp(&self.real[j].hypot(self.imag[j])))
-            .unwrap_or(0);
-
-        format!(
-            "{}: response of {} at {} to {} at {}\n{}\n\n\
-             {points} frequencies from {} to {} Hz; largest magnitude {} {} at {} Hz\n\n{}\
-             {} of at least {} dB. The whole curve: --format csv or --format json.\n",
-            self.robot,
-            self.output,
-            place_text(&self.output_place),
-            self.input,
-            place_text(&self.input_place),
-            self.models.line(),
-            self.frequency_hz[0],
-            self.frequency_hz[points - 1],
-            magnitude(largest),
-            self.unit,
-            significant(self.frequency_hz[largest], 6),
-            if self.peaks.is_empty() { String::new() } else { format!("{peaks}\n") },
-            counted(self.peaks.len(), "peak"),
-            self.prominence_db,
-        )
+        let several: String = (self.responses.iter())
+            .map(|pair| {
+                let (largest, peaks) = (largest(&self.frequency_hz, pair), peaks(pair, self.prominence_db));
+                format!("{}; {largest}\n\n{peaks}\n\n", heading(pair))
+            })
+            .collect();
+        let count = counted(self.responses.len(), "response");
+        format!("{robot}: {count}\n{models}\n\n{range}\n\n{several}The whole curves: --format csv or --format json.\n")
     }
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["frequency_hz", "real", "imag", "magnitude", "phase_deg"])?;
-        for ((frequency, re), im) in self.frequency_hz.iter().zip(&self.real).zip(&self.imag) {
-            out.serialize((frequency, re, im, re.hypot(*im), im.atan2(*re).to_degrees()))?;
+        let columns = ["frequency_hz", "real", "imag", "magnitude", "phase_deg"];
+        let one = self.responses.len() == 1;
+        out.write_record(["input", "output"].iter().filter(|_| !one).chain(&columns))?;
+        for pair in &self.responses {
+            for ((frequency, re), im) in self.frequency_hz.iter().zip(&pair.real).zip(&pair.imag) {
+                let row = (frequency, re, im, re.hypot(*im), im.atan2(*re).to_degrees());
+                if one {
+                    out.serialize(row)?;
+                } else {
+                    out.serialize((&pair.input, &pair.output, row))?;
+                }
+            }
         }
         Ok(())
     }
+}
+
+/// Signals of a response and their places.
+fn heading(pair: &PairRow) -> String {
+    let (output_place, input_place) = (place_text(&pair.output_place), place_text(&pair.input_place));
+    format!("response of {} at {output_place} to {} at {input_place}", pair.output, pair.input)
+}
+
+/// Sentence on the largest magnitude of a response.
+fn largest(frequencies_hz: &[f64], pair: &PairRow) -> String {
+    let magnitude = |i: usize| pair.real[i].hypot(pair.imag[i]);
+    let at = (0..frequencies_hz.len()).max_by(|&i, &j| magnitude(i).total_cmp(&magnitude(j))).unwrap_or(0);
+    let (height, hz) = (significant(magnitude(at), 5), significant(frequencies_hz[at], 6));
+    format!("largest magnitude {height} {} at {hz} Hz", pair.unit)
+}
+
+/// Table of the peaks of a response and their number.
+fn peaks(pair: &PairRow, prominence_db: f64) -> String {
+    let mut table = Table::new(&["peak [Hz]", "prominence [dB]", &format!("magnitude [{}]", pair.unit)]);
+    for peak in &pair.peaks {
+        table.row(vec![
+            decimals(peak.frequency_hz, 4),
+            decimals(peak.prominence_db, 2),
+            significant(peak.magnitude, 5),
+        ]);
+    }
+    let table = if pair.peaks.is_empty() { String::new() } else { format!("{table}\n") };
+
+    let undamped: Vec<String> = pair.undamped_hz.iter().map(|hz| decimals(*hz, 4)).collect();
+    let undamped = match undamped.len() {
+        0 => String::new(),
+        count => format!(
+            " {} at {} Hz, where the magnitude has no bound.",
+            counted(count, "undamped resonance"),
+            undamped.join(", ")
+        ),
+    };
+    format!("{table}{} of at least {prominence_db} dB.{undamped}", counted(pair.peaks.len(), "peak"))
 }
 
 /// Text for the place of the input or output of a response.

@@ -2,7 +2,7 @@
 
 use crate::args::PlotArgs;
 use crate::errors;
-use crate::output::{Content, Target};
+use crate::output::{Content, FigureSink, Target, refuse_page_as_figure, refuse_without_figure};
 use crate::progress::{Shown, Waiting};
 use crate::robot_file;
 use anyhow::{Context, Result, bail};
@@ -16,6 +16,7 @@ use std::path::Path;
 pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path) -> Result<()> {
     let Request::Report(of) = request else { bail!("this is not a request of `report`") };
     let file = of.robot.read()?;
+    refuse_page_as_figure(output)?;
     let target = Target::open(Some(output), Content::PAGE, &mut robot_file::guard(robot_path))?;
     let waiting = Waiting::for_("the robot's figures and tables");
     let page = pages::report::of_request(of, file, command_line()?)?;
@@ -27,6 +28,7 @@ pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path
 
 /// Writes the page about Yuan et al. 2014.
 pub(crate) fn paper(output: &Path) -> Result<()> {
+    refuse_page_as_figure(output)?;
     let target = Target::open(Some(output), Content::PAGE, &mut Guard::default())?;
     let waiting = Waiting::for_("the paper's figures and tables");
     let page = pages::paper::paper(command_line()?)?;
@@ -34,12 +36,27 @@ pub(crate) fn paper(output: &Path) -> Result<()> {
     write(&target, output, &page)
 }
 
-/// Writes the page of a map or sweep.
+/// Writes the page of a map or sweep, or one figure of it.
 pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     let file = SweepFile::open(&args.file)?;
     let to = args.output_file.clone().unwrap_or_else(|| args.file.with_extension("html"));
     let mut guard = Guard::default();
     guard.reads("the rows in", &args.file);
+
+    if let Some(sink) = FigureSink::open(Some(&to), args.figure, &mut guard)? {
+        let choice = pages::plot::Choice {
+            quantity: args.quantity.clone(),
+            plane: args.plane.clone().map(|plane| plane.0),
+            at: args.at.clone(),
+        };
+        let made = pages::plot::figure(&file, &args.file.display().to_string(), &choice)?;
+        sink.write(&made.figure)?;
+        made.notes.iter().for_each(|note| errors::note(&worded(note, Words::Program)));
+        return Ok(());
+    }
+    refuse_without_figure(args.quantity.is_some(), "quantity")?;
+    refuse_without_figure(args.plane.is_some(), "plane")?;
+    refuse_without_figure(!args.at.is_empty(), "at")?;
     let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
     let waiting = Waiting::for_("the figures");
     let page = pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut Shown::default())?;

@@ -2,17 +2,150 @@
 
 use crate::output::{Content, Printed, Target};
 use crate::table::{Table, counted, decimals};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::DMat;
 use funicular::reduced_model::{SecondOrder, StateSpace};
 use funicular_files::endings::Kind;
+use funicular_files::mat::{self, Value, Variable};
 use funicular_files::{Guard, atomic_file};
 use funicular_study::analyses::Found;
-use funicular_study::analyses::reduce::{ChannelRow, Reduced};
+use funicular_study::analyses::control_model::ControlStateSpace;
+use funicular_study::analyses::reduce::{ChannelRow, Reduced, ReducedForm};
 use funicular_study::json;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
+
+impl Printed for ReducedForm {
+    fn text(&self) -> String {
+        match self {
+            Self::StateSpace(found) => found.text(),
+            Self::SecondOrder(found) => found.text(),
+        }
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        match self {
+            Self::StateSpace(found) => found.csv(out),
+            Self::SecondOrder(found) => found.csv(out),
+        }
+    }
+}
+
+/// Names and units of inputs or outputs.
+fn names(channels: &[ChannelRow]) -> String {
+    channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
+}
+
+/// Fraction in percent, with three digits.
+fn percent(fraction: f64) -> String {
+    let value = 100.0 * fraction;
+    if value >= 99.95 || value == 0.0 {
+        format!("{value:.0}")
+    } else {
+        let digits = (2 - value.log10().floor() as i32).clamp(0, 12) as usize;
+        format!("{value:.digits$}")
+    }
+}
+
+impl Printed for ControlStateSpace {
+    fn text(&self) -> String {
+        let mut modes =
+            Table::new(&["states", "frequency [Hz]", "damping ratio [%]", "kind", "part in a response [%]"])
+                .text_columns(&[0, 3]);
+        for of in &self.states {
+            let states = if of.states == 1 {
+                format!("{}", of.first + 1)
+            } else {
+                format!("{}, {}", of.first + 1, of.first + 2)
+            };
+            modes.row(vec![
+                states,
+                decimals(of.frequency_hz, 4),
+                decimals(100.0 * of.damping_ratio, 4),
+                of.kind.to_owned(),
+                percent(of.contribution),
+            ]);
+        }
+
+        let mut errors =
+            Table::new(&["response", "peak", "unit", "at [Hz]", "error [% of peak]", "at [Hz]"]).text_columns(&[0, 2]);
+        let shown = self.responses.iter().filter(|of| of.coupled);
+        for of in shown.clone() {
+            errors.row(vec![
+                format!("{}/{}", of.output, of.input),
+                format!("{:.4e}", of.peak),
+                of.unit.clone(),
+                decimals(of.peak_hz, 4),
+                percent(of.error),
+                decimals(of.error_hz, 4),
+            ]);
+        }
+        let none = match self.responses.len() - shown.count() {
+            0 => String::new(),
+            n => format!("{} not coupled: below a millionth of the others\n", counted(n, "response")),
+        };
+        let damping = if self.damping_error == 0.0 {
+            String::new()
+        } else {
+            format!("; constant damping ratios alone leave {} %", percent(self.damping_error))
+        };
+        let pointwise = format!(
+            "relative to the response at the same frequency: up to {} % ({}/{} at {} Hz, where the response is {} % of \
+             its peak)",
+            percent(self.pointwise_error.error),
+            self.pointwise_error.output,
+            self.pointwise_error.input,
+            decimals(self.pointwise_error.frequency_hz, 4),
+            percent(self.pointwise_error.response_over_peak),
+        );
+        let written = match &self.matrices_file {
+            None => "The matrices are not written: give --matrices model.npz, model.mat, or a folder for CSV files."
+                .to_owned(),
+            Some(path) => format!("{path}: A, B, C, D of x' = A x + B f, y = C x + D f; description"),
+        };
+
+        format!(
+            "{}: state space for frequencies below {} Hz\n{}\n\n{}; the complete model has {}, the robot {} below the \
+             limit\ninputs: {}\noutputs: {}\ndamping: {}\n\n{modes}\nerror: at most {} % of the peak of each \
+             response{damping}\n{errors}{none}{pointwise}\n\n{written}\n",
+            self.robot,
+            self.below_hz,
+            self.models.line(),
+            counted(self.order, "state"),
+            self.complete_order,
+            counted(self.modes_below, "mode"),
+            names(&self.inputs),
+            names(&self.outputs),
+            self.damping,
+            percent(self.error),
+        )
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        out.write_record([
+            "first_state",
+            "states",
+            "frequency_hz",
+            "damping_ratio",
+            "kind",
+            "platform_energy_fraction",
+            "contribution",
+        ])?;
+        for of in &self.states {
+            out.serialize((
+                of.first,
+                of.states,
+                of.frequency_hz,
+                of.damping_ratio,
+                of.kind,
+                of.platform_energy_fraction,
+                of.contribution,
+            ))?;
+        }
+        Ok(())
+    }
+}
 
 impl Printed for Reduced {
     fn text(&self) -> String {
@@ -24,9 +157,6 @@ impl Printed for Reduced {
         row("responses, due to omitted modes", self.truncation_error);
         row("responses, due to viscous damping", self.damping_error);
 
-        let names = |channels: &[ChannelRow]| {
-            channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
-        };
         let highest = self.coordinates.iter().filter_map(|of| of.clamped_frequency_hz).fold(0.0, f64::max);
         let clamped = self.coordinates.iter().filter(|of| of.clamped_frequency_hz.is_some()).count();
         let kept = match clamped {
@@ -35,7 +165,7 @@ impl Printed for Reduced {
         };
 
         let written = match &self.matrices_file {
-            None => "The matrices are not written: give --matrices model.npz, or --matrices FOLDER for CSV files."
+            None => "The matrices are not written: give --matrices model.npz, model.mat, or a folder for CSV files."
                 .to_owned(),
             Some(path) => format!(
                 "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state \
@@ -66,14 +196,19 @@ impl Printed for Reduced {
     }
 }
 
-/// Matrices in one file.
-const MATRICES: Content =
+/// Matrices in a file of NumPy.
+const ARRAYS: Content =
     Content { name: "the matrices", option: "--matrices", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
+/// Matrices in a file of MATLAB.
+const VARIABLES: Content =
+    Content { name: "the matrices", option: "--matrices", in_words: "variables of MATLAB", fitting: &[Kind::Mat] };
 
 /// Destination of the matrices.
 pub(crate) enum ModelFile {
     /// NumPy archive.
     Npz(Target),
+    /// File of MATLAB.
+    Mat(Target),
     /// Folder of CSV files, new or empty.
     Folder(PathBuf),
 }
@@ -81,15 +216,17 @@ pub(crate) enum ModelFile {
 impl ModelFile {
     /// Checks before the work that the destination can be written.
     pub(crate) fn open(path: &Path, guard: &mut Guard) -> Result<Self> {
-        if Kind::of(path) == Some(Kind::Npz) {
-            return Ok(Self::Npz(Target::open(Some(path), MATRICES, guard)?));
+        match Kind::of(path) {
+            Some(Kind::Npz) => return Ok(Self::Npz(Target::open(Some(path), ARRAYS, guard)?)),
+            Some(Kind::Mat) => return Ok(Self::Mat(Target::open(Some(path), VARIABLES, guard)?)),
+            _ => {}
         }
         let shown = path.display();
-        guard.writes_folder(MATRICES.name, MATRICES.option, path)?;
+        guard.writes_folder(ARRAYS.name, ARRAYS.option, path)?;
         if path.extension().is_some() && !path.is_dir() {
             bail!(
-                "--matrices {shown} is neither an .npz file nor a folder: write model.npz, or a folder without an \
-                 ending"
+                "--matrices {shown} is neither an .npz or .mat file nor a folder: write model.npz, model.mat, or a \
+                 folder without an ending"
             );
         }
         match path.read_dir().map(|mut entries| entries.next().is_some()) {
@@ -107,23 +244,34 @@ impl ModelFile {
         }
     }
 
-    pub(crate) fn write(&self, reduced: &Reduced) -> Result<()> {
-        let model = &reduced.model;
-        let space = model.state_space();
-        let matrices = matrices(model, &space);
+    pub(crate) fn write(&self, reduced: &ReducedForm) -> Result<()> {
         let mut description = Vec::new();
-        json::write(&mut description, Reduced::COMMAND, &reduced.robot, reduced, &reduced.warnings)?;
+        json::write(&mut description, ReducedForm::COMMAND, reduced.robot(), reduced, reduced.warnings())?;
+        let space;
+        let matrices: &[(&str, &DMat)] = match reduced {
+            ReducedForm::StateSpace(found) => &state_space(&found.model.space),
+            ReducedForm::SecondOrder(found) => {
+                space = found.model.state_space();
+                &second_order(&found.model, &space)
+            }
+        };
         match self {
-            Self::Npz(target) => target.write(&npz(&matrices, &description)?),
+            Self::Npz(target) => target.write(&npz(matrices, &description)?),
+            Self::Mat(target) => target.write(&mat(matrices, reduced, &description)?),
             Self::Folder(path) => {
-                folder(path, &matrices, &description).with_context(|| format!("cannot write to {}", path.display()))
+                folder(path, matrices, &description).with_context(|| format!("cannot write to {}", path.display()))
             }
         }
     }
 }
 
-/// Matrices by name: first those of the second-order model, then those of the state space.
-fn matrices<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str, &'a DMat); 9] {
+/// Matrices of a state space by name.
+fn state_space(space: &StateSpace) -> [(&'static str, &DMat); 4] {
+    [("A", &space.a), ("B", &space.b), ("C", &space.c), ("D", &space.d)]
+}
+
+/// Matrices by name: first those of the second-order model, then those of its state space.
+fn second_order<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str, &'a DMat); 9] {
     [
         ("M", &model.mass),
         ("C", &model.damping),
@@ -135,6 +283,28 @@ fn matrices<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str
         ("ss_C", &space.c),
         ("ss_D", &space.d),
     ]
+}
+
+fn texts(channels: &[ChannelRow]) -> Value<'_> {
+    Value::Texts(channels.iter().map(|of| of.name.as_str()).collect())
+}
+
+/// Writes a file of MATLAB, with the names of inputs and outputs and the description beside the matrices.
+fn mat(matrices: &[(&str, &DMat)], reduced: &ReducedForm, description: &[u8]) -> Result<Vec<u8>> {
+    let (inputs, outputs) = match reduced {
+        ReducedForm::StateSpace(found) => (&found.inputs, &found.outputs),
+        ReducedForm::SecondOrder(found) => (&found.inputs, &found.outputs),
+    };
+    let description = String::from_utf8_lossy(description);
+
+    let mut variables: Vec<Variable> = matrices
+        .iter()
+        .map(|(name, matrix)| Variable { name, value: Value::Matrix(matrix.nrows(), matrix.as_slice()) })
+        .collect();
+    variables.push(Variable { name: "inputs", value: texts(inputs) });
+    variables.push(Variable { name: "outputs", value: texts(outputs) });
+    variables.push(Variable { name: "description", value: Value::Texts(vec![&description]) });
+    mat::bytes(&variables).ok_or_else(|| anyhow!("the matrices are too large for a file of MATLAB: write an .npz file"))
 }
 
 /// Writes a NumPy archive, with the description as text beside the arrays.

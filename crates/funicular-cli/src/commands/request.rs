@@ -1,6 +1,6 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analyse, page, write_export, write_import};
+use super::{analyse_or_draw, page, write_export, write_import};
 use crate::args::{OutputArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
@@ -17,11 +17,17 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Reads a request; `-` is standard input.
 pub(crate) fn read(path: &Path) -> Result<Request> {
     let shown = if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() };
+    let cannot = || format!("cannot read the request {shown}");
+    let mut source: Box<dyn Read> = match path.as_os_str().to_str() {
+        Some("-") => Box::new(io::stdin().lock()),
+        _ => Box::new(fs::File::open(path).with_context(cannot)?),
+    };
+
+    // One byte more than the maximum shows that there are more.
     let mut text = String::new();
-    if path.as_os_str() == "-" {
-        io::stdin().lock().take(MAX_BYTES).read_to_string(&mut text).context("cannot read the request")?;
-    } else {
-        text = fs::read_to_string(path).with_context(|| format!("cannot read the request {shown}"))?;
+    source.by_ref().take(MAX_BYTES + 1).read_to_string(&mut text).with_context(cannot)?;
+    if text.len() as u64 > MAX_BYTES {
+        bail!("{shown} has more than {} MB: no request is that large; choose another file", MAX_BYTES >> 20);
     }
     Request::from_json(&text).context(shown)
 }
@@ -57,6 +63,6 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
         Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
             bail!("`funicular {}` writes files: use the command with its options", request.command())
         }
-        _ => analyse(&request, &output(), guard),
+        _ => analyse_or_draw(&request, &output(), args.figure, args.figure_mode, guard),
     }
 }

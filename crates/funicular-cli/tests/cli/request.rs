@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 14] = [
+    let lines: [&[&str]; 15] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -25,6 +25,21 @@ fn command_lines() -> Vec<Vec<String>> {
             "--log",
             "--input",
             "f:1,0,1",
+            "--output",
+            "x",
+        ],
+        &[
+            "frf",
+            "ROBOT",
+            "--from-hz",
+            "1",
+            "--to-hz",
+            "3",
+            "--adaptive",
+            "--input",
+            "fx",
+            "--input",
+            "mz",
             "--output",
             "x",
         ],
@@ -90,6 +105,24 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
             "did you mean `catenary`?",
         ),
         (format!(r#"{{"command": "modes", "robot": {{"text": {text}}}}}"#), "missing field `below_hz`"),
+        (
+            format!(
+                r#"{{"command": "frf", "robot": {{"text": {text}}}, "from_hz": 1, "to_hz": 2, "points": 9, "input": 3, "output": "z"}}"#
+            ),
+            "a signal is a text, and several signals are a list of texts",
+        ),
+        (
+            format!(
+                r#"{{"command": "frf", "robot": {{"text": {text}}}, "from_hz": 1, "to_hz": 2, "points": 9, "input": [], "output": "z"}}"#
+            ),
+            "--input is an empty list: name at least one signal",
+        ),
+        (
+            format!(
+                r#"{{"command": "frf", "robot": {{"text": {text}}}, "from_hz": 1, "to_hz": 2, "input": "fz", "output": "z"}}"#
+            ),
+            "--points is missing: give the number of frequencies, or --adaptive",
+        ),
         (
             r#"{"command": "paper", "schema": "funicular-request/9"}"#.to_owned(),
             "this program reads funicular-request/1",

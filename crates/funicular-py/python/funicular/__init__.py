@@ -23,13 +23,14 @@ from funicular._errors import (
     InputError,
     NoSolutionError,
     ResponseError,
+    ResponseWarning,
     RobotFileError,
     StaticsError,
 )
 from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel
+from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, import_robot, merge, paper, run, validate
 from funicular._sweeps import Sweep
 
@@ -51,8 +52,10 @@ __all__ = [
     "Pose",
     "ReducedModel",
     "ResponseError",
+    "ResponseWarning",
     "Robot",
     "RobotFileError",
+    "StateSpaceModel",
     "StaticsError",
     "Sweep",
     "__version__",

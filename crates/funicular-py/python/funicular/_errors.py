@@ -62,6 +62,12 @@ class ResponseError(Error):
     __module__ = "funicular"
 
 
+class ResponseWarning(UserWarning):
+    """Peaks of a response lie between its frequencies, so that their heights are read too low."""
+
+    __module__ = "funicular"
+
+
 class NoSolutionError(Error):
     """The request is correct, but it has no result."""
 

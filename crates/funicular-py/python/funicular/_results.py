@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import json
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -208,6 +209,145 @@ _COMMON_KEYS = (
 )
 
 
+_Matrices = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
+
+def _to_scipy(matrices: _Matrices) -> Any:
+    try:
+        from scipy import signal
+    except ImportError as error:
+        raise ImportError("this model needs SciPy: pip install 'funicular[scipy]'") from error
+    return signal.StateSpace(*matrices)
+
+
+def _to_control(matrices: _Matrices, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> Any:
+    try:
+        import control
+    except ImportError as error:
+        raise ImportError("this model needs python-control: pip install 'funicular[control]'") from error
+    return control.StateSpace(*matrices, inputs=list(inputs), outputs=list(outputs))
+
+
+def _save(
+    path: str | PathLike[str],
+    matrices: dict[str, NDArray[np.float64]],
+    inputs: tuple[str, ...],
+    outputs: tuple[str, ...],
+    found: dict[str, Any],
+) -> None:
+    """Writes matrices in the format of the ending."""
+    ending = Path(path).suffix.lower()
+    if ending == ".npz":
+        np.savez(path, **matrices)  # type: ignore[arg-type]
+    elif ending == ".mat":
+        from funicular._funicular import matlab_file
+
+        columns = [(name, len(matrix), matrix.T.ravel().tolist()) for name, matrix in matrices.items()]
+        texts = [("inputs", list(inputs)), ("outputs", list(outputs)), ("description", [json.dumps(found)])]
+        Path(path).write_bytes(matlab_file(columns, texts))
+    else:
+        raise InputError(f"`path` is {path}: it must end in .npz or .mat")
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class StateSpaceModel(_ArrayFields):
+    """State space x' = A x + B u, y = C x + D u of the modes that inputs and outputs see.
+
+    Made by `Equilibrium.state_space`. Rows of `states`, and the arrays with one entry per mode, ascend in frequency."""
+
+    A: NDArray[np.float64]
+    """A, (n, n), one block [[0, ω], [−ω, −2ζω]] per mode."""
+    B: NDArray[np.float64]
+    """B, (n, inputs)."""
+    C: NDArray[np.float64]
+    """C, (outputs, n)."""
+    D: NDArray[np.float64]
+    """D, (outputs, inputs): the displacement by modes left out, and the direct part of an acceleration."""
+    inputs: tuple[str, ...]
+    """Names of the inputs."""
+    outputs: tuple[str, ...]
+    """Names of the outputs."""
+    order: int
+    """Number of states n."""
+    below_hz: float
+    """Highest frequency for which the model is made [Hz]."""
+    error: float
+    """Maximum of |G_r − G| up to the limit relative to the peak of |G|, over all responses; G is that of `frf`."""
+    damping_error: float
+    """Part of the error that is left with every mode, because no state space has constant damping ratios."""
+    errors: NDArray[np.float64]
+    """Error of each response relative to its peak, (outputs, inputs)."""
+    peaks: NDArray[np.float64]
+    """Maximum of |G| of each response up to the limit, (outputs, inputs)."""
+    frequency_hz: NDArray[np.float64]
+    """Natural frequency of each mode [Hz]."""
+    damping_ratio: NDArray[np.float64]
+    """Damping ratio of each mode."""
+    kind: NDArray[np.str_]
+    """`platform`, `cable` or `mixed`, by kinetic energy; `residual` for a motion in place of modes above the limit."""
+    first: NDArray[np.int64]
+    """Index of the first state of each mode."""
+    contribution: NDArray[np.float64]
+    """Maximum part of each mode in a response, relative to the peak of the response."""
+    found: dict[str, Any]
+    """Results with the keys of the program's JSON."""
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Caveats of the model."""
+        return tuple(self.found["warnings"])
+
+    def to_scipy(self) -> Any:
+        """Makes a `scipy.signal.StateSpace`; SciPy has to be installed."""
+        return _to_scipy((self.A, self.B, self.C, self.D))
+
+    def to_control(self) -> Any:
+        """Makes a `control.StateSpace` with named inputs and outputs; python-control has to be installed."""
+        return _to_control((self.A, self.B, self.C, self.D), self.inputs, self.outputs)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes A, B, C, D: to a file `.npz` for NumPy, or `.mat` for MATLAB."""
+        _save(path, {"A": self.A, "B": self.B, "C": self.C, "D": self.D}, self.inputs, self.outputs, self.found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Returns a dictionary with the keys of the program's JSON."""
+        return copy.deepcopy(self.found)
+
+    def __repr__(self) -> str:
+        size = f"{self.order} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
+        return f"<StateSpaceModel: {size}, below {self.below_hz:g} Hz, error {self.error:.2g} of the peaks>"
+
+
+def state_space(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]]) -> StateSpaceModel:
+    """Makes a state space from the results of the program and its matrices."""
+    modes, responses = found["states"], found["responses"]
+    shape = (len(found["inputs"]), len(found["outputs"]))
+
+    def of_responses(key: str) -> NDArray[np.float64]:
+        return np.array([row[key] for row in responses], dtype=float).reshape(shape).T.copy()
+
+    def of_modes(key: str) -> NDArray[np.float64]:
+        return np.array([row[key] for row in modes], dtype=float)
+
+    return StateSpaceModel(
+        inputs=tuple(of["name"] for of in found["inputs"]),
+        outputs=tuple(of["name"] for of in found["outputs"]),
+        order=found["order"],
+        below_hz=found["below_hz"],
+        error=found["error"],
+        damping_error=found["damping_error"],
+        errors=of_responses("error"),
+        peaks=of_responses("peak"),
+        frequency_hz=of_modes("frequency_hz"),
+        damping_ratio=of_modes("damping_ratio"),
+        kind=np.array([row["kind"] for row in modes], dtype="U8"),
+        first=np.array([row["first"] for row in modes], dtype=np.int64),
+        contribution=of_modes("contribution"),
+        found=found,
+        **matrices,
+    )
+
+
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ReducedModel(_ArrayFields):
     """Second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`."""
@@ -256,36 +396,17 @@ class ReducedModel(_ArrayFields):
 
     def to_scipy(self) -> Any:
         """Makes a `scipy.signal.StateSpace`; SciPy has to be installed."""
-        try:
-            from scipy import signal
-        except ImportError as error:
-            raise ImportError("this model needs SciPy: pip install 'funicular[scipy]'") from error
-        return signal.StateSpace(*self.state_space())
+        return _to_scipy(self.state_space())
 
     def to_control(self) -> Any:
         """Makes a `control.StateSpace` with named inputs and outputs; python-control has to be installed."""
-        try:
-            import control
-        except ImportError as error:
-            raise ImportError("this model needs python-control: pip install 'funicular[control]'") from error
-        return control.StateSpace(*self.state_space(), inputs=list(self.inputs), outputs=list(self.outputs))
+        return _to_control(self.state_space(), self.inputs, self.outputs)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the matrices to a NumPy archive (.npz) with the names of the program's `--matrices`."""
-        if Path(path).suffix.lower() != ".npz":
-            raise InputError(f"`path` is {path}: it must end in .npz")
-        np.savez(
-            path,
-            M=self.mass,
-            C=self.damping,
-            K=self.stiffness,
-            B=self.input,
-            L=self.output,
-            ss_A=self.a,
-            ss_B=self.b,
-            ss_C=self.c,
-            ss_D=self.d,
-        )
+        """Writes the matrices with the names of the program's `--matrices`: `.npz` for NumPy, `.mat` for MATLAB."""
+        matrices = {"M": self.mass, "C": self.damping, "K": self.stiffness, "B": self.input, "L": self.output}
+        matrices |= {"ss_A": self.a, "ss_B": self.b, "ss_C": self.c, "ss_D": self.d}
+        _save(path, matrices, self.inputs, self.outputs, self.found)
 
     def to_dict(self) -> dict[str, Any]:
         """Returns the description with the keys of the program's JSON."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
-from funicular._funicular import Equilibrium, complex_numbers, real_numbers
+from funicular._funicular import Analyses, Equilibrium, complex_numbers, real_numbers
 from funicular._results import Modes
 
 __all__ = ["frf", "modes", "robot"]
@@ -84,19 +84,39 @@ def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib",
 
 def frf(
     hz: ArrayLike,
-    response: ArrayLike | Sequence[ArrayLike],
+    response: ArrayLike | Sequence[ArrayLike] | Analyses,
+    input: str | Sequence[str] | None = None,
+    output: str | Sequence[str] | None = None,
     *,
     labels: Sequence[str] | None = None,
     unit: str = "",
     backend: Backend = "matplotlib",
     ax: Any = None,
+    **keywords: Any,
 ) -> Any:
     """Draws the magnitude of a response over frequency on a logarithmic scale.
 
-    Several responses are the rows of `response`, with names in `labels`.
+    `response` is an equilibrium (or a robot, at the state of its file), whose responses of `output` to `input` are
+    computed between the first and the last of the frequencies `hz` with every peak, as `Equilibrium.frf` does with
+    `adaptive=True`; `keywords` are those of `Equilibrium.frf`. Or it is an array of a response at `hz`, which is drawn
+    as it is; several responses are then the rows of the array.
+
+    `labels` has a name per response; several responses of an equilibrium have the names of output and input if it is
+    not given.
     """
-    frequencies = real_numbers("hz", hz)
-    curves: NDArray[np.complex128] = np.atleast_2d(complex_numbers("response", cast(ArrayLike, response)))
+    if isinstance(response, Analyses):
+        if input is None or output is None:
+            raise InputError("`response` is an equilibrium: give `input` and `output` too")
+        frequencies, values = response.frf(hz, input, output, adaptive=True, **keywords)
+        curves: NDArray[np.complex128] = values.reshape(-1, len(frequencies))
+        if labels is None and len(curves) > 1:
+            inputs, outputs = ([of] if isinstance(of, str) else of for of in (input, output))
+            labels = [f"{to} / {of}" for to in outputs for of in inputs]
+    else:
+        if input is not None or output is not None or keywords:
+            raise InputError("`response` is an array: `input`, `output` and models belong to an equilibrium")
+        frequencies = real_numbers("hz", hz)
+        curves = np.atleast_2d(complex_numbers("response", cast(ArrayLike, response)))
     names = [f"response {i + 1}" for i in range(len(curves))] if labels is None else list(labels)
     if curves.shape[1:] != frequencies.shape or len(names) != len(curves):
         raise InputError(

@@ -4,6 +4,7 @@ use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
 use funicular::robot::{Cable, Damping, Load, PlatformMotion, Robot, State, TensionLimits, Wind};
+use funicular::warnings::plausibility;
 use serde::Serialize;
 
 /// Results of `check`: the robot as it was read.
@@ -26,6 +27,9 @@ pub struct Checked {
     pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<CheckedPose>,
+    /// Remarks on values that may be meant as well as a slip; absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -212,6 +216,7 @@ pub fn run(robot: Robot) -> Checked {
 
     Checked {
         warnings: warnings(&robot),
+        notes: plausibility::notes(&robot),
         robot: robot.name,
         source: robot.source,
         gravity_m_s2: robot.gravity_w.into(),
@@ -236,7 +241,7 @@ pub fn run(robot: Robot) -> Checked {
 
 fn warnings(robot: &Robot) -> Vec<String> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = plausibility::of_robot(robot).iter().map(ToString::to_string).collect();
     if cables < dof {
         warnings.push(format!(
             "{cables} cables for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \

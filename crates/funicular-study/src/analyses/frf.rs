@@ -1,4 +1,4 @@
-//! `frf`: frequency response and its peaks.
+//! `frf`: frequency responses and their peaks.
 
 use super::found;
 use super::shared::Models;
@@ -7,10 +7,13 @@ use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
 use crate::request;
 use crate::signals::{Input, Output};
-use anyhow::Result;
-use funicular::dynamics::Linearisation;
-use funicular::math::Complex;
-use funicular::response::{self, Peak, Port, Quantity};
+use crate::text::{counted, significant};
+use anyhow::{Result, bail};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Complex, Vec3};
+use funicular::modes;
+use funicular::response::adaptive::{MISSED, Measured, MissedPeaks, Resolution, Resolved, missed_peaks, resolve};
+use funicular::response::{self, Peak, Port, Quantity, Signal};
 use funicular::robot::Robot;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -19,13 +22,28 @@ use serde::{Serialize, Serializer};
 /// lanes, so that the results do not depend on it.
 const CHUNK: usize = 16_384;
 
-/// Results of `frf`: a frequency response and its peaks.
-#[derive(Serialize)]
+/// Minimum number of frequencies that are read as a curve, whose missed peaks are reported. Fewer are single values.
+const MIN_CURVE: usize = 10;
+
+/// Maximum number of natural frequencies in the range of a curve whose peaks are checked; 5,000 take about 0.1 s.
+const MAX_CHECKED: usize = 5_000;
+
+/// Results of `frf`: frequency responses and their peaks. The JSON of one response has its keys at the top; several are
+/// listed as `responses`.
 pub struct Frf {
-    #[serde(skip)]
     pub robot: String,
-    #[serde(flatten)]
     pub models: Models,
+    /// Responses of all pairs: the first output to all inputs, then the next output.
+    pub responses: Vec<PairRow>,
+    pub adaptive: bool,
+    pub prominence_db: f64,
+    pub frequency_hz: Vec<f64>,
+    pub warnings: Vec<String>,
+}
+
+/// Response of one output to one input.
+#[derive(Serialize)]
+pub struct PairRow {
     pub input: String,
     #[serde(flatten, serialize_with = "input_place")]
     pub input_place: PlaceRow,
@@ -33,13 +51,12 @@ pub struct Frf {
     #[serde(flatten, serialize_with = "output_place")]
     pub output_place: PlaceRow,
     pub unit: String,
-    pub prominence_db: f64,
     pub peaks: Vec<PeakRow>,
-    pub frequency_hz: Vec<f64>,
+    /// Undamped resonances of an adaptive response, whose peaks have no finite height.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub undamped_hz: Vec<f64>,
     pub real: Vec<f64>,
     pub imag: Vec<f64>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
 }
 
 /// Peak of a response.
@@ -57,103 +74,353 @@ impl From<Peak> for PeakRow {
     }
 }
 
-/// Computes a frequency response and its peaks.
+impl Serialize for Frf {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Self { robot: _, models, responses, adaptive: _, prominence_db, frequency_hz, warnings: _ } = self;
+        match &responses[..] {
+            [one] => OneResponse {
+                models,
+                input: &one.input,
+                input_place: one.input_place,
+                output: &one.output,
+                output_place: one.output_place,
+                unit: &one.unit,
+                prominence_db: *prominence_db,
+                peaks: &one.peaks,
+                undamped_hz: &one.undamped_hz,
+                frequency_hz,
+                real: &one.real,
+                imag: &one.imag,
+            }
+            .serialize(to),
+            several => SeveralResponses { models, prominence_db: *prominence_db, frequency_hz, responses: several }
+                .serialize(to),
+        }
+    }
+}
+
+/// JSON of one response.
+#[derive(Serialize)]
+struct OneResponse<'a> {
+    #[serde(flatten)]
+    models: &'a Models,
+    input: &'a str,
+    #[serde(flatten, serialize_with = "input_place")]
+    input_place: PlaceRow,
+    output: &'a str,
+    #[serde(flatten, serialize_with = "output_place")]
+    output_place: PlaceRow,
+    unit: &'a str,
+    prominence_db: f64,
+    peaks: &'a [PeakRow],
+    #[serde(skip_serializing_if = "<[f64]>::is_empty")]
+    undamped_hz: &'a [f64],
+    frequency_hz: &'a [f64],
+    real: &'a [f64],
+    imag: &'a [f64],
+}
+
+/// JSON of several responses.
+#[derive(Serialize)]
+struct SeveralResponses<'a> {
+    #[serde(flatten)]
+    models: &'a Models,
+    prominence_db: f64,
+    frequency_hz: &'a [f64],
+    responses: &'a [PairRow],
+}
+
+/// Computes frequency responses and their peaks.
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without such an equilibrium, an undamped resonance at one of
 /// the frequencies, or work that was stopped.
 pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Frf> {
-    let frequencies = request.range.frequencies()?;
+    let frequencies = match (request.adaptive, request.range.points) {
+        (true, _) => request.range.starts()?,
+        (false, Some(_)) => request.range.frequencies()?,
+        (false, None) => bail!("⟪points⟫ is missing: give the number of frequencies, or ⟪adaptive⟫"),
+    };
     request::check_not_negative("prominence_db", request.prominence_db)?;
 
     // Signals that the robot does not have are refused before the work.
-    at_rest::signals(
-        &robot,
-        &request::input(&request.input)?,
-        &request::output(&request.output)?,
-        &request.signal_points,
-    )?;
+    let pairs = Pairs {
+        inputs: request.input.names(),
+        outputs: request.output.names(),
+        points: request.signal_points,
+        model: request.model,
+    };
+    signals(&robot, &pairs)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
-    let pair =
-        Pair { input: &request.input, output: &request.output, points: request.signal_points, model: request.model };
-    let Response { from, to, input_place, output_place, linearisation, values, warnings } =
-        response(&at_rest, &pair, &frequencies, watch)?;
-    let peaks = response::peaks(&frequencies, &values, request.prominence_db);
+    let response = response(&at_rest, &pairs, frequencies, request.adaptive, watch)?;
 
+    let responses = (0..response.values.len()).map(|i| response.row(i, &pairs, request.prominence_db)).collect();
+    let Response { linearisation, frequencies_hz, caveat, mut warnings, .. } = response;
+    warnings.extend(caveat);
     Ok(Frf {
         robot: at_rest.robot.name.clone(),
         models: Models::of(&at_rest, linearisation),
-        unit: unit(&from, &to),
-        input: from.name,
-        input_place,
-        output: to.name,
-        output_place,
+        responses,
+        adaptive: request.adaptive,
         prominence_db: request.prominence_db,
-        peaks: peaks.into_iter().map(PeakRow::from).collect(),
-        frequency_hz: frequencies,
-        real: values.iter().map(|value| value.re).collect(),
-        imag: values.iter().map(|value| value.im).collect(),
+        frequency_hz: frequencies_hz,
         warnings,
     })
 }
 
-/// Signals of a response and the linearisation of the robot.
+/// Inputs and outputs of responses, and the linearisation of the robot.
 #[derive(Debug, Clone, Copy)]
-pub struct Pair<'a> {
-    /// Name of the input signal.
-    pub input: &'a str,
-    /// Name of the output signal.
-    pub output: &'a str,
-    /// Points of the platform.
+pub struct Pairs<'a> {
+    /// Names of the input signals.
+    pub inputs: &'a [String],
+    /// Names of the output signals.
+    pub outputs: &'a [String],
+    /// Points of the platform, for all inputs and all outputs.
     pub points: request::ResponsePoints,
     /// Linearisation.
     pub model: request::Model,
 }
 
-/// Response at frequencies, with its signals.
+/// Responses of all outputs to all inputs at frequencies, with their signals.
 pub struct Response {
-    /// Input signal.
-    pub from: Input,
-    /// Output signal.
-    pub to: Output,
-    /// Place of the input.
-    pub input_place: PlaceRow,
-    /// Place of the output.
-    pub output_place: PlaceRow,
+    /// Input signals.
+    inputs: Vec<Input>,
+    /// Output signals.
+    outputs: Vec<Output>,
+    /// Ports of the inputs.
+    input_ports: Vec<Port>,
+    /// Ports of the outputs.
+    output_ports: Vec<(Port, Quantity)>,
     /// Models of the linearised robot.
-    pub linearisation: Linearisation,
-    /// One value per frequency.
-    pub values: Vec<Complex>,
+    linearisation: Linearisation,
+    /// Frequencies [Hz]: the given ones, and those that an adaptive response has added.
+    pub frequencies_hz: Vec<f64>,
+    /// One row per pair, with one value per frequency: the first output with all inputs, then the next output.
+    pub values: Vec<Vec<Complex>>,
+    /// Responses of an adaptive computation.
+    resolved: Option<Resolved>,
+    /// Sentence about peaks that the frequencies miss.
+    pub caveat: Option<String>,
     /// Sentences that the user should know before trusting the values.
-    pub warnings: Vec<String>,
+    warnings: Vec<String>,
 }
 
-/// Computes the response of a robot at equilibrium at frequencies [Hz], none of them negative.
+/// Input and output signals that are checked for the robot.
+type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
+
+/// Signals of responses, checked for this robot.
+fn signals(robot: &Robot, pairs: &Pairs<'_>) -> Result<Signals> {
+    let Pairs { inputs, outputs, points, .. } = *pairs;
+    points.check()?;
+    for (key, names) in [("input", inputs), ("output", outputs)] {
+        if names.is_empty() {
+            bail!("⟪{key}⟫ is an empty list: name at least one signal");
+        }
+    }
+    let [from, to] = [points.input_point_m, points.output_point_m].map(|point| point.map(Vec3::from));
+    let input = |name: &String| {
+        let input = request::input(name)?;
+        let signal = input.signal(robot, from)?;
+        Ok((input, signal))
+    };
+    let output = |name: &String| {
+        let output = request::output(name)?;
+        let signal = output.signal(robot, to)?;
+        Ok((output, signal))
+    };
+    Ok((inputs.iter().map(input).collect::<Result<_>>()?, outputs.iter().map(output).collect::<Result<_>>()?))
+}
+
+/// Computes the responses of a robot at equilibrium at frequencies [Hz], none of them negative. With `adaptive` the
+/// frequencies ascend, and others are added between them.
 ///
 /// # Errors
-/// Signals that the robot does not have, an undamped resonance at one of the frequencies, or work that was stopped.
-pub fn response(at_rest: &AtRest, pair: &Pair<'_>, frequencies: &[f64], watch: &mut dyn Watch) -> Result<Response> {
-    let (from, to) = (request::input(pair.input)?, request::output(pair.output)?);
-    let signals = at_rest::signals(&at_rest.robot, &from, &to, &pair.points)?;
-    let linearisation = at_rest::linearisation(&pair.model, at_rest.equilibrium.model);
+/// Signals that the robot does not have, an undamped resonance at one of the frequencies, frequencies that cannot be
+/// the start of an adaptive response, or work that was stopped.
+pub fn response(
+    at_rest: &AtRest,
+    pairs: &Pairs<'_>,
+    frequencies: Vec<f64>,
+    adaptive: bool,
+    watch: &mut dyn Watch,
+) -> Result<Response> {
+    let ascends = frequencies.windows(2).all(|pair| pair[0] < pair[1]);
+    if adaptive && !(ascends && frequencies.len() >= 2) {
+        bail!("⟪adaptive⟫ needs at least two frequencies in ascending order: they are the range and the first points");
+    }
+    let (inputs, outputs) = signals(&at_rest.robot, pairs)?;
+    let linearisation = at_rest::linearisation(&pairs.model, at_rest.equilibrium.model);
     let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
 
-    let [input, output] = at_rest.ports(&dynamics, signals)?;
-    let mut values: Vec<Complex> = Vec::with_capacity(frequencies.len());
-    for chunk in frequencies.chunks(CHUNK) {
-        values.extend(response::between(&dynamics, chunk, &input, &output, to.quantity)?);
-        watch.progress(values.len(), frequencies.len(), "frequencies");
-        if watch.is_cancelled() {
-            return Err(Cancelled.into());
+    // Ports. All points of one cable belong together, whether forces or motions.
+    let all: Vec<Signal> = inputs.iter().map(|of| of.1).chain(outputs.iter().map(|of| of.1)).collect();
+    let mut input_ports = Port::all(&at_rest.robot, &at_rest.equilibrium, &dynamics, &all, true)?;
+    let output_ports = input_ports.split_off(inputs.len());
+    let quantities = outputs.iter().map(|(output, _)| output.quantity);
+    let mut response = Response {
+        output_ports: output_ports.into_iter().zip(quantities).collect(),
+        inputs: inputs.into_iter().map(|of| of.0).collect(),
+        outputs: outputs.into_iter().map(|of| of.0).collect(),
+        input_ports,
+        linearisation,
+        frequencies_hz: frequencies,
+        values: Vec::new(),
+        resolved: None,
+        caveat: None,
+        warnings,
+    };
+
+    if adaptive {
+        response.resolve(&dynamics, watch)?;
+    } else {
+        response.compute(&dynamics, watch)?;
+        if ascends && response.frequencies_hz.len() >= MIN_CURVE {
+            response.caveat = response.missed(&dynamics)?;
         }
     }
-    let input_place = PlaceRow::of(&input, pair.points.input_point_m);
-    let output_place = PlaceRow::of(&output, pair.points.output_point_m);
-    Ok(Response { from, to, input_place, output_place, linearisation, values, warnings })
+    Ok(response)
+}
+
+impl Response {
+    /// Computes the values at the frequencies.
+    fn compute(&mut self, dynamics: &Dynamics, watch: &mut dyn Watch) -> Result<()> {
+        let total = self.frequencies_hz.len();
+        let (first, rest) = self.frequencies_hz.split_at(CHUNK.min(total));
+        let compute = |chunk: &[f64]| response::matrix(dynamics, chunk, &self.input_ports, &self.output_ports);
+        let mut done = 0;
+        let mut count = |chunk: &[f64]| {
+            done += chunk.len();
+            watch.progress(done, total, "frequencies");
+            if watch.is_cancelled() { Err(Cancelled) } else { Ok(()) }
+        };
+
+        // The rows of the first chunk grow, so that a single chunk is not copied.
+        let mut values = compute(first)?;
+        values.iter_mut().for_each(|row| row.reserve_exact(rest.len()));
+        count(first)?;
+        for chunk in rest.chunks(CHUNK) {
+            for (row, new) in values.iter_mut().zip(compute(chunk)?) {
+                row.extend(new);
+            }
+            count(chunk)?;
+        }
+        self.values = values;
+        Ok(())
+    }
+
+    /// Adds frequencies until every peak has its height, and computes the values.
+    fn resolve(&mut self, dynamics: &Dynamics, watch: &mut dyn Watch) -> Result<()> {
+        let (from_hz, to_hz) = (self.frequencies_hz[0], self.frequencies_hz[self.frequencies_hz.len() - 1]);
+        let count = modes::count_within(dynamics, from_hz, to_hz);
+        if count > modes::MAX_MODES {
+            bail!(
+                "{count} natural frequencies lie between {from_hz} and {to_hz} Hz, ⟪adaptive⟫ resolves at most {}: \
+                 choose a narrower range",
+                modes::MAX_MODES
+            );
+        }
+
+        let resolution = Resolution::default();
+        let mut done = 0;
+        let resolved = resolve(
+            &self.frequencies_hz,
+            &modes::within(dynamics, from_hz, to_hz),
+            resolution,
+            |frequencies| -> Result<Vec<Vec<Measured>>> {
+                let mut rows = Vec::with_capacity(frequencies.len());
+                for chunk in frequencies.chunks(CHUNK) {
+                    rows.extend(response::measured(dynamics, chunk, &self.input_ports, &self.output_ports)?);
+                    done += chunk.len();
+                    watch.progress(done, done.max(resolution.max_points), "frequencies");
+                    if watch.is_cancelled() {
+                        return Err(Cancelled.into());
+                    }
+                }
+                Ok(rows)
+            },
+        )?;
+
+        if resolved.unresolved > 0 {
+            self.caveat = Some(format!(
+                "the response is not resolved in {} between its frequencies, because {} frequencies are the limit: \
+                 choose a narrower range",
+                counted(resolved.unresolved, "interval"),
+                resolution.max_points
+            ));
+        }
+        self.frequencies_hz.clone_from(&resolved.frequencies_hz);
+        self.values.clone_from(&resolved.values);
+        self.resolved = Some(resolved);
+        Ok(())
+    }
+
+    /// Sentence about the peaks that the frequencies miss.
+    fn missed(&self, dynamics: &Dynamics) -> Result<Option<String>> {
+        let (from_hz, to_hz) = (self.frequencies_hz[0], self.frequencies_hz[self.frequencies_hz.len() - 1]);
+        let count = modes::count_within(dynamics, from_hz, to_hz);
+        if count > MAX_CHECKED {
+            return Ok(Some(format!(
+                "{count} natural frequencies lie between {from_hz} and {to_hz} Hz; whether the heights of their peaks are \
+                 read correctly is checked for at most {MAX_CHECKED}: choose a narrower range"
+            )));
+        }
+
+        let found = missed_peaks(
+            &self.frequencies_hz,
+            &self.values,
+            &modes::within(dynamics, from_hz, to_hz),
+            |frequencies| response::measured(dynamics, frequencies, &self.input_ports, &self.output_ports),
+        )?;
+        Ok(found.map(|MissedPeaks { count, worst }| {
+            let (input, output) = self.pair(worst.response);
+            let unit = unit(input, output);
+            let of =
+                if self.values.len() > 1 { format!(", of {} to {},", output.name, input.name) } else { String::new() };
+            format!(
+                "{} between the frequencies {} read more than {} % too low; the {}{of} has {} {unit} at {} Hz, but {} \
+                 {unit} at {} Hz is read: give ⟪adaptive⟫, or more frequencies",
+                counted(count, "peak"),
+                if count == 1 { "is" } else { "are" },
+                100.0 * MISSED,
+                if count == 1 { "peak" } else { "worst" },
+                significant(worst.height, 4),
+                significant(worst.frequency_hz, 6),
+                significant(worst.read, 4),
+                significant(worst.read_hz, 6),
+            )
+        }))
+    }
+
+    /// Input and output of the pair of row `i`.
+    fn pair(&self, i: usize) -> (&Input, &Output) {
+        (&self.inputs[i % self.inputs.len()], &self.outputs[i / self.inputs.len()])
+    }
+
+    /// Results of row `i` with its peaks.
+    fn row(&self, i: usize, pairs: &Pairs<'_>, prominence_db: f64) -> PairRow {
+        let (input, output) = self.pair(i);
+        let (from, to) = (&self.input_ports[i % self.inputs.len()], &self.output_ports[i / self.inputs.len()].0);
+        let peaks = match &self.resolved {
+            Some(resolved) => resolved.peaks(i, prominence_db),
+            None => response::peaks(&self.frequencies_hz, &self.values[i], prominence_db),
+        };
+        PairRow {
+            input: input.name.clone(),
+            input_place: PlaceRow::of(from, pairs.points.input_point_m),
+            output: output.name.clone(),
+            output_place: PlaceRow::of(to, pairs.points.output_point_m),
+            unit: unit(input, output),
+            peaks: peaks.into_iter().map(PeakRow::from).collect(),
+            undamped_hz: self.resolved.as_ref().map_or_else(Vec::new, |resolved| resolved.undamped_resonances_hz(i)),
+            real: self.values[i].iter().map(|value| value.re).collect(),
+            imag: self.values[i].iter().map(|value| value.im).collect(),
+        }
+    }
 }
 
 /// Place of the input or output of a response.
+#[derive(Clone, Copy)]
 pub struct PlaceRow {
     /// True if the point is on a cable. It is then in world axes, at equilibrium, and not in the platform frame.
     pub on_cable: bool,

@@ -1,12 +1,15 @@
-//! `reduce`: small second-order model of the robot for control design.
+//! `reduce`: model of the robot for control design, as a state space ([`control_model`]) or in second-order form.
 
-use super::found;
+use super::control_model::{self, ControlStateSpace};
 use super::shared::Models;
+use super::{Found, found};
 use crate::at_rest::{self, AtRest};
+use crate::names::{ModelForm, Named};
 use crate::request;
 use crate::signals::{Input, Output};
 use crate::text::significant;
-use anyhow::Result;
+use anyhow::{Result, bail};
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::reduced_model::{Coordinate, DampingAt, RequestedModel, SecondOrder, reduce};
@@ -17,11 +20,56 @@ use serde::Serialize;
 /// Maximum number of natural frequencies of one model. It has about twice as many coordinates.
 const MAX_MODES: usize = 400;
 
-/// Results of `reduce`: a second-order model and its errors.
+/// Maximum error of a response relative to its peak, if a request gives none.
+pub const DEFAULT_TOLERANCE: f64 = 0.01;
+/// Maximum relative error due to omitted modes of the second-order form, if a request gives none.
+pub const DEFAULT_SECOND_ORDER_TOLERANCE: f64 = 1e-3;
+/// Maximum number of states that a request may ask for.
+pub const MAX_ORDER: usize = 400;
+
+/// Results of `reduce` in the requested form.
+#[derive(Serialize)]
+#[serde(untagged)]
+#[expect(missing_docs, reason = "each variant is named after its form and holds its results")]
+pub enum ReducedForm {
+    StateSpace(Box<ControlStateSpace>),
+    SecondOrder(Box<Reduced>),
+}
+
+impl Found for ReducedForm {
+    const COMMAND: &'static str = Reduced::COMMAND;
+
+    fn robot(&self) -> &str {
+        match self {
+            Self::StateSpace(found) => found.robot(),
+            Self::SecondOrder(found) => found.robot(),
+        }
+    }
+
+    fn warnings(&self) -> &[String] {
+        match self {
+            Self::StateSpace(found) => found.warnings(),
+            Self::SecondOrder(found) => found.warnings(),
+        }
+    }
+}
+
+impl ReducedForm {
+    /// Notes the file or folder to which a front end writes the matrices.
+    pub fn set_matrices_file(&mut self, file: Option<String>) {
+        match self {
+            Self::StateSpace(found) => found.matrices_file = file,
+            Self::SecondOrder(found) => found.matrices_file = file,
+        }
+    }
+}
+
+/// Results of `reduce` in second-order form: a model and its errors.
 #[derive(Serialize)]
 pub struct Reduced {
     #[serde(skip)]
     pub robot: String,
+    pub form: &'static str,
     pub below_hz: f64,
     #[serde(flatten)]
     pub models: Models,
@@ -61,22 +109,40 @@ pub struct CoordinateRow {
     pub clamped_frequency_hz: Option<f64>,
 }
 
-/// Makes a second-order model of the robot for control design.
+/// Makes a model of the robot for control design, in the requested form.
 ///
 /// # Errors
-/// A signal that the robot does not have, a robot without such an equilibrium, or too many modes.
-pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<Reduced> {
+/// A signal that the robot does not have, a robot without such an equilibrium or model, or too many modes.
+pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<ReducedForm> {
     check(&robot, request)?;
-    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
+    Ok(match request.form {
+        ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(&at_rest, request)?)),
+        ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(about(&at_rest, request)?)),
+    })
 }
 
 /// Inputs and outputs of a model.
-type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
+pub(super) type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
 
-/// Refuses numbers out of range and signals that the robot does not have.
-fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
+/// Refuses numbers out of range, keys that exclude each other, and signals that the robot does not have.
+pub(super) fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     request::check_positive("below_hz", request.below_hz)?;
-    request::check_not_negative("tolerance", request.tolerance)?;
+    match (request.form, request.order, request.tolerance) {
+        (ModelForm::SecondOrder, Some(_), _) => bail!(
+            "⟪order⟫ chooses modes of a state space, and the second-order form keeps all of them: take ⟪form⟫ \
+             `state-space`, or leave ⟪order⟫ out"
+        ),
+        (ModelForm::SecondOrder, None, Some(tolerance)) => request::check_not_negative("tolerance", tolerance)?,
+        (ModelForm::StateSpace, Some(_), Some(_)) => {
+            bail!("⟪order⟫ and ⟪tolerance⟫ both decide the number of states: give one of them")
+        }
+        (ModelForm::StateSpace, Some(order), None) if !(2..=MAX_ORDER).contains(&order) => {
+            bail!("⟪order⟫ is {order}: give a number of states from 2 to {MAX_ORDER}; a mode needs two")
+        }
+        (ModelForm::StateSpace, None, Some(tolerance)) => request::check_positive("tolerance", tolerance)?,
+        _ => {}
+    }
     if let Some(hz) = request.damping_at_hz {
         request::check_positive("damping_at_hz", hz)?;
     }
@@ -84,56 +150,82 @@ fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     Ok((inputs(robot, request)?, outputs(robot, request)?))
 }
 
-/// Makes the model for a robot at equilibrium. The state of the request is not used.
+/// Robot at equilibrium, linearised for a model.
+pub(super) struct Linearised {
+    pub(super) dynamics: Dynamics,
+    pub(super) linearisation: Linearisation,
+    pub(super) warnings: Vec<String>,
+    pub(super) damping_at: DampingAt,
+    pub(super) from: Vec<Signal>,
+    pub(super) to: Vec<(Signal, Quantity)>,
+}
+
+/// Linearises the robot and checks the number of its modes.
+pub(super) fn linearised(
+    at_rest: &AtRest,
+    request: &request::ReduceRequest,
+    (inputs, outputs): &Signals,
+) -> Result<Linearised> {
+    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
+    modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
+    Ok(Linearised {
+        dynamics,
+        linearisation,
+        warnings,
+        damping_at: request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz),
+        from: inputs.iter().map(|(_, signal)| *signal).collect(),
+        to: outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect(),
+    })
+}
+
+/// Sentence about the treatment of damping.
+pub(super) fn damping_in_words(is_exact: bool, damping_at: DampingAt) -> String {
+    match (is_exact, damping_at) {
+        (true, _) => "viscous, without approximation".to_owned(),
+        (false, DampingAt::NaturalFrequencies) => {
+            "constant ratios approximated by viscous damping, correct at every natural frequency".to_owned()
+        }
+        (false, DampingAt::Hz(hz)) => format!("constant ratios approximated by viscous damping, correct at {hz} Hz"),
+    }
+}
+
+/// Makes the second-order form for a robot at equilibrium. The state of the request is not used.
 ///
 /// # Errors
 /// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduced> {
-    let (inputs, outputs) = check(&at_rest.robot, request)?;
-    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
-    modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
-    let damping_at = request.damping_at_hz.map_or(DampingAt::NaturalFrequencies, DampingAt::Hz);
+    let signals = check(&at_rest.robot, request)?;
+    let Linearised { dynamics, linearisation, warnings, damping_at, from, to } =
+        linearised(at_rest, request, &signals)?;
 
-    let requested = RequestedModel { below_hz: request.below_hz, tolerance: request.tolerance, damping_at };
-    let from: Vec<Signal> = inputs.iter().map(|(_, signal)| *signal).collect();
-    let to: Vec<(Signal, Quantity)> = outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect();
+    let tolerance = request.tolerance.unwrap_or(DEFAULT_SECOND_ORDER_TOLERANCE);
+    let requested = RequestedModel { below_hz: request.below_hz, tolerance, damping_at };
     let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested)?;
 
     let mut reduced = Reduced {
         robot: at_rest.robot.name.clone(),
+        form: ModelForm::SecondOrder.name(),
         below_hz: request.below_hz,
         models: Models::of(at_rest, linearisation),
         order: model.mass.nrows(),
         frequency_error: model.frequency_error,
         truncation_error: model.truncation_error,
         damping_error: model.damping_error,
-        damping: match (model.damping_error, damping_at) {
-            (Some(0.0), _) => "viscous, without approximation".to_owned(),
-            (_, DampingAt::NaturalFrequencies) => {
-                "constant ratios approximated by viscous damping, correct at every natural frequency".to_owned()
-            }
-            (_, DampingAt::Hz(hz)) => format!("constant ratios approximated by viscous damping, correct at {hz} Hz"),
-        },
-        inputs: inputs
-            .iter()
-            .map(|(input, _)| ChannelRow { name: input.name.clone(), unit: if input.is_moment { "N m" } else { "N" } })
-            .collect(),
-        outputs: outputs
-            .iter()
-            .map(|(output, _)| ChannelRow { name: output.name.clone(), unit: unit(output) })
-            .collect(),
+        damping: damping_in_words(model.damping_error == Some(0.0), damping_at),
+        inputs: input_rows(&signals.0),
+        outputs: output_rows(&signals.1),
         coordinates: model.coordinates.iter().map(|of| CoordinateRow::of(&at_rest.robot, of)).collect(),
         matrices_file: None,
         model,
         warnings,
     };
-    if reduced.truncation_error.is_some_and(|error| error > request.tolerance) {
+    if reduced.truncation_error.is_some_and(|error| error > tolerance) {
         reduced.warnings.push(format!(
             "with all modes of the cables the error is {}, above the requested {}: the motion beside a force on a \
              cable has a kink, which modes do not have",
             significant(reduced.truncation_error.unwrap_or_default(), 2),
-            request.tolerance
+            tolerance
         ));
     }
 
@@ -164,6 +256,15 @@ fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Outpu
     };
     let point_p = request.points.output_point_m.map(Vec3::from);
     requested.into_iter().map(|output| Ok(output.signal(robot, point_p).map(|signal| (output, signal))?)).collect()
+}
+
+pub(super) fn input_rows(inputs: &[(Input, Signal)]) -> Vec<ChannelRow> {
+    let unit = |input: &Input| if input.is_moment { "N m" } else { "N" };
+    inputs.iter().map(|(input, _)| ChannelRow { name: input.name.clone(), unit: unit(input) }).collect()
+}
+
+pub(super) fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
+    outputs.iter().map(|(output, _)| ChannelRow { name: output.name.clone(), unit: unit(output) }).collect()
 }
 
 fn unit(output: &Output) -> &'static str {

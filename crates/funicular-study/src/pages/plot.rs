@@ -1,9 +1,12 @@
 //! Page with figures of a map or sweep.
 
 mod curves;
+mod figure;
 mod rows;
 mod slices;
 mod tracking;
+
+pub use figure::{Choice, Made, figure};
 
 use super::Shell;
 use super::figure::Figure;

@@ -6,7 +6,7 @@ mod parts;
 pub use of_request::{about, of_request};
 
 use super::Shell;
-use super::figure::response::{Marks, ResponseCurve, sampled};
+use super::figure::response::{Marks, ResponseCurve};
 use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_style, response, robot as drawing};
 use super::table::{PageTable, fixed, significant};
@@ -22,7 +22,7 @@ use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Vec6, rotation};
 use funicular::modes::{self, Kind, Modes};
 use funicular::pose_error::PoseDifference;
-use funicular::response::{Peak, Quantity, peaks};
+use funicular::response::{Peak, Quantity};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
 
@@ -293,7 +293,7 @@ fn respond(
     let (motion, v, quantity) = &input.frf_output;
     let draw = |dynamics: &Dynamics, found: &Modes| {
         let model = dynamics.linearisation.cable_model;
-        let at = (dynamics, sampled(below_hz, &found.modes));
+        let at = (dynamics, below_hz, &found.modes[..]);
         ResponseCurve::of(model.name(), model_style(model), at, u, &[*v], *quantity)
     };
     let mut curves = vec![draw(dynamics, found)?];
@@ -318,7 +318,7 @@ fn respond(
             }
         }
     }
-    let tops = peaks(&curves[0].frequencies_hz, &curves[0].values, PEAK_PROMINENCE_DB);
+    let tops = curves[0].peaks(PEAK_PROMINENCE_DB);
     let caption = format!(
         "Response of {motion} to {force}: magnitude and phase. Ticks: natural frequencies with the model {}; numbers: \
          frequencies [Hz] of its most prominent peaks. Models with constant cable stiffness (spring, shallow-static, \

@@ -215,11 +215,37 @@ pub struct FrequencyRange {
     pub from_hz: f64,
     /// Last frequency [Hz].
     pub to_hz: f64,
-    /// Number of frequencies.
-    pub points: usize,
+    /// Number of frequencies; may be left out only where frequencies are added adaptively.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<usize>,
     /// Equal ratios instead of equal steps.
     #[serde(default)]
     pub log: bool,
+}
+
+/// Name of one signal, or names of several.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "a signal is a text, and several signals are a list of texts")]
+pub enum OneOrSeveral {
+    /// One signal.
+    One(String),
+    /// Several signals, in the order of the results.
+    Several(Vec<String>),
+}
+
+impl OneOrSeveral {
+    /// One signal for a list of one name, else several.
+    pub fn of(mut names: Vec<String>) -> Self {
+        if names.len() == 1 { Self::One(names.remove(0)) } else { Self::Several(names) }
+    }
+
+    /// Names in their order.
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::Several(names) => names,
+        }
+    }
 }
 
 /// Axis of a grid: equal steps, or listed values.

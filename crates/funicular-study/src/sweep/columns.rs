@@ -1,6 +1,7 @@
 //! Rows of results, stored as columns.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Description of a column.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +60,19 @@ impl Values {
     /// True if there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Adds the values `rows` of another column of the same kind.
+    ///
+    /// # Panics
+    /// If the other column has another kind or fewer rows.
+    pub fn extend(&mut self, other: &Self, rows: Range<usize>) {
+        match (self, other) {
+            (Self::Real(values), Self::Real(more)) => values.extend_from_slice(&more[rows]),
+            (Self::Flag(values), Self::Flag(more)) => values.extend_from_slice(&more[rows]),
+            (Self::Text(values), Self::Text(more)) => values.extend_from_slice(&more[rows]),
+            (values, more) => unreachable!("columns differ in kind: {values:?} and {more:?}"),
+        }
     }
 
     /// Adds one value.

@@ -40,6 +40,7 @@ mod factor;
 mod lever_axes;
 mod pencil;
 mod search;
+mod stages;
 
 use super::lowest::{LowestError, lowest};
 use super::{Kind, Mode, Modes};
@@ -47,7 +48,6 @@ use crate::dynamics::{DynamicsError, Linearisation};
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use pencil::RobotPencil;
-use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// First natural mode of a robot.
@@ -114,7 +114,7 @@ pub enum FirstError {
 /// # References
 /// docs/theory.md, section 9, equations (35a) to (35c).
 pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    if let Some(found) = RobotPencil::new(robot, equilibrium).and_then(|mut pencil| pencil.first()) {
+    if let Some(found) = RobotPencil::new(robot, equilibrium).and_then(stages::first) {
         return Ok(found);
     }
     lowest_by_count(robot, equilibrium)
@@ -178,7 +178,7 @@ mod tests {
                     // Beyond, loops hang down far below the robot.
                     if slackness < 1000.0 {
                         poses[usize::from(slackness > 3.0)] += 1;
-                        let found = RobotPencil::new(&robot, &rest).and_then(|mut pencil| pencil.first());
+                        let found = RobotPencil::new(&robot, &rest).and_then(stages::first);
                         assert!(found.is_some(), "{x}, {y}, {z}");
                     }
                 }

@@ -231,10 +231,7 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
         frequencies_hz,
         force: vector(input),
         motion: vector(output),
-        plain: &|omega| {
-            let x = receptance(dynamics, omega) * input.map(|v| Complex::new(v, 0.0));
-            (0..6).map(|i| x[i] * output[i]).sum()
-        },
+        plain: &|omega| plain_entry(dynamics, omega, input, output),
         values: &mut values,
     };
 
@@ -246,6 +243,39 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
     }
     pulp::Arch::new().dispatch(entries);
     values
+}
+
+/// Responses `outputᵀ D⁻¹ input` of all pairs at each frequency [Hz], one row per pair: the first output with all inputs,
+/// then the next. D is factorised once per frequency. Each row is that of [`one_entry`] to the last digit.
+pub(super) fn entries(
+    dynamics: &Dynamics,
+    frequencies_hz: &[f64],
+    inputs: &[Vec6],
+    outputs: &[Vec6],
+) -> Vec<Vec<Complex>> {
+    let scale = dynamics.scale();
+    let vector = |v: &Vec6| dynamics.coordinates().motion().reduced(&Vec6::from_fn(|i, _| v[i] / scale[i])).into();
+
+    let mut rows = vec![vec![Complex::new(0.0, 0.0); frequencies_hz.len()]; inputs.len() * outputs.len()];
+    let entries = Entries {
+        prepared: Prepared::new(dynamics),
+        frequencies_hz,
+        forces: inputs.iter().map(vector).collect(),
+        motions: outputs.iter().map(vector).collect(),
+        plain: &|omega, pair| {
+            let (output, input) = (&outputs[pair / inputs.len()], &inputs[pair % inputs.len()]);
+            plain_entry(dynamics, omega, input, output)
+        },
+        rows: &mut rows,
+    };
+    pulp::Arch::new().dispatch(entries);
+    rows
+}
+
+/// Response `outputᵀ D⁻¹ input` at one angular frequency by the plain version.
+fn plain_entry(dynamics: &Dynamics, omega: f64, input: &Vec6, output: &Vec6) -> Complex {
+    let x = receptance(dynamics, omega) * input.map(|v| Complex::new(v, 0.0));
+    (0..6).map(|i| x[i] * output[i]).sum()
 }
 
 /// Complete receptance at each frequency [Hz].
@@ -283,6 +313,50 @@ impl pulp::NullaryFnOnce for OneEntry<'_> {
             }
             for (i, value) in values.iter_mut().enumerate() {
                 *value = if accurate[i] { sum.lane(i) } else { plain(omega[i]) };
+            }
+        }
+    }
+}
+
+/// Loop of [`entries`].
+struct Entries<'a> {
+    prepared: Prepared<'a>,
+    frequencies_hz: &'a [f64],
+    forces: Vec<[f64; 6]>,
+    motions: Vec<[f64; 6]>,
+    /// Plain version for one angular frequency and the index of a pair.
+    plain: &'a dyn Fn(f64, usize) -> Complex,
+    rows: &'a mut [Vec<Complex>],
+}
+
+impl pulp::NullaryFnOnce for Entries<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { prepared, frequencies_hz, forces, motions, plain, rows } = self;
+        let mut forwards = vec![[Complexes::ZERO; 6]; forces.len()];
+        for (block, start) in frequencies_hz.chunks(LANES).zip((0..).step_by(LANES)) {
+            let omega = angular(block);
+            let mut d = prepared.dynamic_stiffness(&omega);
+            let accurate = factorise(&mut d);
+            for (z, force) in forwards.iter_mut().zip(&forces) {
+                *z = forward(&d, force);
+            }
+
+            let mut pair = 0;
+            for motion in &motions {
+                let y = forward(&d, motion);
+                for z in &forwards {
+                    let mut sum = Complexes::ZERO;
+                    for i in 0..6 {
+                        sum += z[i] * y[i] * d[at(i, i)];
+                    }
+                    for i in 0..block.len() {
+                        rows[pair][start + i] = if accurate[i] { sum.lane(i) } else { plain(omega[i], pair) };
+                    }
+                    pair += 1;
+                }
             }
         }
     }

@@ -16,7 +16,37 @@ pub struct Peak {
 /// Local maxima of `|values|` over `frequencies_hz` (ascending) with at least the given prominence [dB], ascending in
 /// frequency. Ends of the range are not peaks. A zero counts as the smallest positive number.
 pub fn peaks(frequencies_hz: &[f64], values: &[Complex], min_prominence_db: f64) -> Vec<Peak> {
-    let level: Vec<f64> = values.iter().map(|v| 20.0 * v.norm().max(f64::MIN_POSITIVE).log10()).collect();
+    let level = levels(values);
+    let peak = |top: Top| {
+        let Top { at, plateau, prominence_db } = top;
+        let frequency_hz = if plateau { frequencies_hz[at] } else { vertex(frequencies_hz, &level, at) };
+        Peak { frequency_hz, prominence_db, magnitude: values[at].norm() }
+    };
+    tops_of(&level, min_prominence_db).into_iter().map(peak).collect()
+}
+
+/// Highest point of a peak.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Top {
+    /// Index of the point; that of the middle for a plateau.
+    pub(super) at: usize,
+    /// True if several points are equally high.
+    plateau: bool,
+    /// Height above the higher of the two valleys that separate the peak from higher ground [dB].
+    pub(super) prominence_db: f64,
+}
+
+/// Highest points of all peaks, as [`peaks`] finds them.
+pub(super) fn tops(values: &[Complex], min_prominence_db: f64) -> Vec<Top> {
+    tops_of(&levels(values), min_prominence_db)
+}
+
+/// Magnitudes in decibels.
+fn levels(values: &[Complex]) -> Vec<f64> {
+    values.iter().map(|v| 20.0 * v.norm().max(f64::MIN_POSITIVE).log10()).collect()
+}
+
+fn tops_of(level: &[f64], min_prominence_db: f64) -> Vec<Top> {
     let mut found = Vec::new();
     let mut i = 1;
     while i + 1 < level.len() {
@@ -27,11 +57,9 @@ pub fn peaks(frequencies_hz: &[f64], values: &[Complex], min_prominence_db: f64)
         }
 
         if level[i] > level[i - 1] && end + 1 < level.len() && level[i] > level[end + 1] {
-            let prominence_db = level[i] - valley(&level, i, end);
+            let prominence_db = level[i] - valley(level, i, end);
             if prominence_db >= min_prominence_db {
-                let top = usize::midpoint(i, end);
-                let frequency_hz = if i == end { vertex(frequencies_hz, &level, i) } else { frequencies_hz[top] };
-                found.push(Peak { frequency_hz, prominence_db, magnitude: values[top].norm() });
+                found.push(Top { at: usize::midpoint(i, end), plateau: i != end, prominence_db });
             }
         }
 

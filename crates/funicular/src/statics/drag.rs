@@ -1,9 +1,9 @@
-//! Stiffness that the drag of the wind adds because it turns with the cables.
+//! Stiffness that the drag of the wind adds because it turns with the cables, and the stiffness that includes it.
 
 use super::equilibrium::Equilibrium;
 use super::model::StaticModel;
 use super::stiffness::tangent_stiffness;
-use crate::math::Mat6;
+use crate::math::{Mat6, symmetric_part};
 use crate::platform::{Coordinates, add_congruent};
 use crate::robot::Robot;
 
@@ -77,4 +77,23 @@ pub fn drag_effect(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
     (coordinates.count()..6).for_each(|k| whole[(k, k)] = 1.0);
     let effect = (whole.try_inverse()? * turn).singular_values().max();
     effect.is_finite().then_some(effect)
+}
+
+/// Stiffness along each coordinate of the platform: load along it over the motion along it, all other motions free
+/// [N/m, N m/rad]; one over the diagonal of the compliance. In wind the drag turns with the cables.
+///
+/// `None` for ideal cables, and if the stiffness is singular.
+pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> Option<Vec<f64>> {
+    // Symmetric to rounding; the stiffness added by the turn of the drag is not.
+    let mut whole = symmetric_part(&tangent_stiffness(robot, equilibrium)?);
+    if let Some(turn) = drag_stiffness(robot, equilibrium) {
+        whole += turn;
+    }
+
+    let motion = &robot.platform.motion;
+    let n = motion.count();
+    let mut reduced = motion.reduced_matrix(&whole);
+    (n..6).for_each(|k| reduced[(k, k)] = 1.0);
+    let compliance = reduced.try_inverse()?;
+    Some((0..n).map(|k| 1.0 / compliance[(k, k)]).collect())
 }

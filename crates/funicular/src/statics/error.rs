@@ -3,6 +3,7 @@
 use super::equilibrium::RESIDUAL_LIMIT;
 use super::limits::LimitViolation;
 use super::loaded_cable::MAX_LENGTH_RATIO;
+use super::tension::Obstacle;
 use crate::robot::OutOfPlane;
 use thiserror::Error;
 
@@ -88,20 +89,24 @@ pub enum StaticsError {
     Singular,
     /// A straight cable would need negative tension.
     #[error(
-        "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose; choose \
-         another pose, mass or centre of mass"
+        "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose{}; choose \
+         another pose, mass or centre of mass",
+        because(obstacle)
     )]
     NegativeTension {
         /// Name of the cable with the most negative tension.
         cable: String,
         /// Its tension [N], not positive.
         tension: f64,
+        /// Direction in which no cable pulls.
+        obstacle: Option<Box<Obstacle>>,
     },
     /// No tensions found for sagging cables at a pose where a straight one would need negative tension. This is no
     /// proof that there are none: the balance of sagging cables is not linear.
     #[error(
-        "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N; sagging, {}; \
-         choose another pose, mass or centre of mass",
+        "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N{}; sagging, \
+         {}; choose another pose, mass or centre of mass",
+        because(obstacle),
         searched(*starts, *residual, *max_tension)
     )]
     NotFound {
@@ -115,6 +120,8 @@ pub enum StaticsError {
         residual: f64,
         /// Maximum tension [N] of cables that do hold the pose, but with excessive tensions.
         max_tension: Option<f64>,
+        /// Direction in which no straight cable pulls.
+        obstacle: Option<Box<Obstacle>>,
     },
     /// Ideal cables of given lengths close at a pose where one of them would need negative tension.
     #[error(
@@ -135,17 +142,15 @@ pub enum StaticsError {
         z: f64,
     },
     /// It is proved that no tensions within the limits hold the pose.
-    #[error(
-        "no tensions within their limits hold this pose: the best tensions violate the limits {0}; choose another \
-         pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
-    )]
+    #[error("{}", beyond_limits(.0))]
     BeyondLimits(LimitViolation),
     /// No tensions within the limits were found, and there is no proof that there are none: the balance of sagging
     /// cables is not linear.
     #[error(
         "no tensions within their limits that hold this pose were found in a search from {starts} starts: the best \
-         tensions violate the limits {miss}; choose another pose, mass or centre of mass, or widen the limits \
-         (`minimum_tension_n`, `maximum_tension_n`)"
+         tensions violate the limits {miss}{}; choose another pose, mass or centre of mass, or widen the limits \
+         (`minimum_tension_n`, `maximum_tension_n`)",
+        because(&miss.obstacle)
     )]
     NotFoundWithinLimits {
         /// Violation of the limits by the best tensions found.
@@ -344,6 +349,16 @@ impl StaticsError {
         }
     }
 
+    /// Reason why no tensions of straight cables balance the platform at the pose, whatever their limits, if that is
+    /// the cause of the error.
+    pub fn obstacle(&self) -> Option<&Obstacle> {
+        match self {
+            Self::NegativeTension { obstacle, .. } | Self::NotFound { obstacle, .. } => obstacle.as_deref(),
+            Self::BeyondLimits(miss) | Self::NotFoundWithinLimits { miss, .. } => miss.obstacle.as_deref(),
+            _ => None,
+        }
+    }
+
     /// True if the input is valid, but the robot has no such equilibrium, or none was found.
     pub fn is_no_solution(&self) -> bool {
         matches!(
@@ -360,6 +375,23 @@ impl StaticsError {
                 | Self::LostInRounding { .. }
                 | Self::TensionsNotConverged { .. }
         )
+    }
+}
+
+/// Reason of an error in brackets; empty if it is not known.
+fn because(obstacle: &Option<Box<Obstacle>>) -> String {
+    obstacle.as_ref().map_or_else(String::new, |obstacle| format!(" ({obstacle})"))
+}
+
+/// Message of tensions beyond their limits. If even tensions without limits do not balance the load, wider limits do
+/// not help, and the message says so.
+fn beyond_limits(miss: &LimitViolation) -> String {
+    match &miss.obstacle {
+        Some(obstacle) => format!("no tensions hold this pose, whatever their limits: {obstacle}"),
+        None => format!(
+            "no tensions within their limits hold this pose: the best tensions violate the limits {miss}; choose \
+             another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
+        ),
     }
 }
 

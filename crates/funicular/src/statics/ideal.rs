@@ -1,6 +1,6 @@
 //! Ideal cables: straight, massless and rigid in length.
 
-use super::equilibrium::{CableState, Equilibrium, RESIDUAL_LIMIT, Stability};
+use super::equilibrium::{CableState, Equilibrium, Stability};
 use super::error::StaticsError;
 use super::model::StaticModel;
 use super::residual::residual_of;
@@ -75,7 +75,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
     }
     if gap > NEARLY_CLOSED * longest {
         let p = pose.position_w;
-        let (residual, limit) = (gap / longest, RESIDUAL_LIMIT);
+        let (residual, limit) = (gap / longest, NEARLY_CLOSED);
         return Err(StaticsError::NotConverged { iterations, residual, limit, x: p.x, y: p.y, z: p.z });
     }
 

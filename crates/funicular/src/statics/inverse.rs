@@ -10,6 +10,7 @@ use super::ideal::{self, most_negative, straight_tensions};
 use super::loaded_cable::{LoadedCable, MAX_LENGTH_RATIO};
 use super::model::StaticModel;
 use super::residual::scaled_residual;
+use super::tension::Obstacle;
 use crate::catenary::space::HangingCable;
 use crate::math::{Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, balance, load_size, load_wrench, wrench_of};
@@ -46,7 +47,10 @@ pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
 
     match model {
         StaticModel::Ideal => match most_negative(&tensions) {
-            Some((i, tension)) => Err(StaticsError::NegativeTension { cable: robot.cables[i].name.clone(), tension }),
+            Some((i, tension)) => {
+                let cable = robot.cables[i].name.clone();
+                Err(StaticsError::NegativeTension { cable, tension, obstacle: obstacle(robot, pose, model) })
+            }
             None => Ok(ideal::collect(robot, *pose, &tensions, 0)),
         },
         StaticModel::Spring => {
@@ -54,6 +58,7 @@ pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
                 return Err(StaticsError::NegativeTension {
                     cable: robot.cables[i].name.clone(),
                     tension: tensions[i],
+                    obstacle: obstacle(robot, pose, model),
                 });
             }
             let lengths: Vec<f64> = (0..cables)
@@ -118,6 +123,11 @@ const LENGTH_STEP: f64 = 1e-9;
 /// (98 %) to 550 near singular poses.
 const MAX_TENSION_RATIO: f64 = 100.0;
 
+/// Direction in which no cable pulls at a pose.
+fn obstacle(robot: &Robot, pose: &Pose, model: StaticModel) -> Option<Box<Obstacle>> {
+    Obstacle::at(robot, pose, model).map(Box::new)
+}
+
 fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
 }
@@ -178,13 +188,14 @@ fn sagging_cables(
 
     if let Some(i) = negative {
         let (cable, tension) = (robot.cables[i].name.clone(), straight[i]);
+        let obstacle = obstacle(robot, pose, StaticModel::Catenary);
         // Without sag the straight solution is the only one.
         if loaded.iter().all(|cable| cable.load.size == 0.0) {
-            return Err(StaticsError::NegativeTension { cable, tension });
+            return Err(StaticsError::NegativeTension { cable, tension, obstacle });
         }
         let residual = found.residual;
         let max_tension = (residual <= RESIDUAL_LIMIT).then(|| found.max_tension());
-        return Err(StaticsError::NotFound { cable, tension, starts, residual, max_tension });
+        return Err(StaticsError::NotFound { cable, tension, starts, residual, max_tension, obstacle });
     }
     let (p, CableSearch { residual, iterations, .. }) = (pose.position_w, found);
     Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z })

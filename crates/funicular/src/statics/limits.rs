@@ -1,6 +1,7 @@
 //! Limits of a cable's tension: their defaults, and the distance of a state from them.
 
 use super::equilibrium::CableState;
+use super::tension::Obstacle;
 use crate::math::Vec3;
 use crate::robot::Robot;
 use std::fmt;
@@ -88,10 +89,18 @@ impl Limit {
 /// Relative distance within which a limit counts as reached.
 const REACHED: f64 = 1e-6;
 
+/// Rounding of a margin over the tension. The search for tensions ends when a step changes them by less than 1e-10 of
+/// their size (`STILL` in `tension/search.rs`), which bounds it. Observed at robots of the library and others: up to
+/// 1e-14. A violation that matters, see [`REACHED`], is four decades larger.
+const MARGIN_ROUNDING: f64 = 1e-10;
+
 impl TensionMargin {
-    /// Distance from the nearer limit [N], negative beyond it.
+    /// Distance from the nearer limit [N], negative beyond it. A tension that is beyond its limit by rounding alone has
+    /// the distance zero.
     pub fn distance(&self) -> f64 {
-        (self.min - self.range.minimum).min(self.range.maximum - self.max)
+        let distance = (self.min - self.range.minimum).min(self.range.maximum - self.max);
+        let rounding = MARGIN_ROUNDING * self.max.abs();
+        if (-rounding..0.0).contains(&distance) { 0.0 } else { distance }
     }
 
     /// Relative margin: [`Self::distance`] over the distance between the limits; at most one half, negative beyond a
@@ -117,6 +126,10 @@ impl TensionMargin {
 const MAX_NAMES: usize = 8;
 
 /// Violation of the limits by the best tensions, and the limits concerned.
+///
+/// The best tensions are those with the minimum violation. A limit is named if every set of best tensions violates it
+/// by the full amount `by`: it stays in the way whichever of them is chosen. So a symmetric robot names all cables that
+/// symmetry makes alike. These limits are also those whose value the amount depends on (Goldman and Tucker 1956).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitViolation {
     /// Minimum force [N] by which all limits would have to be widened for a solution within them to exist.
@@ -125,6 +138,8 @@ pub struct LimitViolation {
     pub minimum_of: Vec<String>,
     /// Cables whose maximum prevents a solution.
     pub maximum_of: Vec<String>,
+    /// Reason why no tensions of straight cables balance the platform even without limits, if there is one.
+    pub obstacle: Option<Box<Obstacle>>,
 }
 
 impl fmt::Display for LimitViolation {

@@ -1,8 +1,7 @@
 //! Static stiffness of the platform at an equilibrium, and stability from its eigenvalues.
 
-use super::drag::drag_stiffness;
 use super::equilibrium::{Equilibrium, Stability};
-use crate::math::{Mat3, Mat6, Vec3, symmetric, symmetric_part};
+use crate::math::{Mat3, Mat6, Vec3, symmetric};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
 
@@ -25,25 +24,6 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
         .collect();
     let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
     Some(Coordinates::of(robot).allowed_matrix(&whole))
-}
-
-/// Stiffness along each coordinate of the platform: load along it over the motion along it, all other motions free
-/// [N/m, N m/rad]; one over the diagonal of the compliance. In wind the drag turns with the cables.
-///
-/// `None` for ideal cables, and if the stiffness is singular.
-pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> Option<Vec<f64>> {
-    // Symmetric to rounding; the stiffness added by the turn of the drag is not.
-    let mut whole = symmetric_part(&tangent_stiffness(robot, equilibrium)?);
-    if let Some(turn) = drag_stiffness(robot, equilibrium) {
-        whole += turn;
-    }
-
-    let motion = &robot.platform.motion;
-    let n = motion.count();
-    let mut reduced = motion.reduced_matrix(&whole);
-    (n..6).for_each(|k| reduced[(k, k)] = 1.0);
-    let compliance = reduced.try_inverse()?;
-    Some((0..n).map(|k| 1.0 / compliance[(k, k)]).collect())
 }
 
 /// Sum of the stiffness of cables (3×3, force on the platform, lever arm) and that of weight and load at a pose.

@@ -12,6 +12,7 @@ mod bounds;
 mod cable_at_pose;
 mod feasible_set;
 mod null_space;
+mod obstacle;
 mod payload;
 mod proof;
 mod search;
@@ -26,6 +27,8 @@ use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use cable_at_pose::CableAtPose;
 pub use cable_at_pose::TensionPlace;
+pub(crate) use obstacle::spread;
+pub use obstacle::{Obstacle, OneSidedCause};
 pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 use search::TensionSearch;
 
@@ -94,7 +97,7 @@ pub fn distribute_tensions(
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
     let cables = robot.cables.len();
-    let mut search = TensionSearch::new(robot, pose, cables_at(robot, pose, model, rule)?);
+    let mut search = TensionSearch::new(robot, pose, model, cables_at(robot, pose, model, rule)?);
 
     match rule {
         TensionRule::Lowest => {

@@ -1,9 +1,11 @@
 //! Frequency responses: the vector kernel against plain elimination, and the physics against identities.
 
+mod adaptive;
+
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3, Vec6};
-use funicular::response::{self, Quantity, ResponseError};
+use funicular::response::{self, Port, Quantity, ResponseError, Signal};
 use funicular::robot::{Damping, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -125,4 +127,31 @@ fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
     dynamics = Dynamics::about(&robot, &slack, linearisation, 20.0).unwrap();
     let refused = response::frf(&dynamics, &[0.0, 1.0], &u, &u, Quantity::Displacement);
     assert_eq!(refused.unwrap_err(), ResponseError::Resonance { frequency_hz: 0.0 });
+}
+
+#[test]
+fn responses_of_several_pairs_are_those_of_each_pair_to_the_last_digit() {
+    let (robot, rest) = load(ROBOTS[0]);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
+    let frequencies: Vec<f64> = (0..203).map(|i| 0.03 * f64::from(i)).collect();
+    let along = |direction_w| Signal::Along { direction_w, point_p: Vec3::new(0.1, -0.2, 0.05) };
+    let on_cable = |fraction| Signal::OnCable { cable: 2, fraction, direction_w: Vec3::new(0.0, 0.3, 1.0) };
+    let signals =
+        [along(Vec3::x()), along(Vec3::z()), Signal::About { axis_w: Vec3::y() }, on_cable(0.4), on_cable(0.7)];
+    let ports = Port::all(&robot, &rest, &dynamics, &signals, true).unwrap();
+    let quantities = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration];
+
+    // Ports on the platform alone, and with ports on a cable, which also moves by itself.
+    for inputs in [&ports[..2], &ports[1..]] {
+        for outputs in [&ports[..3], &ports[2..]] {
+            let outputs: Vec<(Port, Quantity)> = outputs.iter().cloned().zip(quantities).collect();
+            let rows = response::matrix(&dynamics, &frequencies, inputs, &outputs).unwrap();
+            assert_eq!(rows.len(), inputs.len() * outputs.len());
+            let pairs = outputs.iter().flat_map(|output| inputs.iter().map(move |input| (input, output)));
+            for (row, (input, (output, quantity))) in rows.iter().zip(pairs) {
+                let one = response::between(&dynamics, &frequencies, input, output, *quantity).unwrap();
+                assert_eq!(row, &one);
+            }
+        }
+    }
 }

@@ -8,7 +8,7 @@ use funicular::math::Vec3;
 ///
 /// A plane through three points with all others on one side holds a face. The search takes n⁴ steps, and a platform has
 /// few attachments.
-pub(super) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
+pub(crate) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
     let reach = extent(points);
     if reach <= 0.0 {
         return Vec::new();

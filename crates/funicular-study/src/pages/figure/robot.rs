@@ -96,7 +96,7 @@ const SQUARE: f64 = 1.2;
 /// Height of the drawn volume in plotly's units. It fills a view with parallel projection and leaves room for labels.
 const FILL: f64 = 1.35;
 /// Position of the eye: to the side and a little above, so that sag is visible.
-pub(super) const EYE: [f64; 3] = [0.7, -1.65, 0.5];
+pub(crate) const EYE: [f64; 3] = [0.7, -1.65, 0.5];
 
 /// Scene with equal scales around points, as large as fits a view with this ratio of width to height. With `floor` the
 /// scene reaches down to z = 0 if the points are above it.
@@ -126,7 +126,7 @@ fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
 }
 
 /// Range of each axis around points.
-pub(super) fn ranges(points: &[Vec3], floor: bool) -> [(f64, f64); 3] {
+pub(crate) fn ranges(points: &[Vec3], floor: bool) -> [(f64, f64); 3] {
     let bounds = |k: usize| {
         let values = || points.iter().map(|p| p[k]);
         (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
@@ -176,7 +176,7 @@ fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, sym
 }
 
 /// Labels in which the names of close neighbours are joined at the first of them, so that names do not overlap.
-pub(super) fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
+pub(crate) fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: f64) -> Vec<String> {
     let same = |i: usize, j: usize| places[i] == places[j] && (points[i] - points[j]).norm() < 0.06 * reach;
     (0..points.len())
         .map(|i| {
@@ -188,7 +188,7 @@ pub(super) fn joined(points: &[Vec3], names: &[String], places: &[&str], reach: 
 
 /// Position of each point's name: below the point if another point is close above it, otherwise above. Coinciding
 /// points use different sides, so that their names do not overlap.
-pub(super) fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
+pub(crate) fn sides(points: &[Vec3], reach: f64) -> Vec<&'static str> {
     const COINCIDING: [&str; 4] = ["middle left", "middle right", "top center", "bottom center"];
     points
         .iter()
@@ -249,7 +249,7 @@ fn body(points: &[Vec3], reach: f64) -> Value {
 }
 
 /// Order of points around their centre if they lie in a plane; `None` otherwise.
-pub(super) fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
+pub(crate) fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
     let centre = points.iter().sum::<Vec3>() / points.len() as f64;
     let spokes: Vec<Vec3> = points.iter().map(|p| p - centre).collect();
     let along = spokes.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?.normalize();
@@ -269,7 +269,7 @@ pub(super) fn polygon(points: &[Vec3], reach: f64) -> Option<Vec<usize>> {
 }
 
 /// Diagonal of the bounding box of points [m].
-pub(super) fn extent(points: &[Vec3]) -> f64 {
+pub(crate) fn extent(points: &[Vec3]) -> f64 {
     let span = |k: usize| {
         let values = || points.iter().map(|p| p[k]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)

@@ -4,7 +4,7 @@
 use super::matching::{Agreement, MAX_DIFFERENCE};
 use super::pose::lengths;
 use super::published::{DYNAMIC, EXPERIMENT, SPRING, STATIC_SAG};
-use crate::pages::figure::response::{Marks, ResponseCurve, figure, sampled};
+use crate::pages::figure::response::{Marks, ResponseCurve, figure};
 use crate::pages::figure::{Figure, model_style};
 use crate::pages::table::{PageTable, fixed, listed};
 use anyhow::Context as _;
@@ -12,7 +12,7 @@ use funicular::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Mat3, Vec3};
 use funicular::modes::{self, Modes};
-use funicular::response::{self, Peak, Quantity, peaks};
+use funicular::response::{self, Peak, Quantity};
 use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, StaticModel};
 
@@ -108,7 +108,7 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
             Linearisation { cable_model, assembly: Assembly::WithoutGeometricStiffness, in_plane_only: true };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, BELOW_HZ)?;
         let found = modes::below(&dynamics, BELOW_HZ);
-        let at = (&dynamics, sampled(BELOW_HZ, &found.modes));
+        let at = (&dynamics, BELOW_HZ, &found.modes[..]);
         let curve = ResponseCurve::of(
             cable_model.name(),
             model_style(cable_model),
@@ -122,7 +122,7 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let (natural, dynamic) = with(CableModel::ShallowDynamic)?;
     let (static_sag, sag_curve) = with(CableModel::ShallowStatic)?;
     let (spring, spring_curve) = with(CableModel::Spring)?;
-    let peaks = peaks(&dynamic.frequencies_hz, &dynamic.values, PROMINENCE_DB);
+    let peaks = dynamic.peaks(PROMINENCE_DB);
     let sags = rest.cables.iter().enumerate().map(|(i, state)| Sag::of(&robot, i, state).ratio()).collect();
     Ok(Outcome { set, peaks, natural, static_sag, spring, sags, curves: vec![dynamic, sag_curve, spring_curve] })
 }

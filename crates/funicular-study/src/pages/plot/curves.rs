@@ -7,9 +7,9 @@ use crate::sweep::CODES;
 use serde_json::{Value, json};
 
 /// Horizontal axis of the figures.
-struct Along {
-    title: String,
-    x: Vec<f64>,
+pub(super) struct Along {
+    pub(super) title: String,
+    pub(super) x: Vec<f64>,
     /// Short name in front of the value in tooltips.
     short: String,
 }
@@ -81,7 +81,7 @@ pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
 
 /// Key of the quantities that share a figure: one unit, and one kind of value of several cables, modes, coordinates or
 /// models.
-fn family(series: &Series) -> String {
+pub(super) fn family(series: &Series) -> String {
     let name = &series.name;
     let stem = ["tension_platform", "unstrained_length", "frequency", "stiffness", "pose", "tension"];
     let stem = stem.iter().find(|stem| name.starts_with(&format!("{stem}_"))).map_or_else(
@@ -98,7 +98,7 @@ fn family(series: &Series) -> String {
 
 /// Horizontal axis of the rows: the value that varies. For a list of poses it is the length of the path, or the number
 /// of the row if all positions are equal.
-fn along(rows: &Rows) -> Along {
+pub(super) fn along(rows: &Rows) -> Along {
     if let [axis] = &rows.axes[..] {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
         return Along { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
@@ -125,14 +125,14 @@ fn along(rows: &Rows) -> Along {
     }
 }
 
-/// Grey bands at infeasible rows, from half way to the row before to half way to the row after.
-fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
+/// Ranges of infeasible rows, from half way to the row before to half way to the row after.
+pub(super) fn infeasible_ranges(rows: &Rows, along: &Along) -> Vec<(f64, f64)> {
     let infeasible =
         |i: usize| CODES.get(usize::from(rows.status[i])).is_some_and(|code| code.1.starts_with("infeasible"));
     let x = &along.x;
     let last = x.len().saturating_sub(1);
     let middle = |a: usize, b: usize| 0.5 * (x[a] + x[b]);
-    let mut bands = Vec::new();
+    let mut ranges = Vec::new();
     let mut i = 0;
     while i < x.len() {
         if !infeasible(i) {
@@ -143,14 +143,21 @@ fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
         while i < last && infeasible(i + 1) {
             i += 1;
         }
-        let (from, to) = (middle(begin.saturating_sub(1), begin), middle(i, (i + 1).min(last)));
-        bands.push(json!({
-            "type": "rect", "x0": from, "x1": to, "yref": "paper", "y0": 0, "y1": 1, "layer": "below",
-            "fillcolor": "#e4e4e4", "line": {"width": 0},
-        }));
+        ranges.push((middle(begin.saturating_sub(1), begin), middle(i, (i + 1).min(last))));
         i += 1;
     }
-    bands
+    ranges
+}
+
+/// Grey bands at infeasible rows.
+fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
+    let band = |(from, to): (f64, f64)| {
+        json!({
+            "type": "rect", "x0": from, "x1": to, "yref": "paper", "y0": 0, "y1": 1, "layer": "below",
+            "fillcolor": "#e4e4e4", "line": {"width": 0},
+        })
+    };
+    infeasible_ranges(rows, along).into_iter().map(band).collect()
 }
 
 fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
@@ -207,14 +214,11 @@ fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure
         })
         .collect::<Vec<_>>()
         .concat();
-    let unit = &members[0].unit;
-    let (y, caption) = match members {
-        [one] => (with_unit(&label(&one.name), unit), format!("{}: {}.", label(&one.name), one.about)),
+    let y = vertical_title(members);
+    let caption = match members {
+        [one] => format!("{}: {}.", label(&one.name), one.about),
         several => {
-            let first = label(&several[0].name);
-            let word = first.split(' ').next().unwrap_or_default().to_owned();
-            let word = if word == "unstrained" { "unstrained length".to_owned() } else { word };
-            let word = if several[0].name.ends_with("distance_m") { "distance".to_owned() } else { word };
+            let word = common_word(several);
             let mut parts: Vec<String> = Vec::new();
             for series in several {
                 let same = several.iter().all(|other| other.about == series.about);
@@ -224,13 +228,35 @@ fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure
                     parts.push(one);
                 }
             }
-            (with_unit(&word, unit), format!("{}.", parts.join("; ")))
+            format!("{}.", parts.join("; "))
         }
     };
     let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
     // The margin leaves room for the buttons above the legend.
     let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
     Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
+}
+
+/// Title of the vertical axis of quantities that share a figure.
+pub(super) fn vertical_title(members: &[&Series]) -> String {
+    let unit = &members[0].unit;
+    match members {
+        [one] => with_unit(&label(&one.name), unit),
+        several => with_unit(&common_word(several), unit),
+    }
+}
+
+/// Word for several quantities of one kind.
+fn common_word(several: &[&Series]) -> String {
+    let first = label(&several[0].name);
+    let word = first.split(' ').next().unwrap_or_default();
+    if several[0].name.ends_with("distance_m") {
+        "distance".to_owned()
+    } else if word == "unstrained" {
+        "unstrained length".to_owned()
+    } else {
+        word.to_owned()
+    }
 }
 
 /// Text with a capital first letter.

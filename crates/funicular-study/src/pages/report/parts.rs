@@ -271,6 +271,10 @@ fn models_table(comparison: &Comparison) -> PageTable {
     table
 }
 
+/// Minimum share of the platform in the energy of a mode that is listed as moving the platform: the smallest one that
+/// the table, with one decimal of a per cent, does not show as zero. Modes of cables alone have 1e-29 by rounding.
+const MIN_SHARE: f64 = 1e-3;
+
 /// Table of the reference's modes that move the platform, with each model's counterpart.
 fn side_by_side(comparison: &Comparison) -> PageTable {
     let others: Vec<_> =
@@ -283,17 +287,21 @@ fn side_by_side(comparison: &Comparison) -> PageTable {
     }
     let mut table = PageTable::new(
         "table-side-by-side",
-        "Modes that move the platform, compared between the models. In a model of constant stiffness (spring, \
-         shallow-static, catenary-static) the counterpart is the mode whose platform motion correlates with at least \
-         0.5, in the other models the nearest in frequency. Vibrations of cables alone, which models of constant \
-         stiffness do not have, are left out.",
+        format!(
+            "Modes that move the platform, with at least {} % of their energy in it, compared between the models. In a \
+             model of constant stiffness (spring, shallow-static, catenary-static) the counterpart is the mode whose \
+             platform motion correlates with at least 0.5, in the other models the nearest in frequency. Vibrations of \
+             cables alone, which models of constant stiffness do not have, are left out.",
+            100.0 * MIN_SHARE
+        ),
         &columns.iter().map(String::as_str).collect::<Vec<_>>(),
     );
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
     let modes = reference.and_then(|m| m.modes.as_ref().ok()).map_or(&[][..], |m| &m.modes);
     for (index, mode) in modes.iter().enumerate() {
         let pairs: Vec<_> = others.iter().map(|m| m.matches.iter().find(|m| m.reference_index == index)).collect();
-        if mode.kind == Kind::Cable && pairs.iter().all(Option::is_none) {
+        let of_cables = mode.kind == Kind::Cable && pairs.iter().all(Option::is_none);
+        if of_cables || mode.platform_energy_fraction < MIN_SHARE {
             continue;
         }
         let mut cells = vec![

@@ -16,7 +16,7 @@ mod element_integrals;
 mod mesh;
 mod node_elimination;
 
-pub(super) use element::place;
+pub(super) use element_integrals::place;
 
 use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes};

@@ -1,10 +1,7 @@
 //! Robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
 use super::batched_cable::{Abreast, Kept};
-use super::condensed_cables::{AllUnknowns, Reduced, degree_of_start};
 use super::lever_axes::{Arms, RobotMotion};
-use super::search::{FINAL, LowestPair, NEAR, ROUGH, lowest};
-use super::{First, Kind, TAU};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
@@ -17,8 +14,10 @@ use std::array::from_fn;
 /// Pencil K − xM of a robot about its equilibrium.
 pub(super) struct RobotPencil {
     pub(super) dof: usize,
-    motions: PlatformMotion,
-    ell: f64,
+    /// Motions that the platform has.
+    pub(super) motions: PlatformMotion,
+    /// Mean distance of the attachments from the platform origin [m].
+    pub(super) ell: f64,
     /// Stiffness that does not depend on frequency; scaled, in the platform's coordinates.
     pub(super) constant: Mat6,
     /// Mass of the platform; scaled, in the platform's coordinates.
@@ -29,14 +28,11 @@ pub(super) struct RobotPencil {
     pub(super) arms: Vec<Arms>,
     /// Indices of the cables of each group.
     pub(super) members: Vec<Vec<usize>>,
-    groups: Vec<Abreast>,
-    cable_count: usize,
+    /// Cables side by side.
+    pub(super) groups: Vec<Abreast>,
+    /// Number of cables of the robot, those without mass included.
+    pub(super) cable_count: usize,
 }
-
-/// Maximum number of condensations of divided cables before the search with all unknowns.
-const MAX_TANGENTS: usize = 3;
-/// Relative change of x below which these condensations end.
-const CLOSE_ENOUGH: f64 = 0.2;
 
 impl RobotPencil {
     /// Pencil of a robot; `None` if a cable does not hang, has no tension, or has a point without tension.
@@ -81,51 +77,6 @@ impl RobotPencil {
         let (dof, cable_count) = (coordinates.count(), robot.cables.len());
         let (motions, ell) = (coordinates.motion(), coordinates.ell());
         Some(Self { dof, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
-    }
-
-    /// First mode; `None` if the equilibrium is unstable or the search does not end.
-    pub(super) fn first(&mut self) -> Option<First> {
-        let mut groups = std::mem::take(&mut self.groups);
-        let divided = groups.iter().any(Abreast::is_divided);
-
-        // A rough search with matrices condensed at x = 0.
-        let mut start = Reduced::of(&mut groups);
-        let metric = start.mass.clone();
-        let motion = self.any_motion(&metric, 0);
-        let mut near = lowest(self, &mut start, &metric, 0.0, vec![motion], if divided { &ROUGH } else { &NEAR })?;
-        if divided {
-            near = self.nearer(near, &mut start, &mut groups)?;
-        }
-
-        // The final search, with all unknowns.
-        let degrees = groups.iter().map(|group| degree_of_start(group) + 1).collect();
-        let mut whole = AllUnknowns { groups: &mut groups, degrees };
-
-        // Start below the first result: above, another motion may be the nearest.
-        let x = if divided { 0.95 * near.square } else { near.square };
-        near.motions.truncate(1);
-        let found = lowest(self, &mut whole, &start.mass, x, near.motions, &FINAL)?;
-        Some(self.report(&found))
-    }
-
-    /// Better start for divided cables. At x = 0 their eliminated unknowns move very differently than at the frequency,
-    /// so that the first result is far too high.
-    fn nearer(&self, mut near: LowestPair, start: &mut Reduced, groups: &mut [Abreast]) -> Option<LowestPair> {
-        let mut x = 0.7 * near.square;
-        for _ in 0..MAX_TANGENTS {
-            if start.follow(groups, x) {
-                let metric = start.mass.clone();
-                near.motions.truncate(1);
-                near = lowest(self, start, &metric, 0.75 * x, near.motions, &ROUGH)?;
-                if (near.square - x).abs() < CLOSE_ENOUGH * x {
-                    break;
-                }
-                x = near.square;
-            } else {
-                x *= 0.7;
-            }
-        }
-        Some(near)
     }
 
     /// Start vector number `number`. Its fixed quasi-random entries make orthogonality to a mode practically
@@ -204,39 +155,5 @@ impl RobotPencil {
     pub(super) fn platform_mass(&self, a: &RobotMotion, b: &RobotMotion) -> f64 {
         let [a, b] = [a, b].map(|motion| Vec6::from_column_slice(&motion.platform()[..6]));
         a.dot(&(self.mass * b))
-    }
-
-    /// First mode from the lowest eigenvalue and its motion.
-    fn report(&self, found: &LowestPair) -> First {
-        let mut cable_energy_fractions = vec![0.0; self.cable_count];
-        for (members, masses) in self.members.iter().zip(&found.cables) {
-            for (cable, mass) in members.iter().zip(masses) {
-                cable_energy_fractions[*cable] = mass / found.mass;
-            }
-        }
-
-        // Energy and motion of the platform.
-        let motion = &found.motions[0];
-        let platform_energy_fraction = self.platform_mass(motion, motion) / found.mass;
-        let motion_w = self.motions.expanded(&Vec6::from_column_slice(&motion.platform()[..6]));
-        let largest = motion_w[motion_w.iamax()];
-
-        // Below this energy the platform is at rest, and its motion is rounding.
-        let at_rest = platform_energy_fraction < 1e-15;
-        let shape = from_fn(|i| match i {
-            _ if at_rest => 0.0,
-            0..3 => motion_w[i] / largest,
-            _ => motion_w[i] / largest / self.ell,
-        });
-
-        First {
-            frequency_hz: found.square.sqrt() / TAU,
-            kind: Kind::of(platform_energy_fraction),
-            platform_energy_fraction,
-            cable_energy_fractions,
-            shape,
-            unstable_directions: 0,
-            certified: true,
-        }
     }
 }

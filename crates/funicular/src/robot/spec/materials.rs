@@ -5,7 +5,7 @@ use super::limits;
 use super::read::{Key, MAX_NUMBER, MIN_NUMBER, Reader, Section};
 use crate::math::Vec3;
 use crate::robot::parameters::Range;
-use crate::robot::{Damping, Material};
+use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -128,7 +128,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         limits::check(reader, section, limits, breaking_load.flatten());
     }
 
-    let drag_width = drag_width(reader, section, stiffness.diameter());
+    let drag = drag(reader, section, stiffness.diameter());
     let load_per_length = match section.get("load_n_per_m") {
         Some(value) => reader.vector(section, "load_n_per_m", value),
         None => Some([0.0; 3]),
@@ -141,14 +141,15 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         damping: damping?,
         tension_limits: tension_limits?,
         breaking_load: breaking_load?,
-        drag_width: drag_width?,
+        drag_width: drag?.map(|[coefficient, diameter]| coefficient * diameter),
         load_per_length_w: Vec3::from(load_per_length?),
+        dimensions: RopeDimensions { section: stiffness.section(), drag_diameter: drag?.map(|[_, diameter]| diameter) },
     })
 }
 
-/// Drag coefficient times diameter [m], if a coefficient is given.
+/// Drag coefficient and diameter [m], if a coefficient is given.
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
-fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>) -> Option<Option<f64>> {
+fn drag(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>) -> Option<Option<[f64; 2]>> {
     let own = section.get("drag_diameter_m");
     // An issue of the rope's own diameter has been reported together with its stiffness.
     let of_rope = section.get("diameter_m").map(|_| rope_diameter);
@@ -171,7 +172,7 @@ fn drag_width(reader: &mut Reader, section: &Section, rope_diameter: Option<f64>
             .help("give the `drag_diameter_m` that the wind meets");
         return None;
     };
-    Some(Some(coefficient? * diameter?))
+    Some(Some([coefficient?, diameter?]))
 }
 
 /// Valid numbers that determine the stiffness of a rope.
@@ -198,6 +199,12 @@ impl StiffnessKeys {
 
     fn diameter(&self) -> Option<f64> {
         self.numbers[2]
+    }
+
+    /// Cross-section of the file.
+    fn section(&self) -> Option<RopeSection> {
+        let [_, _, diameter, area] = self.numbers;
+        diameter.map(RopeSection::Diameter).or(area.map(RopeSection::Area))
     }
 
     /// Axial stiffness EA [N], given in one of the two ways.

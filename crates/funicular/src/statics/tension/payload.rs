@@ -151,7 +151,7 @@ pub fn payload_bound(
         }
     }
 
-    let search = TensionSearch::new(robot, pose, cables);
+    let search = TensionSearch::new(robot, pose, model, cables);
     let mut payload = PayloadSearch { robot, pose, search, unit, requested, iterations: 0 };
     let optimum = payload.extreme()?;
     payload.collect(model, &optimum)

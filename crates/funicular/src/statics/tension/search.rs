@@ -5,12 +5,14 @@ use super::active_set::Active;
 use super::cable_at_pose::{CableAtPose, TensionByTau};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
+use super::obstacle::Obstacle;
 use super::proof::{Infeasibility, Reach};
 use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
+use crate::statics::model::StaticModel;
 use crate::statics::residual::scaled_residual;
 
 /// Maximum number of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more
@@ -26,6 +28,13 @@ const BALANCED: f64 = 1e-12;
 /// Violation of a limit, over the size of the tensions, that counts as rounding.
 const VIOLATION: f64 = 1e-9;
 
+/// Multiplier of a limit, over the largest one, above which the limit holds an optimum; rounding leaves 1e-12.
+const HOLDS: f64 = 1e-9;
+
+/// Distance from a limit, over the size of the tensions, from which on an optimum has left the limit: well above
+/// [`VIOLATION`], by which the optima are relaxed, and below the millionth to which tensions are given.
+const LEAVES: f64 = 1e-7;
+
 /// Minimum derivative of a tension with respect to τ. At the slackest (v up to 1.2) the maximum tension of a level
 /// cable is about at its minimum (v = 1.1997). Its derivative is near zero or negative there, and a limit computed from
 /// it would be on the wrong side.
@@ -38,6 +47,7 @@ const MAX_STARTS: usize = 12;
 pub(super) struct TensionSearch<'a> {
     robot: &'a Robot,
     pose: &'a Pose,
+    model: StaticModel,
     cables: Vec<CableAtPose>,
     /// Reference size of the tensions [N].
     size: f64,
@@ -128,11 +138,11 @@ impl Stride {
 }
 
 impl<'a> TensionSearch<'a> {
-    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, cables: Vec<CableAtPose>) -> Self {
+    pub(super) fn new(robot: &'a Robot, pose: &'a Pose, model: StaticModel, cables: Vec<CableAtPose>) -> Self {
         let weight = load_size(robot);
         let minima: f64 = cables.iter().map(|cable| cable.range.minimum + cable.slackest).sum();
         let size = if weight + minima > 0.0 { weight + minima } else { 1.0 };
-        Self { robot, pose, cables, size, iterations: 0, rescued: None }
+        Self { robot, pose, model, cables, size, iterations: 0, rescued: None }
     }
 
     pub(super) fn robot(&self) -> &Robot {
@@ -542,7 +552,7 @@ impl<'a> TensionSearch<'a> {
 
         // Limits that hold it.
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
-        let binds = |held: &Active| (held.multiplier > 1e-9 * strongest).then(|| rows[held.row]).flatten();
+        let binds = |held: &Active| (held.multiplier > HOLDS * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
         held_by.sort_by_key(|(i, _)| *i);
         let mut multipliers = Vec6::zeros();
@@ -558,20 +568,84 @@ impl<'a> TensionSearch<'a> {
         Ok(MarginOptimum { tau, height, distance: height / unit, held_by, multipliers })
     }
 
+    /// Violation of the limits at the optimum, and the reason why even tensions without limits do not balance the load,
+    /// if there is one.
     fn miss(&mut self, optimum: &MarginOptimum) -> LimitViolation {
-        let mut held_by = optimum.held_by.clone();
-        if held_by.is_empty() {
-            // The last step was a short one that no limit has stopped: compute the binding limits again.
-            self.set(&optimum.tau);
-            if let Ok(there) = self.margin_optimum(&self.linearise(), None, &optimum.tau, None) {
-                held_by = there.held_by;
-            }
-        }
+        let limits = self.limits_in_the_way(optimum);
         let names = |limit: Limit| {
-            let of = held_by.iter().filter(|(_, which)| *which == limit);
+            let of = limits.iter().filter(|(_, which)| *which == limit);
             of.map(|(i, _)| self.robot.cables[*i].name.clone()).collect()
         };
-        LimitViolation { by: -optimum.distance, minimum_of: names(Limit::Minimum), maximum_of: names(Limit::Maximum) }
+        LimitViolation {
+            by: -optimum.distance,
+            minimum_of: names(Limit::Minimum),
+            maximum_of: names(Limit::Maximum),
+            obstacle: Obstacle::at(self.robot, self.pose, self.model).map(Box::new),
+        }
+    }
+
+    /// Limits that every set of tensions with the minimum violation violates by the full amount; see
+    /// [`LimitViolation`].
+    ///
+    /// The multipliers of one optimum give some of them, of a symmetric robot an arbitrary choice. Of the other limits
+    /// at which this optimum is, those belong to the list that no optimum can leave. So the smallest distance from
+    /// these limits is maximised among the optima: if it is positive, none of them belongs to the list; otherwise its
+    /// multipliers name further ones.
+    fn limits_in_the_way(&mut self, optimum: &MarginOptimum) -> Vec<(usize, Limit)> {
+        // The last step of the search may have been a short one that no limit has stopped: solve the problem about the
+        // optimum.
+        self.set(&optimum.tau);
+        let linear = self.linearise();
+        let Ok(there) = self.margin_optimum(&linear, None, &optimum.tau, None) else { return optimum.held_by.clone() };
+        let Ok(solutions) = self.solutions_for_feasible_set(&linear, &vec![1.0; self.cables.len()]) else {
+            return there.held_by;
+        };
+
+        // Limits of an optimum: sign, tension that is not passed, and whether the optimum is at it.
+        let slack = LEAVES * self.size;
+        let mut rows: Vec<(usize, Limit, f64, f64)> = Vec::with_capacity(2 * self.cables.len());
+        for (i, [lower, upper]) in linear.limits.iter().enumerate() {
+            let lower = self.floor(i, *lower);
+            rows.push((i, Limit::Minimum, 1.0, lower.at + lower.rate * there.height));
+            if upper.at.is_finite() {
+                rows.push((i, Limit::Maximum, -1.0, upper.rate * there.height - upper.at));
+            }
+        }
+
+        let mut named = there.held_by;
+        // Each pass names at least one further limit.
+        for _ in 0..rows.len() {
+            let is_open = |(i, limit, sign, level): &(usize, Limit, f64, f64)| {
+                sign * there.tau[*i] - level <= slack && !named.contains(&(*i, *limit))
+            };
+            let open: Vec<bool> = rows.iter().map(is_open).collect();
+            if !open.contains(&true) {
+                break;
+            }
+
+            // Largest distance from all open limits among the optima.
+            let mut feasible = FeasibleSet::new(&solutions, true);
+            for ((i, _, sign, level), open) in rows.iter().zip(&open) {
+                // Rounding of the optimum's height must not leave the set empty.
+                feasible.add(Some(*i), *sign, if *open { -1.0 } else { 0.0 }, level - VIOLATION * self.size);
+            }
+            feasible.add(None, 1.0, -1.0, -self.size);
+            let found = feasible.highest(|i| there.tau[i], self.tolerance(&solutions));
+
+            let Some(found) = found.filter(|found| found.height <= slack) else { break };
+            let strongest = found.held.iter().fold(0.0, |most: f64, held| most.max(held.multiplier));
+            let before = named.len();
+            for held in found.held.iter().filter(|held| held.multiplier > HOLDS * strongest) {
+                if open.get(held.row) == Some(&true) {
+                    named.push((rows[held.row].0, rows[held.row].1));
+                }
+            }
+            if named.len() == before {
+                break;
+            }
+        }
+        named.sort_by_key(|(i, _)| *i);
+        named
     }
 
     fn not_converged(&self, change: f64, limit: f64) -> StaticsError {

@@ -176,7 +176,8 @@ mod tests {
     fn begun<'a>(robot: &'a Robot, pose: &'a Pose) -> Option<TensionSearch<'a>> {
         let coordinates = Coordinates::of(robot);
         let cable = |i| CableAtPose::new(robot, i, pose, StaticModel::Catenary, coordinates);
-        let mut search = TensionSearch::new(robot, pose, (0..robot.cables.len()).map(cable).collect());
+        let mut search =
+            TensionSearch::new(robot, pose, StaticModel::Catenary, (0..robot.cables.len()).map(cable).collect());
         search.middle().ok()?;
         Some(search)
     }

@@ -22,7 +22,7 @@ fn rigid_cables_leave_a_pose_that_closes_the_lengths_and_balances() {
 fn ideal_cables_of_lengths_that_would_have_to_push_are_refused() {
     let (robot, _) = load(YUAN_4MM);
     let pose = Pose::new([0.0, 3.0, 0.6], [0.0; 3]);
-    let Err(StaticsError::NegativeTension { cable, tension }) = statics::inverse(&robot, &pose, StaticModel::Ideal)
+    let Err(StaticsError::NegativeTension { cable, tension, .. }) = statics::inverse(&robot, &pose, StaticModel::Ideal)
     else {
         panic!("too near to the edge")
     };

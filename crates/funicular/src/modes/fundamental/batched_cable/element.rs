@@ -1,6 +1,6 @@
 //! Elements of several cables side by side: their matrices and the elimination of their unknowns.
 
-use super::element_integrals::{MASSES, RULES, TRIPLES};
+use super::element_integrals::{MASSES, RULES, TRIPLES, place};
 use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes, Line, Part};
 use pulp::Simd;
@@ -11,12 +11,6 @@ const COMPONENTS: usize = 4;
 
 /// Number of functions of an element at the end of most searches; room for them is reserved.
 const USUAL_FUNCTIONS: usize = 12;
-
-/// Index of an entry in a lower triangle by rows.
-#[inline(always)]
-pub(in crate::modes::fundamental) const fn place(row: usize, column: usize) -> usize {
-    row * (row + 1) / 2 + column
-}
 
 /// Elements side by side, one per lane, with their stiffness and mass over hats and bubbles.
 #[derive(Debug)]

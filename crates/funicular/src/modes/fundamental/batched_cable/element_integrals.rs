@@ -1,9 +1,14 @@
 //! Integrals of hats and bubbles over [−1, 1], and Gauss rules.
 
-use super::element::place;
 use super::{MAX_DEGREES, MAX_TERMS};
 use crate::math::legendre;
 use std::sync::LazyLock;
+
+/// Index of an entry in a lower triangle by rows.
+#[inline(always)]
+pub(in crate::modes::fundamental) const fn place(row: usize, column: usize) -> usize {
+    row * (row + 1) / 2 + column
+}
 
 /// Nonzero integrals `∫ N_a N_b dξ` of the functions of an element as (a, b ≤ a, value), by rows: hats, then bubbles.
 pub(super) struct Masses {

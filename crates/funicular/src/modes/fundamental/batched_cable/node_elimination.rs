@@ -1,6 +1,7 @@
 //! Cables of several elements: elements of all cables are computed side by side, nodes cable by cable.
 
-use super::element::{ElementBatch, place};
+use super::element::ElementBatch;
+use super::element_integrals::place;
 use super::mesh::GradedMesh;
 use super::{IN_PLANE, Kept, OUT_OF_PLANE};
 use crate::math::Matrix;

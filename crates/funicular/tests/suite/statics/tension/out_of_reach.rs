@@ -17,7 +17,7 @@ fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
             let robot = cogiro(mass, minimum - way, maximum + way);
             statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest)
         };
-        let Err(StaticsError::BeyondLimits(LimitViolation { by, minimum_of, maximum_of })) = verdict(0.0) else {
+        let Err(StaticsError::BeyondLimits(LimitViolation { by, minimum_of, maximum_of, .. })) = verdict(0.0) else {
             continue;
         };
         assert!(by > 0.0 && minimum_of.len() + maximum_of.len() > 0);
@@ -203,6 +203,6 @@ fn a_miss_always_says_which_limits_are_in_the_way() {
         let text = error.to_string();
         assert!(text.contains("because of the m") && !text.contains("because of ;"), "{far:?}: {text}");
     }
-    let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new() };
+    let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new(), obstacle: None };
     assert_eq!(silent.to_string(), "by 1.0000 N");
 }

@@ -1,0 +1,163 @@
+//! `reduce` as a state space: A, B, C, D of the modes that inputs and outputs see, with their errors.
+
+use super::reduce::{
+    ChannelRow, DEFAULT_TOLERANCE, Linearised, check, damping_in_words, input_rows, linearised, output_rows,
+};
+use super::shared::Models;
+use super::{found, frf};
+use crate::at_rest::AtRest;
+use crate::names::{ModelForm, Named};
+use crate::request;
+use anyhow::Result;
+use funicular::math::DMat;
+use funicular::reduced_model::{ControlModel, ModalStates, RequestedStateSpace, ResponseOfPair, Size, control_model};
+use serde::Serialize;
+
+/// Results of `reduce` as a state space.
+#[derive(Serialize)]
+pub struct ControlStateSpace {
+    #[serde(skip)]
+    pub robot: String,
+    pub form: &'static str,
+    pub below_hz: f64,
+    #[serde(flatten)]
+    pub models: Models,
+    pub order: usize,
+    pub error: f64,
+    pub damping_error: f64,
+    pub pointwise_error: Pointwise,
+    pub complete_order: usize,
+    pub modes_below: usize,
+    pub damping: String,
+    pub inputs: Vec<ChannelRow>,
+    pub outputs: Vec<ChannelRow>,
+    pub responses: Vec<ResponseRow>,
+    pub states: Vec<StatesRow>,
+    pub a: Vec<Vec<f64>>,
+    pub b: Vec<Vec<f64>>,
+    pub c: Vec<Vec<f64>>,
+    pub d: Vec<Vec<f64>>,
+    /// File or folder to which a front end has written the matrices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub matrices_file: Option<String>,
+    /// Model with its matrices.
+    #[serde(skip)]
+    pub model: ControlModel,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Largest error relative to the response at the same frequency.
+#[derive(Serialize)]
+pub struct Pointwise {
+    pub error: f64,
+    pub frequency_hz: f64,
+    pub output: String,
+    pub input: String,
+    pub response_over_peak: f64,
+}
+
+/// Peak and error of the response of one output to one input.
+#[derive(Serialize)]
+pub struct ResponseRow {
+    pub output: String,
+    pub input: String,
+    pub unit: String,
+    pub coupled: bool,
+    pub peak: f64,
+    pub peak_hz: f64,
+    pub error: f64,
+    pub error_hz: f64,
+}
+
+/// States of one mode. The first state has the number 0.
+#[derive(Serialize)]
+pub struct StatesRow {
+    pub first: usize,
+    pub states: usize,
+    pub frequency_hz: f64,
+    pub damping_ratio: f64,
+    pub kind: &'static str,
+    pub platform_energy_fraction: f64,
+    pub contribution: f64,
+}
+
+/// Kind of a motion that replaces the modes above the limit.
+pub const RESIDUAL: &str = "residual";
+
+/// Makes the state space for a robot at equilibrium. The state of the request is not used.
+///
+/// # Errors
+/// A signal that the robot does not have, too many modes, or a robot without such a model.
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<ControlStateSpace> {
+    let signals = check(&at_rest.robot, request)?;
+    let Linearised { dynamics, linearisation, warnings, damping_at, from, to } =
+        linearised(at_rest, request, &signals)?;
+
+    let tolerance = Size::Tolerance(request.tolerance.unwrap_or(DEFAULT_TOLERANCE));
+    let size = request.order.map_or(tolerance, Size::Order);
+    let requested = RequestedStateSpace { below_hz: request.below_hz, size, damping_at };
+    let model = control_model(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested)?;
+
+    let (inputs, outputs) = (input_rows(&signals.0), output_rows(&signals.1));
+    let response = |row: &ResponseOfPair| ResponseRow {
+        output: outputs[row.output].name.clone(),
+        input: inputs[row.input].name.clone(),
+        unit: frf::unit(&signals.0[row.input].0, &signals.1[row.output].0),
+        coupled: row.coupled,
+        peak: row.peak,
+        peak_hz: row.peak_hz,
+        error: row.error,
+        error_hz: row.error_hz,
+    };
+    Ok(ControlStateSpace {
+        robot: at_rest.robot.name.clone(),
+        form: ModelForm::StateSpace.name(),
+        below_hz: request.below_hz,
+        models: Models::of(at_rest, linearisation),
+        order: model.space.a.nrows(),
+        error: model.error,
+        damping_error: model.damping_error,
+        pointwise_error: Pointwise {
+            error: model.pointwise.error,
+            frequency_hz: model.pointwise.frequency_hz,
+            output: outputs[model.pointwise.output].name.clone(),
+            input: inputs[model.pointwise.input].name.clone(),
+            response_over_peak: model.pointwise.response,
+        },
+        complete_order: model.complete_order,
+        modes_below: model.modes_below,
+        damping: damping_in_words(model.damping_error == 0.0, damping_at),
+        responses: model.responses.iter().map(response).collect(),
+        states: model.states.iter().map(StatesRow::of).collect(),
+        a: rows(&model.space.a),
+        b: rows(&model.space.b),
+        c: rows(&model.space.c),
+        d: rows(&model.space.d),
+        inputs,
+        outputs,
+        matrices_file: None,
+        model,
+        warnings,
+    })
+}
+
+impl StatesRow {
+    fn of(states: &ModalStates) -> Self {
+        Self {
+            first: states.first,
+            states: states.states,
+            frequency_hz: states.frequency_hz,
+            damping_ratio: states.damping_ratio,
+            kind: states.kind.map_or(RESIDUAL, |kind| kind.name()),
+            platform_energy_fraction: states.platform_energy_fraction,
+            contribution: states.contribution,
+        }
+    }
+}
+
+fn rows(matrix: &DMat) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+found!(ControlStateSpace, "reduce");

@@ -1,0 +1,395 @@
+//! Figures of requests: what each command draws.
+
+use super::axis::Axis;
+use super::chart::{Chart, Entry, Layer, Panel, Sample};
+use super::drawing::{BLACK, Stroke};
+use super::space::{Shape, Space};
+use super::style::{self, GREEN, GREY, ORANGE, Symbol, VERMILION};
+use super::{Choice, Figure, Kind};
+use crate::Watch;
+use crate::analyses::{compare, frf, statics};
+use crate::at_rest::{self, AtRest};
+use crate::request::{self, Request};
+use crate::text::{counted, decimals, significant};
+use anyhow::{Result, bail};
+use funicular::cable::CableModel;
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::Dynamics;
+use funicular::math::Vec3;
+use funicular::modes::{self, Mode};
+use funicular::robot::Robot;
+
+/// Figure with its warnings.
+pub struct Made {
+    /// The figure.
+    pub figure: Figure,
+    /// Sentences that the user should know before trusting the figure.
+    pub warnings: Vec<String>,
+}
+
+/// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
+/// `modes`, magnitude and phase for `frf`, the differences between the cable models for `compare`.
+///
+/// # Errors
+/// A command without a figure, a choice that does not fit the command, or the errors of the command.
+pub fn of_request(request: &Request, robot: Robot, choice: &Choice, watch: &mut dyn Watch) -> Result<Made> {
+    if choice.mode.is_some() && !matches!(request, Request::Modes(_)) {
+        bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{}`", request.command());
+    }
+    match request {
+        Request::Statics(of) => equilibrium(robot, of),
+        Request::Modes(of) => natural_frequencies(robot, of, choice),
+        Request::Frf(of) => response(robot, of, watch),
+        Request::Compare(of) => comparison(robot, of),
+        other => bail!(
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `compare` and `plot` write .svg and .pdf; give \
+             another ending",
+            other.command()
+        ),
+    }
+}
+
+fn chart(chart: Chart, warnings: Vec<String>) -> Made {
+    Made { figure: Figure(Kind::Chart(chart)), warnings }
+}
+
+fn entry(text: impl Into<String>, sample: Sample) -> Entry {
+    Entry { text: text.into(), sample }
+}
+
+/// Robot at its equilibrium.
+fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<Made> {
+    if of.all {
+        bail!("a figure shows one equilibrium: leave out ⟪all⟫");
+    }
+    // The command's own results have the warnings.
+    let warnings = statics::run(robot.clone(), of)?.warnings;
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
+    let space = Space::new(&at_rest.robot, &at_rest.equilibrium, None, Vec::new());
+    Ok(Made { figure: Figure(Kind::Space(Box::new(space))), warnings })
+}
+
+/// Spectrum of the natural frequencies, or the shape of one mode.
+fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Choice) -> Result<Made> {
+    request::check_positive("below_hz", of.below_hz)?;
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
+    let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
+    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, of.below_hz)?;
+    modes::check_count(&dynamics, of.below_hz, modes::MAX_MODES)?;
+    let found = modes::below(&dynamics, of.below_hz);
+    warnings.extend(found.caveat());
+    let Some(number) = choice.mode else {
+        return Ok(chart(spectrum(&at_rest.robot.name, &found), warnings));
+    };
+
+    let Some(mode) = number.checked_sub(1).and_then(|k| found.modes.get(k)) else {
+        bail!(
+            "⟪figure_mode⟫ is {number}, but there {} below {} Hz: give 1 to {}, or raise ⟪below_hz⟫",
+            if found.modes.len() == 1 {
+                "is 1 mode".to_owned()
+            } else {
+                format!("are {}", counted(found.modes.len(), "mode"))
+            },
+            of.below_hz,
+            found.modes.len()
+        );
+    };
+    let moved = moved(&at_rest, &dynamics, mode)?;
+    let head = vec![format!(
+        "Mode {number}: {} Hz, {}; dashed: at equilibrium",
+        decimals(mode.frequency_hz, 3),
+        mode.kind.name()
+    )];
+    let space = Space::new(&at_rest.robot, &at_rest.equilibrium, Some(moved), head);
+    Ok(Made { figure: Figure(Kind::Space(Box::new(space))), warnings })
+}
+
+/// Kinds of modes with symbol, stroke and height of their ticks below a response. They differ in grey, too.
+fn kinds() -> [(modes::Kind, Symbol, Stroke, f64); 3] {
+    let symbol = |shape, colour| Symbol { shape, colour };
+    [
+        (modes::Kind::Cable, symbol(style::Shape::Circle, GREY), Stroke::solid(GREY, 0.5), 0.45),
+        (modes::Kind::Mixed, symbol(style::Shape::Diamond, GREEN), Stroke::solid(GREEN, 0.8), 0.75),
+        (modes::Kind::Platform, symbol(style::Shape::Square, VERMILION), Stroke::solid(VERMILION, 1.1), 1.0),
+    ]
+}
+
+/// Platform's share of the kinetic energy of every mode, over frequency.
+fn spectrum(name: &str, found: &modes::Modes) -> Chart {
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    for (kind, symbol, stroke, _) in kinds() {
+        let of_kind: Vec<&Mode> = found.modes.iter().filter(|mode| mode.kind == kind).collect();
+        if of_kind.is_empty() {
+            continue;
+        }
+        let points: Vec<(f64, f64)> =
+            of_kind.iter().map(|mode| (mode.frequency_hz, 100.0 * mode.platform_energy_fraction)).collect();
+        let stems = points.iter().flat_map(|(x, y)| [(*x, 0.0), (*x, *y), (f64::NAN, 0.0)]).collect();
+        layers.push(Layer::Line { points: stems, stroke });
+        layers.push(Layer::Symbols { points, symbol });
+        legend.push(entry(format!("{} ({})", kind.name(), of_kind.len()), Sample::Symbol(symbol)));
+    }
+    let y = Axis::linear("platform's share of energy [%]", -5.0, 105.0)
+        .with_labels([0, 25, 50, 75, 100].map(|share| (f64::from(share), share.to_string())).to_vec());
+    Chart {
+        title: format!("{name}: natural frequencies"),
+        x: Axis::linear("natural frequency [Hz]", 0.0, found.below_hz),
+        panels: vec![Panel::new(y, 0.42, layers)],
+        legend,
+        colour_bar: None,
+    }
+}
+
+/// Largest displacement of a drawn mode, relative to the diagonal of the robot.
+const REACH: f64 = 0.06;
+/// Maximum slope of a drawn wave along a cable, and maximum rotation of the platform [rad]: with more, linear rotation
+/// visibly distorts the platform.
+const MAX_SLOPE: f64 = 0.9;
+const MAX_TURN: f64 = 0.3;
+/// Number of drawn points per half wave of the cable with most waves, and minimum number along a cable.
+const PER_HALF_WAVE: f64 = 12.0;
+const MIN_STATIONS: usize = 65;
+const MAX_STATIONS: usize = 2001;
+
+/// Shape of the robot in a mode, enlarged so that the motion is visible.
+fn moved(at_rest: &AtRest, dynamics: &Dynamics, mode: &Mode) -> Result<Shape> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    let half_waves = equilibrium
+        .cables
+        .iter()
+        .enumerate()
+        .map(|(i, state)| {
+            let string_hz = funicular::cable::Sag::of(robot, i, state).string_frequency_hz();
+            if string_hz > 0.0 { mode.frequency_hz / string_hz } else { 0.0 }
+        })
+        .fold(0.0, f64::max);
+    let count = ((PER_HALF_WAVE * half_waves).min(1e6) as usize).clamp(MIN_STATIONS, MAX_STATIONS);
+    let fractions: Vec<f64> = (0..count).map(|k| k as f64 / (count - 1) as f64).collect();
+
+    let (mut points, mut motions) = (Vec::new(), Vec::new());
+    for i in 0..robot.cables.len() {
+        let stations = CableStations::new(robot, equilibrium, dynamics, i, &fractions, false)?;
+        let axes = [stations.axes.e, stations.axes.n, stations.axes.b];
+        let world = |u: [f64; 3]| axes[0] * u[0] + axes[1] * u[1] + axes[2] * u[2];
+        motions.push(stations.in_mode(dynamics, mode).into_iter().map(world).collect::<Vec<Vec3>>());
+        points.push(stations.points_w);
+    }
+    let s = mode.shape;
+    let (shift, turn) = (Vec3::new(s[0], s[1], s[2]), Vec3::new(s[3], s[4], s[5]));
+    let rigid = |p: Vec3| shift + turn.cross(&(p - equilibrium.pose.position_w));
+    let corners: Vec<Vec3> = equilibrium.cables.iter().map(|state| state.attachment_w).collect();
+    let centre = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
+
+    // The amplitude at which the first of the three limits is reached.
+    let largest = motions.iter().flatten().copied().chain(corners.iter().map(|p| rigid(*p)));
+    let largest = largest.fold(0.0_f64, |most, u| most.max(u.norm()));
+    let mut steepest: f64 = 0.0;
+    for (line, u) in points.iter().zip(&motions) {
+        for k in 1..line.len() {
+            steepest = steepest.max((u[k] - u[k - 1]).norm() / (line[k] - line[k - 1]).norm());
+        }
+    }
+    let everything: Vec<Vec3> = points.iter().flatten().copied().collect();
+    let diagonal = crate::pages::figure::robot::extent(&everything);
+    let limit = |most: f64, of: f64| if of > 0.0 { most / of } else { f64::INFINITY };
+    let amplitude = limit(REACH * diagonal, largest).min(limit(MAX_SLOPE, steepest)).min(limit(MAX_TURN, turn.norm()));
+    let amplitude = if amplitude.is_finite() { amplitude } else { 0.0 };
+
+    let cables = points.into_iter().zip(motions);
+    Ok(Shape {
+        cables: cables.map(|(line, u)| line.into_iter().zip(u).map(|(p, u)| p + u * amplitude).collect()).collect(),
+        corners: corners.into_iter().map(|p| p + rigid(p) * amplitude).collect(),
+        mass_centre: centre + rigid(centre) * amplitude,
+    })
+}
+
+/// Maximum number of natural frequencies marked in a response; more would be a grey band.
+const MAX_MARKS: usize = 400;
+/// Maximum range of a magnitude; a lower value leaves the figure at the bottom.
+const MAX_DECADES: f64 = 8.0;
+/// Minimum distance between the numbers at two peaks, as a fraction of the axis.
+const LABEL_DISTANCE: f64 = 0.05;
+
+/// Magnitude and phase of a frequency response, with its natural frequencies.
+fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Made> {
+    // A curve has every peak at its height, whatever the requested frequencies.
+    let found = frf::run(robot.clone(), &request::FrfRequest { adaptive: true, ..of.clone() }, watch)?;
+    let mut warnings = found.warnings.clone();
+    let [pair] = &found.responses[..] else {
+        bail!("a figure shows one response: give one ⟪input⟫ and one ⟪output⟫, or write .csv or .json");
+    };
+    let (marks, caveat) = marks(robot, of)?;
+    warnings.extend(caveat);
+    let hz = &found.frequency_hz;
+    let (first, last) = (of.range.from_hz, of.range.to_hz);
+    let x_axis = || {
+        if of.range.log {
+            Axis::logarithmic("frequency [Hz]", first, last)
+        } else {
+            Axis::linear("frequency [Hz]", first, last)
+        }
+    };
+
+    // Magnitude. Its range leaves out the first twentieth of an even axis, where an accelerance falls to zero.
+    let magnitude: Vec<(f64, f64)> =
+        hz.iter().zip(pair.real.iter().zip(&pair.imag)).map(|(f, (re, im))| (*f, re.hypot(*im))).collect();
+    let counts = |f: f64| of.range.log || f > first + 0.05 * (last - first);
+    let shown = || magnitude.iter().filter(|(f, m)| counts(*f) && *m > 0.0).map(|(_, m)| *m);
+    let high = shown().fold(0.0, f64::max);
+    let low = shown().fold(f64::INFINITY, f64::min).max(high / 10_f64.powf(MAX_DECADES));
+    let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
+    let peaks = labelled_peaks(&pair.peaks, &x_axis());
+    // Numbers stand above the peaks.
+    let above = if peaks.is_empty() { 0.06 } else { 0.3 };
+    let room = (high / low).log10().max(0.5);
+    let y = Axis::logarithmic(
+        format!("magnitude [{}]", pair.unit),
+        low * 10_f64.powf(-0.05 * room),
+        high * 10_f64.powf(above * room),
+    );
+    let curve = style::curve(0);
+    let mut magnitude_layers = vec![Layer::Line { points: magnitude, stroke: curve.clone() }];
+    magnitude_layers.push(Layer::Upright { texts: peaks, colour: BLACK });
+
+    // Phase in (−180°, 180°], with gaps where it wraps, so that no line crosses the figure.
+    let mut phase: Vec<(f64, f64)> = Vec::new();
+    for (f, (re, im)) in hz.iter().zip(pair.real.iter().zip(&pair.imag)) {
+        let degrees = im.atan2(*re).to_degrees();
+        // An undamped response is real; the sign of its zero imaginary part has no meaning.
+        let degrees = if degrees <= -179.99 { 180.0 } else { degrees };
+        if phase.last().is_some_and(|(_, before)| (degrees - before).abs() > 270.0) {
+            phase.push((f64::NAN, f64::NAN));
+        }
+        phase.push((*f, degrees));
+    }
+    let phase_axis = Axis::linear("phase [°]", -190.0, 190.0).with_labels(
+        [-180, -90, 0, 90, 180].map(|angle: i32| (f64::from(angle), angle.to_string().replace('-', "−"))).to_vec(),
+    );
+    let mut panels = vec![
+        Panel::new(y, 0.5, magnitude_layers),
+        Panel::new(phase_axis, 0.24, vec![Layer::Line { points: phase, stroke: curve.clone() }]),
+    ];
+
+    // Natural frequencies below, by kind.
+    let mut legend = vec![entry(format!("{} / {}", pair.output, pair.input), Sample::Line(curve))];
+    let mut stems = Vec::new();
+    for (kind, _, stroke, height) in kinds() {
+        let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == kind).map(|mode| mode.frequency_hz).collect();
+        if !x.iter().any(|x| (first..=last).contains(x)) {
+            continue;
+        }
+        legend.push(entry(format!("{} mode", kind.name()), Sample::Stem(stroke.clone())));
+        stems.push(Layer::Stems { x, from: 0.0, to: height, stroke });
+    }
+    if !stems.is_empty() {
+        panels.push(Panel { bare: true, ..Panel::new(Axis::linear("", 0.0, 1.0), 0.05, stems) });
+    }
+    Ok(chart(
+        Chart {
+            title: format!("{}: response of {} to {}", found.robot, pair.output, pair.input),
+            x: x_axis(),
+            panels,
+            legend,
+            colour_bar: None,
+        },
+        warnings,
+    ))
+}
+
+/// Natural frequencies up to the end of a response, and the reason if they are not marked.
+fn marks(robot: Robot, of: &request::FrfRequest) -> Result<(Vec<Mode>, Option<String>)> {
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
+    let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
+    let (dynamics, _) = at_rest.dynamics(linearisation, of.range.to_hz)?;
+    if let Err(too_many) = modes::check_count(&dynamics, of.range.to_hz, MAX_MARKS) {
+        return Ok((Vec::new(), Some(format!("natural frequencies are not marked: {too_many}"))));
+    }
+    let found = modes::below(&dynamics, of.range.to_hz);
+    let caveat = found.caveat();
+    Ok((found.modes, caveat))
+}
+
+/// Most prominent peaks at a minimum distance from each other, with their frequencies.
+fn labelled_peaks(peaks: &[frf::PeakRow], x: &Axis) -> Vec<(f64, f64, String)> {
+    let mut order: Vec<&frf::PeakRow> = peaks.iter().collect();
+    order.sort_by(|a, b| b.prominence_db.total_cmp(&a.prominence_db));
+    let mut kept: Vec<&frf::PeakRow> = Vec::new();
+    for peak in order {
+        let apart = |other: &&frf::PeakRow| {
+            (x.fraction(peak.frequency_hz) - x.fraction(other.frequency_hz)).abs() > LABEL_DISTANCE
+        };
+        if kept.iter().all(apart) {
+            kept.push(peak);
+        }
+    }
+    kept.iter().map(|peak| (peak.frequency_hz, peak.magnitude, significant(peak.frequency_hz, 3))).collect()
+}
+
+/// Smallest difference that is drawn [%]; smaller ones are drawn at this value.
+const MIN_DIFFERENCE: f64 = 1e-4;
+/// Position of modes that a model lacks [%], and the ratio between the lines of two models.
+const LACKING: f64 = 60.0;
+const LINE: f64 = 1.8;
+
+/// Differences between the natural frequencies of each cable model and those of the reference.
+fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<Made> {
+    let found = compare::run(robot, of)?;
+    let reference = found.models.iter().find(|model| model.cable_model == found.reference);
+    let all: Vec<f64> = reference.map_or_else(Vec::new, |model| model.modes.iter().map(|m| m.frequency_hz).collect());
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let tolerance = 100.0 * found.tolerance;
+    let limit = Stroke { colour: GREY, width: 0.7, dashes: vec![1.0, 1.5] };
+    layers.push(Layer::Line { points: vec![(0.0, tolerance), (found.below_hz, tolerance)], stroke: limit.clone() });
+
+    let mut highest = LACKING;
+    let mut lacking_any = false;
+    let others = found.models.iter().filter(|model| model.cable_model != found.reference && model.error.is_none());
+    for model in others {
+        let symbol = of_model(model.cable_model);
+        let points = model
+            .matches
+            .iter()
+            .map(|of| (of.reference_hz, (100.0 * of.relative_difference.abs()).max(MIN_DIFFERENCE)));
+        layers.push(Layer::Symbols { points: points.collect(), symbol });
+        legend.push(entry(model.cable_model, Sample::Symbol(symbol)));
+        highest *= LINE;
+        let has = |index: usize| model.matches.iter().any(|of| of.reference_index == index);
+        let lacking: Vec<(f64, f64)> =
+            all.iter().enumerate().filter(|(i, _)| !has(*i)).map(|(_, hz)| (*hz, highest)).collect();
+        lacking_any |= !lacking.is_empty();
+        layers.push(Layer::Symbols { points: lacking, symbol: Symbol { shape: style::Shape::Cross, ..symbol } });
+    }
+    legend.push(entry(format!("{} %", significant(tolerance, 2)), Sample::Line(limit)));
+    if lacking_any {
+        let cross = Symbol { shape: style::Shape::Cross, colour: BLACK };
+        legend.push(entry("mode that the model of this colour lacks", Sample::Symbol(cross)));
+    }
+    let y = Axis::logarithmic("difference [%]", 0.7 * MIN_DIFFERENCE, highest * LINE).with_labels(
+        [(1e-4, "≤ 10^{−4}"), (1e-3, "10^{−3}"), (1e-2, "0.01"), (0.1, "0.1"), (1.0, "1"), (10.0, "10")]
+            .map(|(at, text)| (at, text.to_owned()))
+            .to_vec(),
+    );
+    let warnings = found.warnings;
+    Ok(chart(
+        Chart {
+            title: format!("{}: cable models", found.robot),
+            x: Axis::linear("natural frequency [Hz]", 0.0, found.below_hz),
+            panels: vec![Panel::new(y, 0.55, layers)],
+            legend,
+            colour_bar: None,
+        },
+        warnings,
+    ))
+}
+
+/// Symbol of a cable model, in the colours of the report.
+fn of_model(name: &str) -> Symbol {
+    let (shape, colour) = match CableModel::ALL.into_iter().find(|model| model.name() == name) {
+        Some(CableModel::ShallowDynamic) => (style::Shape::Circle, style::BLUE),
+        Some(CableModel::ShallowStatic) => (style::Shape::Square, ORANGE),
+        Some(CableModel::Spring) => (style::Shape::Triangle, GREEN),
+        Some(CableModel::CatenaryStatic) => (style::Shape::Diamond, style::PURPLE),
+        Some(CableModel::CatenaryDynamic) | None => (style::Shape::HollowCircle, BLACK),
+    };
+    Symbol { shape, colour }
+}

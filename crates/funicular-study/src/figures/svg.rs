@@ -1,0 +1,106 @@
+//! Drawings as SVG.
+//!
+//! Texts stay texts, in the sans serif fonts that journals ask for; a program for drawings can edit them. Arial and
+//! Helvetica are narrower than the font whose widths place the texts, so that no text overlaps another.
+
+use super::drawing::{Colour, Drawing, Item, Path, RAISED, Text};
+use std::fmt::Write as _;
+
+const FAMILY: &str = "Arial, Helvetica, 'Liberation Sans', 'Noto Sans', sans-serif";
+/// Millimetres per point.
+const MM: f64 = 25.4 / 72.0;
+
+/// Text of the SVG file.
+pub(crate) fn svg(drawing: &Drawing) -> String {
+    let Drawing { width, height, .. } = *drawing;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\" \
+         font-family=\"{FAMILY}\" stroke-linejoin=\"round\">\n<title>{}</title>\n<rect width=\"{}\" height=\"{}\" \
+         fill=\"#ffffff\"/>\n",
+        number(width * MM),
+        number(height * MM),
+        number(width),
+        number(height),
+        escaped(&drawing.title),
+        number(width),
+        number(height),
+    );
+    for item in &drawing.items {
+        match item {
+            Item::Path(path) => path_element(&mut out, path),
+            Item::Text(text) => text_element(&mut out, text),
+        }
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+fn path_element(out: &mut String, path: &Path) {
+    out.push_str("<path d=\"");
+    for line in &path.lines {
+        for (i, point) in line.iter().enumerate() {
+            let step = if i == 0 { "M" } else { "L" };
+            let _ = write!(out, "{step}{} {}", number(point[0]), number(point[1]));
+        }
+        if path.closed {
+            out.push('Z');
+        }
+    }
+    let _ = write!(out, "\" fill=\"{}\"", path.fill.map_or_else(|| "none".to_owned(), hex));
+    if let Some(stroke) = &path.stroke {
+        let _ = write!(out, " stroke=\"{}\" stroke-width=\"{}\"", hex(stroke.colour), number(stroke.width));
+        if !stroke.dashes.is_empty() {
+            let dashes: Vec<String> = stroke.dashes.iter().map(|length| number(*length)).collect();
+            let _ = write!(out, " stroke-dasharray=\"{}\"", dashes.join(" "));
+        }
+    }
+    out.push_str("/>\n");
+}
+
+fn text_element(out: &mut String, text: &Text) {
+    let (x, y) = (number(text.at[0]), number(text.at[1]));
+    let _ = write!(out, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" fill=\"{}\"", number(text.size), hex(text.colour));
+    if text.angle != 0.0 {
+        let _ = write!(out, " transform=\"rotate({} {x} {y})\"", number(-text.angle));
+    }
+    out.push('>');
+    let mut rise = 0.0;
+    for (run, raised) in &text.label.0 {
+        let wanted = if *raised { RAISED.1 * text.size } else { 0.0 };
+        if *raised || rise != wanted {
+            let size = if *raised { RAISED.0 * text.size } else { text.size };
+            let _ = write!(out, "<tspan dy=\"{}\" font-size=\"{}\">", number(rise - wanted), number(size));
+            let _ = write!(out, "{}</tspan>", escaped(run));
+            rise = wanted;
+        } else {
+            out.push_str(&escaped(run));
+        }
+    }
+    out.push_str("</text>\n");
+}
+
+/// Number with two decimals, a hundredth of a point, without zeros at the end.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn hex([r, g, b]: Colour) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// Text of an element. Control characters, which XML cannot hold, are left out.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for letter in text.chars() {
+        match letter {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            letter if letter.is_control() => {}
+            letter => out.push(letter),
+        }
+    }
+    out
+}

@@ -1,0 +1,342 @@
+//! Modes from which a state space is chosen: damped modes of the second-order model below a frequency, and a few motions
+//! that replace all modes above it.
+//!
+//! In undamped modes of unit modal mass the model is `q̈ + C q̇ + Ω² q = B f`, `y = L q`. Its dynamic stiffness
+//! `D(s) = Ω² + s C + s²` is symmetric, so that the left eigenvectors are the right ones, for any damping. The eigenvalues
+//! with viscous damping are the starts of those with constant damping ratios (docs/theory.md, section 13).
+
+use super::SecondOrder;
+use super::reference::Reference;
+use crate::math::eigenvectors::upper_eigen;
+use crate::math::{CDMat, Complex, DMat};
+
+/// Maximum number of modes that are chosen from: the eigenvalue problem has twice as many rows. A controller for more
+/// is not made.
+const MAX_CANDIDATES: usize = 200;
+/// Fraction of the requested error that modes below this size may make in sum. They are left out at once.
+const NEGLIGIBLE: f64 = 0.01;
+/// Relative size of a motion, among those that replace the higher modes, below which it is left out.
+const INDEPENDENT: f64 = 1e-8;
+/// Relative distance of eigenvalues, in half widths of the peak, below which they are one multiple eigenvalue.
+/// Rounding separates them by about 1e-9.
+pub(super) const MULTIPLE: f64 = 1e-6;
+/// Fraction of the energy of motions that replace higher modes, from which a mode is one of them.
+const RESIDUAL_SHARE: f64 = 0.5;
+
+/// Undamped modes of a second-order model, ascending in frequency, of unit modal mass.
+pub(super) struct ModalModel {
+    /// Angular frequencies [rad/s].
+    omega: Vec<f64>,
+    /// Damping `ΦᵀCΦ` [1/s].
+    damping: DMat,
+    /// Input `ΦᵀB`, modes×inputs.
+    input: DMat,
+    /// Output `LΦ`, outputs×modes.
+    output: DMat,
+    /// Viscous part of the damping [1/s].
+    viscous: DMat,
+    /// Constant damping ratios `Ξ = ΦᵀRΦ`, which act as `2ω²Ξ`.
+    ratios: DMat,
+    /// Form of the platform's kinetic energy, `ΦᵀM_pΦ`.
+    platform: DMat,
+    /// True for a motion that replaces higher modes.
+    residual: Vec<bool>,
+}
+
+impl ModalModel {
+    /// Modes of a model; `None` if its stiffness is not positive definite. `viscous` is its damping without
+    /// that of constant ratios, whose matrix R is `ratios`; `platform_mass` is the mass matrix of the platform alone,
+    /// over the first coordinates.
+    pub(super) fn new(model: &SecondOrder, viscous: &DMat, ratios: &DMat, platform_mass: &DMat) -> Option<Self> {
+        // K is factored and not M: the low frequencies then are the largest eigenvalues and keep all their digits.
+        let factor = model.stiffness.clone().cholesky()?.l();
+        let half = factor.solve_lower_triangular(&model.mass)?;
+        let flexible = factor.solve_lower_triangular(&half.transpose())?;
+        let eigen = crate::math::symmetric_part(&flexible).symmetric_eigen();
+
+        // Ascending in frequency, which is descending in 1/ω².
+        let n = model.mass.nrows();
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        let smallest = f64::EPSILON * eigen.eigenvalues[*order.first()?];
+        let omega: Vec<f64> = order.iter().map(|k| eigen.eigenvalues[*k].max(smallest).sqrt().recip()).collect();
+        let mut sorted = DMat::zeros(n, n);
+        for (k, from) in order.iter().enumerate() {
+            sorted.column_mut(k).copy_from(&(eigen.eigenvectors.column(*from) * omega[k]));
+        }
+        let phi = factor.transpose().solve_upper_triangular(&sorted)?;
+
+        let at_platform = phi.rows(0, platform_mass.nrows());
+        Some(Self {
+            damping: phi.transpose() * &model.damping * &phi,
+            viscous: phi.transpose() * viscous * &phi,
+            ratios: phi.transpose() * ratios * &phi,
+            input: phi.transpose() * &model.input,
+            output: &model.output * &phi,
+            platform: at_platform.transpose() * platform_mass * at_platform,
+            residual: vec![false; n],
+            omega,
+        })
+    }
+
+    /// Modes below `limit` [rad/s] that the inputs and outputs see, and in place of all modes above it the motions that
+    /// keep the value and the slope of their responses at zero frequency. `tolerance` is the error that is wanted.
+    pub(super) fn candidates(&self, limit: f64, reference: &Reference, tolerance: f64) -> Self {
+        let below = self.omega.iter().filter(|omega| **omega < limit).count();
+        let seen = self.seen(below, reference, tolerance);
+        let higher = self.residual_motions(below, reference);
+
+        // Basis over all modes: single modes, then motions of the higher modes.
+        let n = self.omega.len();
+        let mut basis = DMat::zeros(n, seen.len() + higher.ncols());
+        for (k, mode) in seen.iter().enumerate() {
+            basis[(*mode, k)] = 1.0;
+        }
+        basis.view_mut((below, seen.len()), (n - below, higher.ncols())).copy_from(&higher);
+
+        let mut omega: Vec<f64> = seen.iter().map(|mode| self.omega[*mode]).collect();
+        omega.extend((0..higher.ncols()).map(|k| {
+            let square: f64 = (below..n).map(|j| (self.omega[j] * higher[(j - below, k)]).powi(2)).sum();
+            square.sqrt()
+        }));
+        Self {
+            damping: basis.transpose() * &self.damping * &basis,
+            viscous: basis.transpose() * &self.viscous * &basis,
+            ratios: basis.transpose() * &self.ratios * &basis,
+            input: basis.transpose() * &self.input,
+            output: &self.output * &basis,
+            platform: basis.transpose() * &self.platform * &basis,
+            residual: (0..basis.ncols()).map(|k| k >= seen.len()).collect(),
+            omega,
+        }
+    }
+
+    /// The first modes, `below` in number, without those that no input and output see.
+    fn seen(&self, below: usize, reference: &Reference, tolerance: f64) -> Vec<usize> {
+        let last_hz = reference.frequencies_hz.last().expect("there are frequencies");
+        let limit = last_hz * std::f64::consts::TAU;
+
+        // Height of each mode's peak relative to the peak of a pair, the largest over all pairs.
+        let outputs = self.output.nrows();
+        let mut sized: Vec<(f64, usize)> = (0..below)
+            .map(|k| {
+                let (omega, loss) = (self.omega[k], self.damping[(k, k)]);
+                let at = omega.min(limit);
+                let amplification = 1.0 / ((omega * omega - at * at).hypot(at * loss)).max(f64::MIN_POSITIVE);
+                let height = |pair: usize| {
+                    let product = self.output[(pair % outputs, k)] * self.input[(k, pair / outputs)];
+                    let derivatives = super::reference::derivatives(reference.quantity(pair)) as i32;
+                    product.abs() * amplification * at.powi(derivatives) / reference.sizes[pair]
+                };
+                ((0..reference.pairs()).map(height).fold(0.0, f64::max), k)
+            })
+            .collect();
+        sized.sort_by(|a, b| b.0.total_cmp(&a.0));
+        sized.truncate(MAX_CANDIDATES);
+
+        let mut sum = 0.0;
+        while let Some((size, _)) = sized.last() {
+            sum += size;
+            if sum > NEGLIGIBLE * tolerance {
+                break;
+            }
+            sized.pop();
+        }
+        let mut modes: Vec<usize> = sized.into_iter().map(|(_, mode)| mode).collect();
+        modes.sort_unstable();
+        modes
+    }
+
+    /// Motions of the modes from number `below` on that the inputs excite slowly and the outputs measure, as columns
+    /// that are modes among themselves.
+    fn residual_motions(&self, below: usize, reference: &Reference) -> DMat {
+        let count = self.omega.len() - below;
+        let (inputs, outputs) = (self.input.ncols(), self.output.nrows());
+        if count == 0 {
+            return DMat::zeros(0, 0);
+        }
+
+        let motions = DMat::from_fn(count, inputs + outputs, |j, k| {
+            let mode = below + j;
+            let by = if k < inputs {
+                self.input[(mode, k)] / reference.input_scale[k]
+            } else {
+                self.output[(k - inputs, mode)] / reference.output_scale[k - inputs]
+            };
+            by / (self.omega[mode] * self.omega[mode])
+        });
+        // Each input and each output counts as much as any other.
+        let equal: Vec<_> = motions.column_iter().filter(|m| m.norm() > 0.0).map(|m| m.normalize()).collect();
+        if equal.is_empty() {
+            return DMat::zeros(count, 0);
+        }
+        let decomposed = DMat::from_columns(&equal).svd(true, false);
+        let all = decomposed.u.expect("it was requested");
+        let largest = decomposed.singular_values.max();
+        let independent: Vec<_> = (0..all.ncols())
+            .filter(|k| decomposed.singular_values[*k] > INDEPENDENT * largest)
+            .map(|k| all.column(k).into_owned())
+            .collect();
+        let span = DMat::from_columns(&independent);
+
+        // Rayleigh and Ritz: the motions that are modes among themselves.
+        let scaled = DMat::from_fn(count, span.ncols(), |j, k| self.omega[below + j] * span[(j, k)]);
+        let eigen = (scaled.transpose() * &scaled).symmetric_eigen();
+        span * eigen.eigenvectors
+    }
+
+    /// Damped modes, each with its residues. Equal eigenvalues are one of them. `None` if the eigenvalue problem cannot
+    /// be solved.
+    pub(super) fn damped(&self) -> Option<Vec<DampedPair>> {
+        let p = self.omega.len();
+        let mut state = DMat::zeros(2 * p, 2 * p);
+        for k in 0..p {
+            (state[(k, p + k)], state[(p + k, k)]) = (self.omega[k], -self.omega[k]);
+        }
+        state.view_mut((p, p), (p, p)).copy_from(&(-&self.damping));
+        let eigen = upper_eigen(&state)?;
+
+        // Groups of equal eigenvalues, in the order of their imaginary and then their real parts.
+        let mut order: Vec<usize> = (0..eigen.values.len()).collect();
+        let key = |k: &usize| (eigen.values[*k].im, eigen.values[*k].re);
+        order.sort_by(|a, b| {
+            let ((a, r), (b, s)) = (key(a), key(b));
+            a.total_cmp(&b).then(r.total_cmp(&s))
+        });
+        let groups = order.chunk_by(|a, b| {
+            let (a, b) = (eigen.values[*a], eigen.values[*b]);
+            (a - b).norm() <= MULTIPLE * a.re.abs() && (a.im > 0.0) == (b.im > 0.0)
+        });
+        groups.map(|group| self.pair(&eigen.values, &eigen.vectors, group)).collect()
+    }
+
+    /// Residues of the eigenvalues of one group, `R = L X (Xᵀ D'(λ) X)⁻¹ Xᵀ B` with the motions X.
+    fn pair(&self, values: &[Complex], vectors: &CDMat, group: &[usize]) -> Option<DampedPair> {
+        let p = self.omega.len();
+
+        // Motions q of the states (Ω q, q̇).
+        let mut found = values[group[0]];
+        let mut motions = CDMat::zeros(p, group.len());
+        for (k, at) in group.iter().enumerate() {
+            let start = CDMat::from_fn(p, 1, |i, _| vectors[(i, *at)] / self.omega[i]);
+            let (value, motion) = self.with_constant_ratios(values[*at], start);
+            motions.column_mut(k).copy_from(&motion.column(0));
+            found = value;
+        }
+
+        let slope = self.slope(found);
+        let weights = (motions.transpose() * slope * &motions).lu();
+        let row = weights.solve(&(motions.transpose() * self.input.map(Complex::from)))?;
+        let residue = self.output.map(Complex::from) * &motions * row;
+
+        // Kinetic energy of the platform and of the motions that replace higher modes, over all of it.
+        let all = motions.norm_squared().max(f64::MIN_POSITIVE);
+        let platform = (motions.adjoint() * self.platform.map(Complex::from) * &motions).trace().re;
+        let residual: f64 = (0..p).filter(|i| self.residual[*i]).map(|i| motions.row(i).norm_squared()).sum();
+        Some(DampedPair {
+            value: stable(found),
+            residue,
+            platform: (platform / all).clamp(0.0, 1.0),
+            is_residual: residual > RESIDUAL_SHARE * all,
+        })
+    }
+
+    /// Dynamic stiffness `D(s) = Ω² + s C + s² (1 − 2iΞ)` for an oscillation, with the constant ratios. For a decay
+    /// without oscillation, to which no ratio belongs, with the viscous damping that replaces them.
+    fn dynamic_stiffness(&self, s: Complex) -> CDMat {
+        let (viscous, loss) = self.losses(s);
+        let mut stiffness = viscous.zip_map(&self.ratios, |c, ratio| s * c + s * s * loss * ratio);
+        for (k, omega) in self.omega.iter().enumerate() {
+            stiffness[(k, k)] += omega * omega + s * s;
+        }
+        stiffness
+    }
+
+    /// Derivative of the dynamic stiffness by s.
+    fn slope(&self, s: Complex) -> CDMat {
+        let (viscous, loss) = self.losses(s);
+        let mut slope = viscous.zip_map(&self.ratios, |c, ratio| c + 2.0 * s * loss * ratio);
+        for k in 0..self.omega.len() {
+            slope[(k, k)] += 2.0 * s;
+        }
+        slope
+    }
+
+    /// Viscous damping at s, and the factor of the constant ratios.
+    fn losses(&self, s: Complex) -> (&DMat, Complex) {
+        if s.im > 0.0 { (&self.viscous, Complex::new(0.0, -2.0)) } else { (&self.damping, 0.0.into()) }
+    }
+
+    /// Eigenvalue and motion with constant damping ratios, from those with the viscous damping that replaces them:
+    /// inverse iteration and the symmetric Rayleigh quotient.
+    fn with_constant_ratios(&self, start: Complex, motion: CDMat) -> (Complex, CDMat) {
+        // A larger change than this part of the half width is another mode.
+        const MAX_CHANGE: f64 = 0.5;
+        // Each step needs an elimination; the second one matters if modes are close.
+        let steps = if self.omega.len() > 100 { 1 } else { 2 };
+        if start.im <= 0.0 || self.ratios.amax() == 0.0 {
+            return (start, motion);
+        }
+
+        let (mut value, mut found) = (start, motion.clone());
+        for _ in 0..steps {
+            let right = self.slope(value) * &found;
+            let Some(solved) = self.dynamic_stiffness(value).lu().solve(&right) else { break };
+            let size = solved.norm();
+            if !(size.is_finite() && size > 0.0) {
+                break;
+            }
+            found = solved.unscale(size);
+
+            // Newton's steps of xᵀ D(s) x = 0.
+            for _ in 0..3 {
+                let product = |matrix: CDMat| (found.transpose() * matrix * &found)[(0, 0)];
+                value -= product(self.dynamic_stiffness(value)) / product(self.slope(value));
+            }
+        }
+        let change = (value - start).norm();
+        if change.is_finite() && change <= MAX_CHANGE * start.re.abs() { (value, found) } else { (start, motion) }
+    }
+}
+
+/// Eigenvalue with a decay. Rounding may take it from motions above the limit that hardly have damping.
+fn stable(value: Complex) -> Complex {
+    const MIN_RATIO: f64 = 1e-9;
+    Complex::new(value.re.min(-MIN_RATIO * value.norm()), value.im)
+}
+
+/// Eigenvalue λ with its conjugate, or a real eigenvalue, and its part `R/(s − λ)` of the receptances.
+#[derive(Clone)]
+pub(super) struct DampedPair {
+    pub(super) value: Complex,
+    /// Residues of displacements, outputs×inputs.
+    pub(super) residue: CDMat,
+    /// Fraction of the kinetic energy that the platform has.
+    pub(super) platform: f64,
+    /// True for a motion that replaces modes above the limit.
+    pub(super) is_residual: bool,
+}
+
+/// Joins neighbours whose eigenvalues differ by less than `width` half widths of their peaks.
+pub(super) fn joined(pairs: &[DampedPair], width: f64) -> Vec<DampedPair> {
+    let mut joined: Vec<(DampedPair, Complex)> = Vec::new();
+    for pair in pairs {
+        // The eigenvalue of a group stays near its first one.
+        match joined.last_mut() {
+            Some((last, first))
+                if last.value.im > 0.0
+                    && pair.value.im > 0.0
+                    && (pair.value - *first).norm() <= width * first.re.abs()
+                    && pair.is_residual == last.is_residual =>
+            {
+                let (a, b) = (last.residue.norm(), pair.residue.norm());
+                let share = if a + b > 0.0 { b / (a + b) } else { 0.5 };
+                last.value += (pair.value - last.value) * share;
+                last.platform += (pair.platform - last.platform) * share;
+                last.residue += &pair.residue;
+            }
+            _ => joined.push((pair.clone(), pair.value)),
+        }
+    }
+    joined.into_iter().map(|(pair, _)| pair).collect()
+}

@@ -1,0 +1,602 @@
+//! Frequencies at which a response is drawn with the true height of every peak, and the peaks that a given grid misses.
+//!
+//! Between two frequencies a drawn curve is a straight line over the logarithm of the magnitude. The search starts from
+//! a grid, from the natural frequencies and from points around these at multiples of their half widths. Then it halves
+//! every interval whose middle is not on its line. The natural frequencies are known, so that no resonance is narrower
+//! than the intervals in which the halving begins.
+
+use super::{Peak, peaks};
+use crate::math::Complex;
+use crate::modes::Mode;
+use std::f64::consts::TAU;
+use std::iter::once;
+
+/// Value of one response at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Response.
+    pub value: Complex,
+    /// Magnitude below which rounding hides the response. It is not resolved there.
+    pub floor: f64,
+}
+
+/// Accuracy of a resolved curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
+    /// Maximum relative error of the magnitude if its logarithm is interpolated between neighbouring frequencies.
+    pub tolerance: f64,
+    /// Maximum number of frequencies at which responses are computed.
+    pub max_points: usize,
+}
+
+impl Default for Resolution {
+    /// 1 % (0.09 dB) and at most 200,000 frequencies, which take about a second.
+    fn default() -> Self {
+        Self { tolerance: 0.01, max_points: 200_000 }
+    }
+}
+
+/// Responses at frequencies that resolve all of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolved {
+    /// Frequencies [Hz], ascending.
+    pub frequencies_hz: Vec<f64>,
+    /// Values per response, one per frequency.
+    pub values: Vec<Vec<Complex>>,
+    /// Undamped natural frequencies in the range [Hz]. The curves have gaps there.
+    pub undamped_hz: Vec<f64>,
+    /// Number of intervals that the limit of points has left coarser than the tolerance.
+    pub unresolved: usize,
+    /// Edges of the gaps: indices of neighbouring frequencies.
+    gaps: Vec<(usize, usize)>,
+}
+
+impl Resolved {
+    /// Peaks of response `i` with at least the given prominence [dB], ascending in frequency. Each has the frequency
+    /// and the magnitude of the maximum. Undamped resonances have no finite height and are left out.
+    pub fn peaks(&self, i: usize, min_prominence_db: f64) -> Vec<Peak> {
+        let beside_gap = |at: usize| self.gaps.iter().any(|(left, right)| at == *left || at == *right);
+        peaks::tops(&self.values[i], min_prominence_db)
+            .into_iter()
+            .filter(|top| !beside_gap(top.at))
+            .map(|top| Peak {
+                frequency_hz: self.frequencies_hz[top.at],
+                prominence_db: top.prominence_db,
+                magnitude: self.values[i][top.at].norm(),
+            })
+            .collect()
+    }
+
+    /// Undamped resonances of response `i` [Hz]: those undamped natural frequencies at which its magnitude grows
+    /// without bound.
+    pub fn undamped_resonances_hz(&self, i: usize) -> Vec<f64> {
+        let magnitude = |at: usize| self.values[i][at].norm();
+        let grows = |(left, right): &(usize, usize)| {
+            *left > 0
+                && *right + 1 < self.frequencies_hz.len()
+                && magnitude(*left) > magnitude(left - 1)
+                && magnitude(*right) > magnitude(right + 1)
+        };
+        let mut found = Vec::new();
+        for gap in self.gaps.iter().filter(|gap| grows(gap)) {
+            let (low, high) = (self.frequencies_hz[gap.0], self.frequencies_hz[gap.1]);
+            found.extend(self.undamped_hz.iter().filter(|hz| (low..=high).contains(*hz)));
+        }
+        found
+    }
+}
+
+/// Damping ratio up to which a mode counts as undamped. Rounding of its frequency would change a higher peak.
+const UNDAMPED: f64 = 1e-9;
+/// Relative half width of the gap at an undamped natural frequency. The curve is 80 dB above its level there.
+const GAP: f64 = 5e-5;
+/// Ratio between the distances of neighbouring starts from a natural frequency: √10.
+const STEP_OUT: f64 = 3.162_277_660_168_379_5;
+/// Maximum number of starts on one side of a natural frequency; they reach 1e6 half widths.
+const MAX_STEPS_OUT: usize = 13;
+/// Fraction of the tolerance that the middle of an interval may miss its line by.
+const HALVED: f64 = 0.4;
+/// Number of successive halvings whose middles have to be on their lines. One is not enough where a curve crosses its
+/// line at the middle: with 1 and a fraction of 0.2 the error still reaches 1.003 of the tolerance.
+const HALVINGS: u8 = 2;
+/// Maximum difference of phase between curve and line [rad] at the middle of an interval.
+const PHASE: f64 = 0.1;
+/// Fraction of the tolerance for leaving out points that the line through their neighbours replaces. With 0.8 the error
+/// between the points reaches 1.1 of the tolerance at deep antiresonances.
+const LEFT_OUT: f64 = 0.6;
+/// Range of the minimum relative width of an interval; a fiftieth of the smallest damping ratio lies in it.
+const WIDTHS: (f64, f64) = (1e-10, 1e-5);
+/// Maximum number of parabolas through which a maximum is approached. Three reach 1e-6 of the height.
+const MAX_PARABOLAS: usize = 6;
+
+/// Resonance of the response: a natural frequency with its half width.
+#[derive(Debug, Clone, Copy)]
+struct Resonance {
+    hz: f64,
+    /// Half width [Hz]; that of a gap for an undamped mode.
+    half_width: f64,
+    damped: bool,
+}
+
+impl Resonance {
+    fn of(mode: &Mode) -> Self {
+        let damped = mode.damping_ratio > UNDAMPED;
+        let ratio = if damped { mode.damping_ratio } else { GAP };
+        Self { hz: mode.frequency_hz, half_width: ratio * mode.frequency_hz, damped }
+    }
+}
+
+/// Computed frequency, with a value per response.
+#[derive(Debug, Clone)]
+struct Sample {
+    hz: f64,
+    values: Vec<Complex>,
+    /// Logarithm of the magnitude, at least that of the floor.
+    levels: Vec<f64>,
+    /// True per response if it lies above the floor.
+    above: Vec<bool>,
+    /// Number of successive halvings of the interval from this sample to the next that still have to succeed.
+    open: u8,
+    /// True if the sample belongs to the result whatever its neighbours are.
+    kept: bool,
+}
+
+impl Sample {
+    fn new(hz: f64, measured: &[Measured], open: u8, kept: bool) -> Self {
+        let level = |m: &Measured| m.value.norm().max(m.floor).max(f64::MIN_POSITIVE).ln();
+        Self {
+            hz,
+            values: measured.iter().map(|m| m.value).collect(),
+            levels: measured.iter().map(level).collect(),
+            above: measured.iter().map(|m| m.value.norm() > m.floor.max(f64::MIN_POSITIVE)).collect(),
+            open,
+            kept,
+        }
+    }
+
+    /// Change of phase of response `i` up to another sample, −π to π.
+    fn turn(&self, to: &Self, i: usize) -> f64 {
+        if self.above[i] && to.above[i] { (to.values[i] * self.values[i].conj()).arg() } else { 0.0 }
+    }
+}
+
+/// Responses at a grid (ascending, at least two frequencies [Hz]) and at all further frequencies that a drawn curve
+/// needs: interpolation of the logarithm of the magnitude is accurate to `resolution`, and every maximum is in the
+/// result with its height. `modes` are the natural modes between the ends of the grid; `evaluate` computes all
+/// responses at frequencies, one row per frequency.
+///
+/// Around an undamped natural frequency there is a gap of 5e-5 of the frequency on either side, because the response
+/// has no bound there.
+///
+/// # Errors
+/// The errors of `evaluate`.
+pub fn resolve<E>(
+    grid_hz: &[f64],
+    modes: &[Mode],
+    resolution: Resolution,
+    mut evaluate: impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
+) -> Result<Resolved, E> {
+    let (Some(&first), Some(&last)) = (grid_hz.first(), grid_hz.last()) else {
+        return Ok(Resolved {
+            frequencies_hz: Vec::new(),
+            values: Vec::new(),
+            undamped_hz: Vec::new(),
+            unresolved: 0,
+            gaps: Vec::new(),
+        });
+    };
+    let resonances: Vec<Resonance> =
+        modes.iter().map(Resonance::of).filter(|r| (first..=last).contains(&r.hz)).collect();
+    let undamped_hz: Vec<f64> = resonances.iter().filter(|r| !r.damped).map(|r| r.hz).collect();
+    let search = Search::new(grid_hz, &resonances);
+
+    // Grid and starts.
+    let starts = search.starts(grid_hz, &resonances);
+    let hz: Vec<f64> = starts.iter().map(|start| start.0).collect();
+    let measured = evaluate(&hz)?;
+    let mut samples: Vec<Sample> =
+        starts.iter().zip(&measured).map(|((hz, kept), row)| Sample::new(*hz, row, HALVINGS, *kept)).collect();
+
+    // Halve the intervals whose middle is not on the line between their ends.
+    loop {
+        let middles: Vec<(usize, f64)> = search.middles(&mut samples);
+        if middles.is_empty() || samples.len() + middles.len() > resolution.max_points {
+            break;
+        }
+        let hz: Vec<f64> = middles.iter().map(|middle| middle.1).collect();
+        let measured = evaluate(&hz)?;
+        samples = inserted(samples, &middles, &measured, resolution.tolerance);
+    }
+    let unresolved = samples.iter().filter(|sample| sample.open > 0).count();
+
+    // Put a sample on every maximum, and leave out what the line between its neighbours shows as well.
+    samples = with_maxima(samples, &search, &mut evaluate)?;
+    let samples = thinned(samples, LEFT_OUT * resolution.tolerance);
+
+    let gaps =
+        (1..samples.len()).filter(|i| search.in_gap(0.5 * (samples[i - 1].hz + samples[*i].hz))).map(|i| (i - 1, i));
+    let gaps = gaps.collect();
+    let channels = samples.first().map_or(0, |sample| sample.values.len());
+    Ok(Resolved {
+        frequencies_hz: samples.iter().map(|sample| sample.hz).collect(),
+        values: (0..channels).map(|i| samples.iter().map(|sample| sample.values[i]).collect()).collect(),
+        undamped_hz,
+        unresolved,
+        gaps,
+    })
+}
+
+/// Limits of the search.
+struct Search {
+    /// Intervals around undamped natural frequencies [Hz], ascending, without common points.
+    gaps: Vec<(f64, f64)>,
+    /// Minimum width of an interval relative to its upper end.
+    min_width: f64,
+    /// Frequency [Hz] below which nothing is divided: a response may be zero at 0 Hz, where its logarithm has no bound.
+    lowest: f64,
+}
+
+impl Search {
+    fn new(grid_hz: &[f64], resonances: &[Resonance]) -> Self {
+        let mut gaps: Vec<(f64, f64)> = Vec::new();
+        for resonance in resonances.iter().filter(|r| !r.damped) {
+            let (low, high) = (resonance.hz - resonance.half_width, resonance.hz + resonance.half_width);
+            match gaps.last_mut() {
+                Some(before) if before.1 >= low => before.1 = before.1.max(high),
+                _ => gaps.push((low, high)),
+            }
+        }
+
+        let damping = resonances.iter().filter(|r| r.damped).map(|r| r.half_width / r.hz).fold(f64::INFINITY, f64::min);
+        let positive = grid_hz.iter().copied().find(|hz| *hz > 0.0).unwrap_or(0.0);
+        let lowest = if grid_hz[0] > 0.0 { 0.0 } else { 0.01 * positive };
+        Self { gaps, min_width: (0.02 * damping).clamp(WIDTHS.0, WIDTHS.1), lowest }
+    }
+
+    /// True if a frequency lies inside a gap; its edges do not.
+    fn in_gap(&self, hz: f64) -> bool {
+        let next = self.gaps.partition_point(|gap| gap.1 <= hz);
+        self.gaps.get(next).is_some_and(|gap| gap.0 < hz)
+    }
+
+    /// Grid, natural frequencies, points around them, and edges of gaps, ascending; true for those that are kept.
+    fn starts(&self, grid_hz: &[f64], resonances: &[Resonance]) -> Vec<(f64, bool)> {
+        let (first, last) = (grid_hz[0], grid_hz[grid_hz.len() - 1]);
+        let mut all: Vec<(f64, bool)> = grid_hz.iter().map(|hz| (*hz, true)).collect();
+        for (k, resonance) in resonances.iter().enumerate() {
+            if resonance.damped {
+                all.push((resonance.hz, false));
+            }
+
+            // Outwards in equal ratios to half of the distance to the next resonance.
+            let below = k.checked_sub(1).map_or(first, |k| resonances[k].hz);
+            let above = resonances.get(k + 1).map_or(last, |next| next.hz);
+            for (sign, distance) in [(-1.0, resonance.hz - below), (1.0, above - resonance.hz)] {
+                let mut out = resonance.half_width;
+                for step in 0..MAX_STEPS_OUT {
+                    if step > 0 && out > 0.5 * distance {
+                        break;
+                    }
+                    all.push((resonance.hz + sign * out, false));
+                    out *= STEP_OUT;
+                }
+            }
+        }
+        all.extend(self.gaps.iter().flat_map(|(low, high)| [(*low, true), (*high, true)]));
+
+        all.retain(|(hz, _)| (first..=last).contains(hz) && !self.in_gap(*hz));
+        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        // Of two frequencies that differ by rounding the one that is kept stays.
+        all.dedup_by(|b, a| {
+            let same = b.0 - a.0 <= 1e-14 * a.0;
+            if same && b.1 && !a.1 {
+                *a = *b;
+            }
+            same
+        });
+        all
+    }
+
+    /// Middle of every open interval that can be divided, with the index of its lower end. Intervals that cannot be
+    /// divided are closed.
+    fn middles(&self, samples: &mut [Sample]) -> Vec<(usize, f64)> {
+        let mut middles = Vec::new();
+        for i in 0..samples.len() {
+            if samples[i].open == 0 {
+                continue;
+            }
+            let Some(next) = samples.get(i + 1) else {
+                samples[i].open = 0;
+                continue;
+            };
+            let (low, high) = (samples[i].hz, next.hz);
+            let middle = low + 0.5 * (high - low);
+            let divisible = high - low > self.min_width * high && high > self.lowest && low < middle && middle < high;
+            if divisible && !self.in_gap(middle) {
+                middles.push((i, middle));
+            } else {
+                samples[i].open = 0;
+            }
+        }
+        middles
+    }
+}
+
+/// Samples with those at the middles of intervals. Both halves of an interval start again if its middle was not on the
+/// line between its ends.
+fn inserted(samples: Vec<Sample>, middles: &[(usize, f64)], measured: &[Vec<Measured>], tolerance: f64) -> Vec<Sample> {
+    let mut new = middles.iter().zip(measured).map(|((i, hz), row)| (*i, Sample::new(*hz, row, 0, false))).peekable();
+    let mut all: Vec<Sample> = Vec::with_capacity(samples.len() + middles.len());
+    let mut old = samples.into_iter().enumerate().peekable();
+    while let Some((i, mut low)) = old.next() {
+        let Some((_, mut middle)) = new.next_if(|(at, _)| *at == i) else {
+            all.push(low);
+            continue;
+        };
+        let on_line = old.peek().is_none_or(|(_, high)| is_on_line(&low, &middle, high, tolerance));
+        let open = if on_line { low.open - 1 } else { HALVINGS };
+        (low.open, middle.open) = (open, open);
+        all.push(low);
+        all.push(middle);
+    }
+    all
+}
+
+/// True if the sample between two others is on the line between them, for every response.
+fn is_on_line(low: &Sample, middle: &Sample, high: &Sample, tolerance: f64) -> bool {
+    let fraction = (middle.hz - low.hz) / (high.hz - low.hz);
+    (0..middle.levels.len()).all(|i| {
+        let line = low.levels[i] + fraction * (high.levels[i] - low.levels[i]);
+        let all_above = low.above[i] && middle.above[i] && high.above[i];
+        let phase = if all_above { low.turn(middle, i) - fraction * low.turn(high, i) } else { 0.0 };
+        // Turns are known up to full turns.
+        let phase = phase - TAU * (phase / TAU).round();
+        (middle.levels[i] - line).abs() <= HALVED * tolerance && phase.abs() <= PHASE
+    })
+}
+
+/// Maximum of one response that is being approached: three neighbouring frequencies and the magnitudes there. The
+/// middle one is the highest.
+#[derive(Debug, Clone, Copy)]
+struct Maximum {
+    channel: usize,
+    hz: [f64; 3],
+    magnitude: [f64; 3],
+}
+
+impl Maximum {
+    /// Vertex of the parabola through 1/|H|², which is one at a single resonance.
+    fn vertex(&self) -> Option<f64> {
+        let [x0, x1, x2] = self.hz;
+        let [y0, y1, y2] = self.magnitude.map(|m| (self.magnitude[1] / m).powi(2));
+        let (left, right) = (x1 - x0, x2 - x1);
+        let (fall, rise) = ((y1 - y0) / left, (y2 - y1) / right);
+        let curvature = (rise - fall) / (left + right);
+        let vertex = x1 - (fall * right + rise * left) / (left + right) / (2.0 * curvature);
+        // A step below rounding changes nothing.
+        let moves = (vertex - x1).abs() > 1e-6 * (x2 - x0) && (vertex - x1).abs() > 1e-13 * x1;
+        (vertex > x0 && vertex < x2 && moves).then_some(vertex)
+    }
+
+    /// Narrows the interval by the magnitude at a frequency inside it.
+    fn narrow(&mut self, hz: f64, magnitude: f64) {
+        let above = hz > self.hz[1];
+        if magnitude > self.magnitude[1] {
+            let end = if above { 0 } else { 2 };
+            (self.hz[end], self.magnitude[end]) = (self.hz[1], self.magnitude[1]);
+            (self.hz[1], self.magnitude[1]) = (hz, magnitude);
+        } else {
+            let end = if above { 2 } else { 0 };
+            (self.hz[end], self.magnitude[end]) = (hz, magnitude);
+        }
+    }
+}
+
+/// Approaches maxima by parabolas, all of them side by side; returns the row of all responses at each maximum that has
+/// moved.
+fn approach<E>(
+    maxima: &mut [Maximum],
+    evaluate: &mut impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
+) -> Result<Vec<Option<Vec<Measured>>>, E> {
+    let mut rows: Vec<Option<Vec<Measured>>> = vec![None; maxima.len()];
+    let mut moving: Vec<usize> = (0..maxima.len()).collect();
+    for _ in 0..MAX_PARABOLAS {
+        let vertices: Vec<(usize, f64)> =
+            moving.iter().filter_map(|k| maxima[*k].vertex().map(|hz| (*k, hz))).collect();
+        if vertices.is_empty() {
+            break;
+        }
+
+        let hz: Vec<f64> = vertices.iter().map(|vertex| vertex.1).collect();
+        for ((k, hz), row) in vertices.iter().zip(evaluate(&hz)?) {
+            let magnitude = row[maxima[*k].channel].value.norm();
+            if magnitude > maxima[*k].magnitude[1] {
+                rows[*k] = Some(row);
+            }
+            maxima[*k].narrow(*hz, magnitude);
+        }
+        moving = vertices.into_iter().map(|vertex| vertex.0).collect();
+    }
+    Ok(rows)
+}
+
+/// Samples with one on every maximum of every response; those at maxima are kept.
+fn with_maxima<E>(
+    mut samples: Vec<Sample>,
+    search: &Search,
+    evaluate: &mut impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
+) -> Result<Vec<Sample>, E> {
+    let mut maxima = Vec::new();
+    let mut tops = Vec::new();
+    for at in 1..samples.len().saturating_sub(1) {
+        let three = [&samples[at - 1], &samples[at], &samples[at + 1]];
+        let hz = three.map(|sample| sample.hz);
+        if search.in_gap(0.5 * (hz[0] + hz[1])) || search.in_gap(0.5 * (hz[1] + hz[2])) {
+            continue;
+        }
+        for channel in 0..three[1].levels.len() {
+            let levels = three.map(|sample| sample.levels[channel]);
+            let above = three.iter().all(|sample| sample.above[channel]);
+            if above && levels[1] >= levels[0] && levels[1] > levels[2] {
+                maxima.push(Maximum { channel, hz, magnitude: three.map(|sample| sample.values[channel].norm()) });
+                tops.push(at);
+            }
+        }
+    }
+
+    let rows = approach(&mut maxima, evaluate)?;
+    for ((maximum, at), row) in maxima.iter().zip(tops).zip(rows) {
+        match row {
+            None => samples[at].kept = true,
+            Some(row) => samples.push(Sample::new(maximum.hz[1], &row, 0, true)),
+        }
+    }
+    samples.sort_by(|a, b| a.hz.total_cmp(&b.hz).then(b.kept.cmp(&a.kept)));
+    samples.dedup_by(|b, a| b.hz - a.hz <= 0.0);
+    Ok(samples)
+}
+
+/// Samples without those that the line between their neighbours shows as well: from each kept sample the line goes as
+/// far as all samples on its way are within the tolerance.
+fn thinned(samples: Vec<Sample>, tolerance: f64) -> Vec<Sample> {
+    let count = samples.len();
+    let channels = samples.first().map_or(0, |sample| sample.levels.len());
+    let mut keep = vec![false; count];
+    let mut from = 0;
+    while from < count {
+        keep[from] = true;
+
+        // Range of slopes of the line, per response for level and phase, that all samples so far allow.
+        let mut slopes = vec![[(f64::NEG_INFINITY, f64::INFINITY); 2]; channels];
+        let mut turned = vec![0.0; channels];
+        let mut to = from + 1;
+        for next in from + 1..count {
+            let distance = samples[next].hz - samples[from].hz;
+            let mut on_line = true;
+            for i in 0..channels {
+                turned[i] += samples[next - 1].turn(&samples[next], i);
+                let rise = [samples[next].levels[i] - samples[from].levels[i], turned[i]];
+                for ((slope, rise), room) in slopes[i].iter_mut().zip(rise).zip([tolerance, PHASE]) {
+                    on_line &= (slope.0..=slope.1).contains(&(rise / distance));
+                    *slope = (slope.0.max((rise - room) / distance), slope.1.min((rise + room) / distance));
+                }
+            }
+            if !on_line {
+                break;
+            }
+            to = next;
+            if samples[next].kept {
+                break;
+            }
+        }
+        from = to;
+    }
+    samples.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(sample, _)| sample).collect()
+}
+
+/// Peak that a grid reads too low.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MissedPeak {
+    /// Index of the response.
+    pub response: usize,
+    /// Frequency of the grid with the higher magnitude beside the peak [Hz].
+    pub read_hz: f64,
+    /// Magnitude there.
+    pub read: f64,
+    /// Frequency of the maximum [Hz].
+    pub frequency_hz: f64,
+    /// Magnitude at the maximum.
+    pub height: f64,
+}
+
+/// Peaks that a grid reads too low.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MissedPeaks {
+    /// Number of these peaks.
+    pub count: usize,
+    /// Peak of which the grid reads the smallest fraction.
+    pub worst: MissedPeak,
+}
+
+/// Relative height of a peak above what a grid reads beside it, above which the peak is missed.
+pub const MISSED: f64 = 0.05;
+/// Places in half widths around a natural frequency at which the response is compared with its grid. A resonance in
+/// front of a background has its maximum at one of them or between, within a few per cent of the height.
+const PLACES: [f64; 5] = [-2.5, -1.0, 0.0, 1.0, 2.5];
+
+/// Peaks between the frequencies of a grid (ascending) that are more than 5 % ([`MISSED`]) higher than the values of the
+/// grid on both sides; `None` if there are none. `values` has a row per response; `modes` are the natural modes between
+/// the ends of the grid; `evaluate` computes all responses at frequencies, one row per frequency.
+///
+/// A value between two frequencies that is higher than those at both proves a maximum there. Undamped modes are not
+/// compared, because their peaks have no finite height.
+///
+/// # Errors
+/// The errors of `evaluate`.
+pub fn missed_peaks<E>(
+    grid_hz: &[f64],
+    values: &[Vec<Complex>],
+    modes: &[Mode],
+    mut evaluate: impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
+) -> Result<Option<MissedPeaks>, E> {
+    let (Some(&first), Some(&last)) = (grid_hz.first(), grid_hz.last()) else { return Ok(None) };
+
+    // Places to compare at, each with the index of the grid above it.
+    let resonances = modes.iter().map(Resonance::of).filter(|resonance| resonance.damped);
+    let mut places: Vec<f64> = resonances
+        .flat_map(|r| PLACES.map(|k| r.hz + k * r.half_width))
+        .filter(|hz| first < *hz && *hz < last)
+        .collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    let places: Vec<(usize, f64)> = places
+        .into_iter()
+        .map(|hz| (grid_hz.partition_point(|at| *at < hz), hz))
+        .filter(|(i, hz)| grid_hz[*i] > *hz)
+        .collect();
+    if places.is_empty() {
+        return Ok(None);
+    }
+    let hz: Vec<f64> = places.iter().map(|place| place.1).collect();
+    let measured = evaluate(&hz)?;
+
+    // Maxima among the places of each interval of the grid.
+    let mut count = 0;
+    let mut worst: Option<(f64, MissedPeak, Maximum)> = None;
+    let all: Vec<((usize, f64), &Vec<Measured>)> = places.iter().copied().zip(&measured).collect();
+    for group in all.chunk_by(|a, b| a.0.0 == b.0.0) {
+        let above = group[0].0.0;
+        for (response, values) in values.iter().enumerate() {
+            let ends = [above - 1, above].map(|i| (grid_hz[i], values[i].norm()));
+            let (read_hz, read) = if ends[0].1 >= ends[1].1 { ends[0] } else { ends[1] };
+            let inside = group.iter().map(|((_, hz), row)| (*hz, row[response].value.norm()));
+            let curve: Vec<(f64, f64)> = once(ends[0]).chain(inside).chain(once(ends[1])).collect();
+            let floor = group.iter().map(|(_, row)| row[response].floor).fold(0.0, f64::max);
+
+            for three in curve.windows(3) {
+                let [left, top, right] = [three[0], three[1], three[2]];
+                let missed = top.1 > left.1 && top.1 >= right.1 && top.1 > (1.0 + MISSED) * read && top.1 > floor;
+                if !missed {
+                    continue;
+                }
+                count += 1;
+                let fraction = read / top.1;
+                if worst.as_ref().is_none_or(|(least, ..)| fraction < *least) {
+                    let peak = MissedPeak { response, read_hz, read, frequency_hz: top.0, height: top.1 };
+                    let maximum = Maximum {
+                        channel: response,
+                        hz: [left.0, top.0, right.0],
+                        magnitude: [left.1, top.1, right.1],
+                    };
+                    worst = Some((fraction, peak, maximum));
+                }
+            }
+        }
+    }
+
+    let Some((_, mut worst, maximum)) = worst else { return Ok(None) };
+    let mut maxima = [maximum];
+    approach(&mut maxima, &mut evaluate)?;
+    (worst.frequency_hz, worst.height) = (maxima[0].hz[1], maxima[0].magnitude[1]);
+    Ok(Some(MissedPeaks { count, worst }))
+}

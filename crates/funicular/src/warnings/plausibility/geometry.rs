@@ -1,0 +1,201 @@
+//! Plausibility of the geometry: sizes of anchors, attachments, poses and lengths, and signs of coordinates.
+
+use super::{Implausible, likely, outside, usual};
+use crate::math::{Vec3, rotation};
+use crate::robot::{Robot, State};
+use crate::statics::spread;
+use std::f64::consts::PI;
+
+/// Sizes of a robot [m].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Size {
+    /// Maximum distance of an anchor from the mean of all.
+    pub anchors: f64,
+    /// Maximum distance of an attachment from the mean of all.
+    pub attachments: f64,
+    /// Mean of the attachments, platform frame.
+    pub middle_p: Vec3,
+}
+
+impl Size {
+    pub(super) fn of(robot: &Robot) -> Self {
+        let attachments = robot.cables.iter().map(|cable| cable.attachment_p);
+        let count = robot.cables.len().max(1) as f64;
+        Self {
+            anchors: spread(robot.cables.iter().map(|cable| cable.anchor.reference_w())),
+            attachments: spread(attachments.clone()),
+            middle_p: attachments.sum::<Vec3>() / count,
+        }
+    }
+}
+
+/// Warnings about the geometry.
+pub(super) fn check(robot: &Robot) -> Vec<Implausible> {
+    let size = Size::of(robot);
+    let of_size = anchors(&size).or_else(|| attachments(robot, &size)).or_else(|| distance(robot, &size));
+    let mut found: Vec<Implausible> = of_size.into_iter().collect();
+    found.extend(signs(robot, &size));
+    found.extend(angles(robot));
+    found
+}
+
+fn anchors(size: &Size) -> Option<Implausible> {
+    outside("distance of the farthest anchor from the middle of all", size.anchors, "m", usual::ANCHORS, |_| {
+        let ratio = size.attachments / size.anchors;
+        if size.attachments > 0.0 && ratio < 5.0 * usual::ATTACHMENTS_OVER_ANCHORS[0] {
+            "anchors in mm or cm given as m?".to_owned()
+        } else {
+            "lengths of the robot in mm or cm given as m?".to_owned()
+        }
+    })
+}
+
+/// Attachments against anchors.
+fn attachments(robot: &Robot, size: &Size) -> Option<Implausible> {
+    let ratio = size.attachments / size.anchors;
+    // One anchor for all cables, or attachments at one point.
+    if size.anchors == 0.0 || size.attachments == 0.0 {
+        return None;
+    }
+    if ratio > usual::SLINGS && size.attachments < reach(robot) {
+        return None;
+    }
+    let what = "size of the attachments over that of the anchors";
+    outside(what, ratio, "", usual::ATTACHMENTS_OVER_ANCHORS, |ratio| {
+        let [low, high] = usual::ATTACHMENTS_OVER_ANCHORS;
+        if ratio < low {
+            "anchors in mm or cm given as m?".to_owned()
+        } else {
+            likely(
+                ratio,
+                [5.0 * low, 0.5 * high],
+                &[
+                    (1e-3, "attachments in mm given as m"),
+                    (1e-2, "attachments in cm given as m"),
+                    (ratio.powi(-2), "`anchor_m` and `attachment_m` swapped"),
+                ],
+            )
+        }
+    })
+}
+
+/// Distance that the cables span at most: lengths, or distance of the anchors from the pose [m].
+fn reach(robot: &Robot) -> f64 {
+    match &robot.state {
+        State::Lengths(lengths) => lengths.iter().copied().fold(0.0, f64::max),
+        State::Pose(pose) => farthest(robot, &pose.position_w),
+        State::Unknown => farthest(robot, &Vec3::zeros()),
+    }
+}
+
+fn farthest(robot: &Robot, from: &Vec3) -> f64 {
+    robot.cables.iter().map(|cable| (cable.anchor.reference_w() - from).norm()).fold(0.0, f64::max)
+}
+
+/// Pose or lengths against the anchors.
+fn distance(robot: &Robot, size: &Size) -> Option<Implausible> {
+    let unit = size.anchors + size.attachments;
+    if unit == 0.0 {
+        return None;
+    }
+    match &robot.state {
+        State::Unknown => None,
+        State::Pose(pose) => {
+            let count = robot.cables.len() as f64;
+            let middle: Vec3 = robot.cables.iter().map(|cable| cable.anchor.reference_w()).sum::<Vec3>() / count;
+            let what = "distance of the platform from the middle of the anchors, over the size of the robot,";
+            outside(what, (pose.position_w - middle).norm() / unit, "", usual::DISTANCE, |_| {
+                "position in mm given as m?".to_owned()
+            })
+        }
+        State::Lengths(lengths) => {
+            let longest = lengths.iter().copied().fold(0.0, f64::max);
+            let what = "longest cable over the size of the robot";
+            let long = outside(what, longest / unit, "", usual::DISTANCE, |_| {
+                "unstrained lengths in mm given as m?".to_owned()
+            });
+            long.or_else(|| {
+                let value = (2.0 * longest + size.attachments) / size.anchors;
+                let what = "length of two cables with the platform, over the size of the anchors,";
+                outside(what, value, "", usual::MIN_LENGTH, |_| "unstrained lengths in km given as m?".to_owned())
+            })
+        }
+    }
+}
+
+/// Minimum number of cables at which one that differs from all others by a sign is suspicious.
+const MIN_CABLES: usize = 6;
+
+/// Distance of points over their size below which they coincide, and difference of coordinates over their magnitude up
+/// to which they are alike: a measured frame is not symmetric to more than a per cent.
+const COINCIDE: f64 = 1e-9;
+const ALIKE: f64 = 0.01;
+
+/// Coordinates of one cable with another sign than those of the others.
+fn signs(robot: &Robot, size: &Size) -> Vec<Implausible> {
+    let cables = &robot.cables;
+    if cables.len() < MIN_CABLES {
+        return Vec::new();
+    }
+    let anchors: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.reference_w()).collect();
+    let attachments: Vec<Vec3> = cables.iter().map(|cable| cable.attachment_p).collect();
+
+    // Two cables at one point, and all others at points of their own.
+    let mut found = Vec::new();
+    for (key, points, size) in [("anchor_m", &anchors, size.anchors), ("attachment_m", &attachments, size.attachments)]
+    {
+        let mut pairs = Vec::new();
+        for (i, point) in points.iter().enumerate() {
+            let at_it = (0..i).filter(|&j| (points[j] - point).norm() <= COINCIDE * size);
+            pairs.extend(at_it.map(|j| (j, i)));
+        }
+        if let ([(j, i)], true) = (&pairs[..], size > 0.0) {
+            found.push(Implausible::Sign {
+                what: format!(
+                    "cables \"{}\" and \"{}\" have the same `{key}`, and all others have points of their own",
+                    cables[*j].name, cables[*i].name
+                ),
+                slip: format!("wrong sign of a coordinate, or a copied `{key}`?"),
+            });
+        }
+    }
+
+    // One anchor on the other side.
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        for i in 0..cables.len() {
+            let own = anchors[i][k];
+            let others = || anchors.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, point)| point[k]);
+            let opposite = own != 0.0 && others().all(|other| other * own < 0.0);
+            let alike = others().any(|other| (other + own).abs() <= ALIKE * own.abs());
+            if opposite && alike {
+                found.push(Implausible::Sign {
+                    what: format!(
+                        "the anchor of cable \"{}\" has {axis} = {own} m, and those of all other cables are on the \
+                         other side of the origin, one of them equally far",
+                        cables[i].name
+                    ),
+                    slip: "wrong sign of the coordinate?".to_owned(),
+                });
+            }
+        }
+    }
+    found
+}
+
+/// Difference of an angle from a multiple of 15° in radians up to which it counts as that: four decimals, rounded.
+const ANGLE_DIGITS: f64 = 6e-5;
+
+/// Angles of a pose that are round numbers in radians.
+fn angles(robot: &Robot) -> Option<Implausible> {
+    let State::Pose(pose) = &robot.state else { return None };
+    let names = ["roll", "pitch", "yaw"].into_iter().zip(rotation::to_roll_pitch_yaw_deg(&pose.rot_wp));
+    names.into_iter().find_map(|(name, degrees)| {
+        let step = PI / 12.0;
+        let multiple = (degrees / step).round();
+        let is_round = (1.0..=24.0).contains(&multiple.abs()) && (degrees - multiple * step).abs() < ANGLE_DIGITS;
+        is_round.then(|| Implausible::Sign {
+            what: format!("{name} is {degrees:.4}°, which is {:.0}° in radians", 15.0 * multiple),
+            slip: "angle in radians given in degrees?".to_owned(),
+        })
+    })
+}

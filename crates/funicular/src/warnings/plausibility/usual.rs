@@ -1,0 +1,141 @@
+//! Usual ranges of values, each with the values that bracket it: physical numbers, the robots of the library
+//! (`robots/`), and the slips that have to lie outside.
+
+/// Young's modulus of a rope [Pa], over the metal, the fibre or the full circle.
+///
+/// Inside: polyamide rope from 4e8, Expo 2015 1.77e9, polyamide fibre 3e9, polyester 1.2e10, wire rope over its metal
+/// 0.6e11 to 1.3e11, Dyneema fibre 1e11, steel 1.96e11, Zylon 2.7e11. Outside: GPa (100), MPa (1e5), and kPa (1e8)
+/// given as Pa.
+pub const YOUNGS_MODULUS: [f64; 2] = [3e8, 3e11];
+
+/// Diameter of a rope, or of a circle with its area [m]. Library: 0.8 mm (KNTU, metal) to 46 mm (FAST). Outside:
+/// millimetres and centimetres given as m, and ropes thinner than a fishing line.
+pub const DIAMETER: [f64; 2] = [1e-4, 0.2];
+
+/// Density that mass and cross-section of a rope imply [kg/m³].
+///
+/// Library: 813 (fibre rope over its full circle, IPAnema 2) to 9929 (mass of a wire rope over its metal alone, NIST
+/// `RoboCrane`). Open braids have 500. Outside: kg per 100 m and g/m given as kg/m, the radius of a wire rope given as
+/// its diameter (18 000).
+pub const DENSITY: [f64; 2] = [500.0, 12e3];
+
+/// Axial stiffness over mass per length, EA/m [m²/s²]: the square of the speed of axial waves.
+///
+/// Library: 1.4e6 (Expo 2015) to 3.9e7; polyamide rope 1e6, steel 2.5e7, Dyneema fibre 1.2e8, carbon fibre 2e8.
+/// Outside: a wire rope (1.2e7) with kg per 100 m (1.2e5), or with kN (1.2e4).
+pub const SPECIFIC_STIFFNESS: [f64; 2] = [3e5, 3e8];
+
+/// Share of the full circle between which a rope counts as stranded steel: six- and eight-strand wire ropes fill 0.4 to
+/// 0.65 of it with metal, single strands 0.75. Fibre ropes are lighter than 0.2.
+pub const STRANDED: [f64; 2] = [0.35, 0.68];
+
+/// Density of steel [kg/m³].
+pub const STEEL_DENSITY: f64 = 7850.0;
+
+/// Young's modulus of a stranded wire rope over its metal [Pa].
+///
+/// Catalogues have 0.5e11 to 1.3e11; single strands, which fill more of the circle, 1.6e11. With `diameter_m` a modulus
+/// over the metal (1e11) is taken over the full circle and stands for 1.7e11. Library: up to 4.3e10 (Yuan 2014).
+pub const STRANDED_MODULUS: [f64; 2] = [0.0, 1.4e11];
+
+/// Modulus over the metal [Pa] from which on `check` has a remark on the full circle.
+pub const STRANDED_MODULUS_OF_NOTE: f64 = 1.1e11;
+
+/// Damping ratio of a rope. Library: 0.003 to 0.01. Outside: per cent given as a fraction (0.3).
+pub const DAMPING_RATIO: [f64; 2] = [5e-4, 0.05];
+
+/// Viscous damping over mass per length [1/s]: 6.3 is a damping ratio of one half at 1 Hz. Reference robots: up to 0.33.
+pub const VISCOUS_DAMPING: [f64; 2] = [0.0, 6.3];
+
+/// Breaking load over axial stiffness, the strain at break of a linear rope. Library: 0.012 (steel, CoGiRo) to 0.14
+/// (IPAnema 2). Outside: kN given as N, and kgf of wire rope (0.0012).
+pub const STRAIN_AT_BREAK: [f64; 2] = [2e-3, 0.5];
+
+/// Maximum tension over axial stiffness. Library: up to 0.011. Outside: mN given as N, kN for the stiffness.
+pub const STRAIN_AT_MAXIMUM: [f64; 2] = [0.0, 0.1];
+
+/// Minimum tension over axial stiffness. Library: up to 0.0012 (FAST). Outside: mN given as N.
+pub const STRAIN_AT_MINIMUM: [f64; 2] = [0.0, 0.02];
+
+/// Strain of a cable at equilibrium. Library: up to 0.003. Steel wire breaks at 0.015 to 0.02, Dyneema at 0.035, and
+/// both work well below.
+pub const STRAIN: [f64; 2] = [0.0, 0.02];
+
+/// Drag coefficient of a rope: 1.0 to 1.2 for a smooth one, up to 2.5 for a chain.
+pub const DRAG_COEFFICIENT: [f64; 2] = [0.2, 3.0];
+
+/// Diameter that the wind meets [m]; ice makes it larger than that of the rope.
+pub const DRAG_DIAMETER: [f64; 2] = [2e-4, 0.3];
+
+/// Load per length besides the weight, over the weight of the rope: ice and supply lines weigh up to some ten ropes.
+pub const CABLE_LOAD: [f64; 2] = [0.0, 100.0];
+
+/// Maximum distance of an anchor from the mean of all [m]. Library: up to 300 (FAST). Outside: millimetres, for robots
+/// of more than 1 m.
+pub const ANCHORS: [f64; 2] = [0.0, 1000.0];
+
+/// Size of the attachments over that of the anchors, each the maximum distance from the mean. Library: 0.018 (FAST) to
+/// 0.25 (NIST `RoboCrane`). Outside: swapped ends, attachments in mm or cm, anchors in mm or cm.
+pub const ATTACHMENTS_OVER_ANCHORS: [f64; 2] = [2e-3, 1.5];
+
+/// Size of the attachments over that of the anchors from which on the anchors may be one hook, from which slings lead
+/// to a platform. Then the attachments are compared with the distance of the anchors instead.
+pub const SLINGS: f64 = 50.0;
+
+/// Distance of the platform from the mean of the anchors, and length of a cable, over the size of anchors and
+/// attachments. Library: below 2; hoists with ropes side by side have 20. Outside: millimetres given as m.
+pub const DISTANCE: [f64; 2] = [0.0, 30.0];
+
+/// Twice the longest cable and the size of the attachments, over the size of the anchors. Shorter cables cannot reach a
+/// platform from anchors on both sides. Library: from 1.6.
+pub const MIN_LENGTH: [f64; 2] = [0.5, f64::INFINITY];
+
+/// Density of the platform in the ball around its attachments [kg/m³]. Library: 9 (IPAnema 2) to 830 (Yuan 2014; 6800
+/// with its heaviest load). Outside: mass in t or g.
+pub const PLATFORM_DENSITY: [f64; 2] = [0.1, 2e4];
+
+/// Largest radius of gyration of the platform over the size of its attachments. Library: 0.3 to 1.1; loads on a hook
+/// have 2. Outside: an inertia wrong by a thousand (a factor of 32), in kg mm² or kg cm², a mass in g or t.
+pub const GYRATION: [f64; 2] = [0.1, 3.0];
+
+/// Distance of the centre of mass, or of the point of a force, from the mean of the attachments over their size.
+/// Library: up to 0.6; loads far below their hook have some. Outside: mm and cm.
+pub const OFFSET: [f64; 2] = [0.0, 10.0];
+
+/// Magnitude of gravity [m/s²], if there is any: Moon 1.62, Earth 9.81. Outside: 1 (in units of g), 32.2 (ft/s²), 981
+/// and 9810.
+pub const GRAVITY: [f64; 2] = [1.5, 12.0];
+
+/// Weight over the sum of the axial stiffnesses: strain of cables that all pull straight up. Library: 3e-5 to 6e-4.
+/// Outside: mass in g, axial stiffness in kN.
+pub const WEIGHT_OVER_STIFFNESS: [f64; 2] = [0.0, 0.01];
+
+/// Mass of all cables over that of the platform. Library: 0.005 to 0.9. Outside: kg per 100 m, g/m, platform in t.
+pub const CABLES_OVER_PLATFORM: [f64; 2] = [0.0, 5.0];
+
+/// Sum of all maximum tensions over the load: less cannot carry it. Library: from 4.
+pub const MAXIMA_OVER_LOAD: [f64; 2] = [1.0, f64::INFINITY];
+
+/// Minimum tension over the load. Library: from 0.1; the default is at least 1e-3. Outside: kN given as N.
+pub const MINIMUM_OVER_LOAD: [f64; 2] = [2.5e-4, f64::INFINITY];
+
+/// Minimum tension up to which it only means that no cable is slack [N]: CASPR's models have 0.001.
+pub const NOT_SLACK: f64 = 0.01;
+
+/// Load on the platform over its weight, moments over the size of the attachments.
+pub const LOAD_OVER_WEIGHT: [f64; 2] = [0.0, 100.0];
+
+/// Drag coefficient times area of the platform, over the disc of its attachments.
+pub const DRAG_AREA: [f64; 2] = [0.0, 50.0];
+
+/// Wind [m/s]: a hurricane of category 4 has 60. Outside: km/h of a storm.
+pub const WIND: [f64; 2] = [0.0, 60.0];
+
+/// Density of air [kg/m³], from 6000 m above the sea to deep frost. Outside: g/cm³ (0.0012).
+pub const AIR_DENSITY: [f64; 2] = [0.5, 2.0];
+
+/// Density of water [kg/m³], for robots in water.
+pub const WATER_DENSITY: [f64; 2] = [900.0, 1100.0];
+
+/// Weight of all cables over the sum of their tensions. Library: up to 0.2. Outside: kg per 100 m, g/m.
+pub const WEIGHT_OVER_TENSION: [f64; 2] = [0.0, 1.0];

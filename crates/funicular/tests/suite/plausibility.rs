@@ -1,0 +1,365 @@
+//! Slips of units and signs: each gives a warning that names it, and no usual robot gives one.
+
+use funicular::robot::{Pose, Robot, State};
+use funicular::statics::{self, StaticModel};
+use funicular::warnings;
+use funicular::warnings::plausibility;
+
+/// Robot of a hall, 20 m x 12 m x 8 m: a platform of 1 m x 0.8 m x 0.5 m and 60 kg on eight wire ropes of 6 mm.
+const HALL: &str = r#"
+name = "hall"
+source = "made for this test"
+gravity_m_s2 = [0.0, 0.0, -9.81]
+
+[platform]
+mass_kg = 60.0
+inertia_kg_m2 = [4.45, 6.25, 8.2]
+center_of_mass_m = [0.0, 0.0, 0.02]
+drag_area_m2 = 0.5
+
+[loads]
+force_n = [0.0, 0.0, -100.0]
+moment_n_m = [1.0, 2.0, 0.0]
+point_m = [0.1, 0.0, 0.25]
+
+[wind]
+velocity_m_s = [5.0, 0.0, 0.0]
+air_density_kg_m3 = 1.2
+
+[materials.rope]
+youngs_modulus_pa = 100e9
+area_m2 = 14e-6
+mass_kg_per_m = 0.13
+damping_ratio = 0.003
+minimum_tension_n = 50.0
+maximum_tension_n = 2000.0
+breaking_load_n = 20e3
+drag_coefficient = 1.2
+drag_diameter_m = 0.006
+
+[state]
+position_m = [0.0, 0.0, 3.0]
+roll_pitch_yaw_deg = [0.0, 0.0, 2.0]
+"#;
+
+/// Corners of the hall with the attachments: lower corners from above, upper corners from below.
+fn hall() -> String {
+    let mut text = HALL.to_owned();
+    let mut number = 0;
+    for (x, y) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)] {
+        for (z, corner) in [(8.0, -0.25), (7.0, 0.25)] {
+            number += 1;
+            text += &format!(
+                "\n[[cables]]\nname = \"{number}\"\nmaterial = \"rope\"\nanchor_m = [{:.1}, {:.1}, {z:.1}]\n\
+                 attachment_m = [{:.1}, {:.1}, {corner}]\n",
+                10.0 * x,
+                6.0 * y,
+                0.5 * x * if z > 7.5 { 1.0 } else { -1.0 },
+                0.4 * y * if z > 7.5 { -1.0 } else { 1.0 },
+            );
+        }
+    }
+    text
+}
+
+/// Everything that a user sees who runs `statics`: warnings about the robot, and about its equilibrium or the error.
+fn said(robot: &Robot) -> String {
+    let mut all: Vec<String> = warnings::of_robot(robot).iter().map(ToString::to_string).collect();
+    match statics::solve(robot, StaticModel::Catenary, None) {
+        Ok(found) => {
+            let of_equilibrium = warnings::of_plausibility(robot, &found.equilibrium);
+            all.extend(of_equilibrium.iter().map(ToString::to_string));
+        }
+        Err(error) => all.push(format!("error: {error}")),
+    }
+    all.join("\n")
+}
+
+/// Robot file with a number of a key multiplied, in every line of the key.
+fn scaled(text: &str, key: &str, factor: f64) -> String {
+    let mut found = false;
+    let lines = text.lines().map(|line| {
+        let Some(values) = line.strip_prefix(&format!("{key} = ")) else { return line.to_owned() };
+        found = true;
+        let values = values.split('#').next().unwrap();
+        let numbers: Vec<String> = values
+            .trim()
+            .trim_matches(['[', ']'])
+            .split(',')
+            .map(|number| (number.trim().parse::<f64>().unwrap() * factor).to_string())
+            .map(|number| if number.contains('.') { number } else { number + ".0" })
+            .collect();
+        if values.contains('[') {
+            format!("{key} = [{}]", numbers.join(", "))
+        } else {
+            format!("{key} = {}", numbers[0])
+        }
+    });
+    let scaled = lines.collect::<Vec<_>>().join("\n");
+    assert!(found, "{key}");
+    scaled
+}
+
+/// Robot file with other words; every change is made.
+fn changed(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+/// Robot file with the ends of all cables swapped.
+fn swapped(text: &str) -> String {
+    changed(text, &[("anchor_m", "other_m"), ("attachment_m", "anchor_m"), ("other_m", "attachment_m")])
+}
+
+fn check(slip: &str, text: &str, expected: &[&str], misses: &mut Vec<String>) {
+    let robot = match Robot::from_toml(text) {
+        Ok(robot) => robot,
+        // The reader refuses the value, which is as good.
+        Err(error) => {
+            let help = error.issues().iter().filter_map(|issue| issue.help.clone());
+            let text = std::iter::once(error.to_string()).chain(help).collect::<Vec<_>>().join("\n");
+            if !expected.iter().all(|part| text.contains(part)) {
+                misses.push(format!("{slip}: refused by {text}"));
+            }
+            return;
+        }
+    };
+    let said = said(&robot);
+    if !expected.iter().all(|part| said.contains(part)) {
+        misses.push(format!("{slip}, expected {expected:?}:\n{said}\n"));
+    }
+}
+
+#[test]
+fn slips_of_units_and_signs_are_named() {
+    let hall = hall();
+    let mut misses = Vec::new();
+    let mut slip = |slip: &str, text: String, expected: &[&str]| check(slip, &text, expected, &mut misses);
+    let times = |key: &str, factor: f64| scaled(&hall, key, factor);
+    let stiffness = |value: &str| {
+        changed(&hall, &[("youngs_modulus_pa = 100e9\narea_m2 = 14e-6", &format!("axial_stiffness_n = {value}"))])
+    };
+    let circle = |diameter: &str| changed(&hall, &[("area_m2 = 14e-6", &format!("diameter_m = {diameter}"))]);
+
+    // Ropes.
+    slip("E in GPa", times("youngs_modulus_pa", 1e-9), &["Young's modulus", "GPa given as Pa", "strain of cable"]);
+    slip("E in MPa", times("youngs_modulus_pa", 1e-6), &["MPa (N/mm²) given as Pa"]);
+    slip("E in kPa", times("youngs_modulus_pa", 1e-3), &["kPa given as Pa"]);
+    slip("E of the metal with the full circle", circle("0.006"), &["full circle", "Give `area_m2`"]);
+    slip("diameter in mm", circle("6.0"), &["axial stiffness", "check the units"]);
+    slip("diameter in cm", circle("0.6"), &["diameter in cm given as m"]);
+    slip("radius for diameter", circle("0.003"), &["radius given as diameter"]);
+    slip("area in mm²", times("area_m2", 1e6), &["axial stiffness", "check the units"]);
+    slip("area in cm²", times("area_m2", 1e4), &["area in cm²"]);
+    slip("EA in kN", stiffness("1400.0"), &["axial stiffness in kN given as N"]);
+    slip("EA in MN", stiffness("1.4"), &["axial stiffness in MN given as N"]);
+    slip("E for EA", stiffness("100e9"), &["Young's modulus given as axial stiffness"]);
+    slip("rope in g/m", times("mass_kg_per_m", 1e3), &["mass in g/m given as kg/m"]);
+    slip("rope in kg per 100 m", times("mass_kg_per_m", 1e2), &["kg per 100 m given as kg/m"]);
+    slip("rope in N/m", times("mass_kg_per_m", 9.81), &["weight in N/m"]);
+    slip("rope in t/m", times("mass_kg_per_m", 1e-3), &["mass in t/m"]);
+    slip("damping in per cent", times("damping_ratio", 100.0), &["damping ratio", "per cent given as a fraction"]);
+    slip("damping over 100", times("damping_ratio", 0.01), &["divided by 100 once more"]);
+    slip(
+        "breaking load in kN",
+        changed(
+            &times("breaking_load_n", 1e-3),
+            &[
+                ("maximum_tension_n = 2000.0", "maximum_tension_n = 10.0"),
+                ("minimum_tension_n = 50.0", "minimum_tension_n = 5.0"),
+            ],
+        ),
+        &["breaking load in kN"],
+    );
+    slip("breaking load in kgf", times("breaking_load_n", 1.0 / 9.81), &["breaking load in kgf"]);
+    slip("drag diameter in mm", times("drag_diameter_m", 1e3), &["diameter in mm given as m"]);
+    slip("drag coefficient in per cent", times("drag_coefficient", 100.0), &["drag coefficient", "per cent"]);
+
+    // Tension limits.
+    slip(
+        "both limits in kN",
+        scaled(&times("maximum_tension_n", 1e-3), "minimum_tension_n", 1e-3),
+        &["maximum tension in kN", "minimum tension in kN"],
+    );
+    slip("minimum in kN", times("minimum_tension_n", 1e-3), &["minimum tension in kN"]);
+    slip(
+        "maximum in mN",
+        changed(&times("maximum_tension_n", 1e3), &[("breaking_load_n = 20e3", "")]),
+        &["tension in mN"],
+    );
+
+    // Geometry.
+    let anchors = |factor: f64| scaled(&hall, "anchor_m", factor);
+    let attachments = |factor: f64| scaled(&hall, "attachment_m", factor);
+    slip("anchors in mm", anchors(1e3), &["farthest anchor", "anchors in mm or cm"]);
+    slip("anchors in cm", anchors(1e2), &["anchors in mm or cm"]);
+    slip("attachments in mm", attachments(1e3), &["attachments in mm"]);
+    slip("attachments in cm", attachments(1e2), &["attachments in cm"]);
+    slip(
+        "all in mm",
+        scaled(&scaled(&anchors(1e3), "attachment_m", 1e3), "position_m", 1e3),
+        &["lengths of the robot in mm"],
+    );
+    slip("all in cm", scaled(&scaled(&anchors(1e2), "attachment_m", 1e2), "position_m", 1e2), &["mm or cm"]);
+    slip("ends swapped", swapped(&hall), &["swapped", "no cable pulls against the load"]);
+    slip("position in mm", times("position_m", 1e3), &["position in mm given as m"]);
+    slip(
+        "yaw in rad",
+        changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, 0.0, 0.5236]")]),
+        &["yaw is 0.5236°, which is 30° in radians"],
+    );
+    slip(
+        "pose above the anchors",
+        changed(&hall, &[("position_m = [0.0, 0.0, 3.0]", "position_m = [0.0, 0.0, 12.0]")]),
+        &["all cables pull down", "no anchor is above"],
+    );
+    slip("sign of an anchor's height", hall.replacen("6.0, 8.0]", "6.0, -8.0]", 1), &["wrong sign of the coordinate"]);
+    slip(
+        "sign of an anchor",
+        hall.replacen("[10.0, 6.0, 8.0]", "[-10.0, 6.0, 8.0]", 1),
+        &["have the same `anchor_m`", "wrong sign"],
+    );
+    slip(
+        "sign of an attachment",
+        hall.replacen("attachment_m = [0.5, -0.4, -0.25]", "attachment_m = [-0.5, -0.4, -0.25]", 1),
+        &["have the same `attachment_m`", "wrong sign"],
+    );
+
+    // Platform.
+    slip("mass in g", times("mass_kg", 1e3), &["mass in g given as kg"]);
+    slip("mass in t", times("mass_kg", 1e-3), &["mass in t given as kg"]);
+    slip("inertia times 1000", times("inertia_kg_m2", 1e3), &["inertia a factor of 1000 too large"]);
+    slip("inertia in kg mm²", times("inertia_kg_m2", 1e6), &["inertia in kg mm²"]);
+    slip("inertia in kg cm²", times("inertia_kg_m2", 1e4), &["inertia in kg cm²"]);
+    slip("inertia in t m²", times("inertia_kg_m2", 1e-3), &["inertia a factor of 1000 too small"]);
+    slip(
+        "centre of mass in mm",
+        changed(&hall, &[("[0.0, 0.0, 0.02]", "[0.0, 0.0, 20.0]")]),
+        &["`center_of_mass_m` in mm"],
+    );
+
+    // Gravity and loads.
+    slip("gravity up", changed(&hall, &[("-9.81]", "9.81]")]), &["wrong sign of gravity", "gravity_m_s2` points up"]);
+    slip("gravity in cm/s²", changed(&hall, &[("-9.81]", "-981.0]")]), &["in cm/s²"]);
+    slip("gravity in mm/s²", changed(&hall, &[("-9.81]", "-9810.0]")]), &["in mm/s²"]);
+    slip("gravity in g", changed(&hall, &[("-9.81]", "-1.0]")]), &["in units of g"]);
+    slip("gravity in ft/s²", changed(&hall, &[("-9.81]", "-32.17]")]), &["in ft/s²"]);
+    slip(
+        "gravity along y",
+        changed(
+            &hall,
+            &[
+                ("[0.0, 0.0, -9.81]", "[0.0, -9.81, 0.0]"),
+                ("force_n = [0.0, 0.0, -100.0]", "force_n = [0.0, 0.0, 0.0]"),
+            ],
+        ),
+        &["no cable can", "pull the platform along"],
+    );
+    slip("force up", changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, 1000.0]")]), &["the load lifts the platform"]);
+    slip("force in mN", times("force_n", 1e3), &["force in mN"]);
+    slip("moment in N mm", times("moment_n_m", 1e5), &["moment in N mm"]);
+    slip("point in mm", times("point_m", 1e3), &["`point_m` in mm"]);
+    slip("wind in km/h", times("velocity_m_s", 20.0), &["km/h given as m/s"]);
+    slip("density of air in g/cm³", times("air_density_kg_m3", 1e-3), &["g/cm³ given as kg/m³"]);
+    slip("drag area in cm²", times("drag_area_m2", 1e4), &["cm² given as m²"]);
+
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+    assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "", "the robot itself is plausible");
+}
+
+#[test]
+fn slips_at_robots_of_the_library_are_named() {
+    let mut misses = Vec::new();
+    let mut slip = |slip: &str, text: String, expected: &[&str]| check(slip, &text, expected, &mut misses);
+
+    // Lengths give the state, and E with the full circle the stiffness.
+    let yuan = funicular_robots::YUAN2014_4MM;
+    slip("yuan, E in GPa", scaled(yuan, "youngs_modulus_pa", 1e-9), &["GPa given as Pa"]);
+    slip("yuan, rope in kg per 100 m", scaled(yuan, "mass_kg_per_m", 1e2), &["kg per 100 m"]);
+    slip("yuan, lengths in mm", scaled(yuan, "unstrained_length_m", 1e3), &["unstrained lengths in mm"]);
+    slip("yuan, lengths in km", scaled(yuan, "unstrained_length_m", 1e-3), &["unstrained lengths in km"]);
+    slip("yuan, mass in g", scaled(yuan, "mass_kg", 1e3), &["mass in g given as kg"]);
+    slip("yuan, mass in t", scaled(yuan, "mass_kg", 1e-3), &["mass in t given as kg"]);
+    slip("yuan, anchors in mm", scaled(yuan, "anchor_m", 1e3), &["anchors in mm"]);
+    slip("yuan, attachments in mm", scaled(yuan, "attachment_m", 1e3), &["attachments in mm"]);
+    slip("yuan, ends swapped", swapped(yuan), &["swapped"]);
+
+    // A point mass, and the stiffness itself.
+    let camera = funicular_robots::STADIUM_CAMERA;
+    slip("camera, EA in kN", scaled(camera, "axial_stiffness_n", 1e-3), &["axial stiffness in kN"]);
+    slip("camera, rope in g/m", scaled(camera, "mass_kg_per_m", 1e3), &["mass in g/m"]);
+    slip("camera, mass in t", scaled(camera, "mass_kg", 1e-3), &["platform in t"]);
+    slip("camera, mass in g", scaled(camera, "mass_kg", 1e3), &["mass in g given as kg"]);
+    slip("camera, limit in kN", scaled(camera, "maximum_tension_n", 1e-3), &["tension in kN"]);
+    slip(
+        "camera, breaking load in kN",
+        scaled(&scaled(camera, "breaking_load_n", 1e-3), "maximum_tension_n", 0.01),
+        &["breaking load in kN"],
+    );
+    slip("camera, anchors in mm", scaled(camera, "anchor_m", 1e3), &["lengths of the robot in mm"]);
+
+    // A robot between anchors above and below, and one that moves in a horizontal plane.
+    let ipanema = funicular_robots::IPANEMA2;
+    slip("ipanema, E in MPa", scaled(ipanema, "youngs_modulus_pa", 1e-6), &["MPa (N/mm²) given as Pa"]);
+    slip("ipanema, diameter in cm", scaled(ipanema, "diameter_m", 100.0), &["diameter in cm"]);
+    slip("ipanema, limit in kN", scaled(ipanema, "maximum_tension_n", 1e-3), &["maximum tension in kN"]);
+    slip("ipanema, mass in t", scaled(ipanema, "mass_kg", 1e-3), &["mass in t given as kg"]);
+    let planar = funicular_robots::KNTU_PLANAR;
+    slip("kntu, inertia times 1000", scaled(planar, "inertia_kg_m2", 1e3), &["inertia a factor of 1000 too large"]);
+    slip(
+        "kntu, all in mm",
+        scaled(&scaled(planar, "anchor_m", 1e3), "attachment_m", 1e3),
+        &["lengths of the robot in mm"],
+    );
+
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+}
+
+#[test]
+fn no_robot_of_the_library_is_implausible() {
+    for (name, text) in funicular_robots::ALL {
+        let robot = Robot::from_toml(text).unwrap();
+        assert_eq!(said(&robot), "", "{name}");
+        assert_eq!(plausibility::notes(&robot), Vec::<String>::new(), "{name}");
+        // The pose of the lengths as the state.
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        let at_pose = Robot { state: State::Pose(rest.pose), ..robot.clone() };
+        assert_eq!(warnings::of_robot(&at_pose), [], "{name}");
+        let without = Robot { state: State::Unknown, ..robot };
+        assert_eq!(warnings::of_robot(&without), [], "{name}");
+    }
+}
+
+#[test]
+fn ropes_that_leave_a_doubt_have_a_note() {
+    let circle = |modulus: &str| {
+        let change = format!("youngs_modulus_pa = {modulus}\ndiameter_m = 0.006");
+        let text = changed(&hall(), &[("youngs_modulus_pa = 100e9\narea_m2 = 14e-6", change.as_str())]);
+        let robot = Robot::from_toml(&text).unwrap();
+        (warnings::of_robot(&robot).len(), plausibility::notes(&robot))
+    };
+    // 0.13 kg/m fills 0.586 of the circle with steel.
+    assert_eq!(circle("50e9"), (0, Vec::new()));
+    let (warned, notes) = circle("75e9");
+    assert!(warned == 0 && notes[0].contains("1.28e11 Pa over the metal"), "{notes:?}");
+    assert_eq!((circle("100e9").0, circle("196e9").0), (1, 1));
+
+    let massless = changed(&hall(), &[("mass_kg_per_m = 0.13", "mass_kg_per_m = 0.0")]);
+    let notes = plausibility::notes(&Robot::from_toml(&massless).unwrap());
+    assert!(notes[0].contains("has no mass"), "{notes:?}");
+}
+
+/// Forces of slings from one hook: the attachments are farther apart than the anchors.
+#[test]
+fn slings_from_one_hook_are_plausible() {
+    let mut robot = Robot::from_toml(&hall()).unwrap();
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        let angle = i as f64;
+        cable.anchor = funicular::math::Vec3::new(0.01 * angle.cos(), 0.01 * angle.sin(), 8.0).into();
+        cable.attachment_p *= 2.0;
+    }
+    robot.state = State::Pose(Pose::new([0.0, 0.0, 3.0], [0.0; 3]));
+    assert_eq!(warnings::of_robot(&robot), []);
+}
