@@ -2,6 +2,7 @@
 
 mod export;
 mod import;
+mod new_robot;
 mod request;
 mod sweep;
 pub(crate) mod values;
@@ -18,13 +19,14 @@ use funicular_study::names::ModelForm;
 use funicular_study::request::Change;
 use funicular_study::signals::{Input, Output};
 pub(crate) use import::ImportArgs;
+pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
 use std::path::PathBuf;
 pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
 use values::{Lengths, MassRange, PoseNumbers, Tensions};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// All commands except `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML). Results go to
+/// All commands except `new`, `schema`, `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML). Results go to
 /// stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its name. Exit codes: 0
 /// done, 1 no solution, 2 bad input.
 #[derive(Debug, Parser)]
@@ -40,16 +42,32 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Write a robot file with starting values and comments
+    ///
+    /// Without options: eight wire ropes and a platform of 100 kg. The state of the file is a stable equilibrium, so that
+    /// every command runs on it at once. docs/robot-file.md explains every key.
+    #[command(after_help = "Examples:\n  funicular new -o robot.toml\n  \
+        funicular new --cables 6 --mass-kg 20 --box-m 0.4,0.3,0.2 --diameter-m 0.003\n  \
+        funicular new --motion planar-xz --name \"planar test rig\"\n  \
+        funicular new --from-csv docs/robot-file.csv --csv-unit mm --mass-kg 60")]
+    New(NewArgs),
+    /// Write the JSON Schema of the robot file, with which editors complete and check it
+    ///
+    /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code and
+    /// to other editors with Taplo.
+    #[command(after_help = "Example:\n  funicular schema -o robot.schema.json")]
+    Schema(SchemaArgs),
     /// Read and check a robot file, and describe the robot
     #[command(after_help = "Examples:\n  funicular check robots/yuan2014-4mm.toml\n  \
         funicular check robots/cogiro.toml --set platform.mass_kg=300 --format json")]
     Check(CheckArgs),
     /// List every number of a robot file: path, value, unit, range, meaning
     ///
-    /// The paths can be used in `--set` and in `sweep --vary`. A number that the file leaves out is listed with its
-    /// default.
+    /// The paths can be used in `--set` and in `sweep --vary`. One number of a vector is named by its axis or by its index
+    /// from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
     #[command(after_help = "Examples:\n  funicular parameters robots/yuan2014-4mm.toml\n  \
-        funicular parameters robots/cogiro.toml --set cables.1.anchor_m.z=5.5 --format csv")]
+        funicular parameters robots/cogiro.toml --set cables.1.anchor_m.z=5.5 --format csv\n  \
+        funicular parameters robots/cogiro.toml --set loads.force_n.2=-50")]
     Parameters(CheckArgs),
     /// Equilibrium: pose, tensions, sag
     #[command(after_help = "Examples:\n  funicular statics robots/yuan2014-4mm.toml\n  \
@@ -209,8 +227,8 @@ pub(crate) struct RobotArgs {
 /// Changes of the robot file.
 #[derive(Debug, Args)]
 pub(crate) struct ChangeArgs {
-    /// Change a value of the robot file, as in platform.mass_kg=20 or cables.3.unstrained_length_m=6.7 (cables by name;
-    /// repeatable)
+    /// Change a value of the robot file, as in platform.mass_kg=20, cables.3.unstrained_length_m=6.7 (cables by name) or
+    /// loads.force_n.2=-50 (one number of a vector, by x, y, z or 0, 1, 2); repeatable
     #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_study::set_values::change)]
     pub(crate) set: Vec<Change>,
 }

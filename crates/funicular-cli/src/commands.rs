@@ -17,7 +17,7 @@ mod stiffness;
 mod validate;
 
 use crate::args::{
-    Cli, Command, ExportArgs, FigureArgs, ImportArgs, MapArgs, MergeArgs, OutputArgs, ReduceArgs, RobotArgs,
+    Cli, Command, ExportArgs, FigureArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, ReduceArgs, RobotArgs,
 };
 use crate::output::{Content, FigureSink, Sink, Target, refuse_without_figure};
 use crate::progress::{Shown, Waiting};
@@ -31,7 +31,9 @@ use funicular_study::analyses;
 use funicular_study::export::ExportFormat;
 use funicular_study::figures;
 use funicular_study::import::SourceFile;
+use funicular_study::new_robot;
 use funicular_study::request::{self as requests, Request, RobotText};
+use funicular_study::robot_file::schema;
 use funicular_study::wording::Words;
 use funicular_study::{Results, run_on};
 use funicular_study::{at_rest, export, import};
@@ -62,6 +64,14 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Plot(args) => page::plot(args),
         Command::Report(args) => page::report(&request_of(&cli.command)?, args.robot.as_deref(), &args.output_file),
         Command::Paper(args) => page::paper(&args.output_file),
+        Command::New(args) => {
+            let mut guard = Guard::default();
+            if let Some(table) = &args.from_csv {
+                guard.reads("the table of points", table);
+            }
+            write_new(&new_request(args)?, &mut guard, &args.output_file)
+        }
+        Command::Schema(args) => write_schema(&mut Guard::default(), &args.output_file),
         Command::Import(args) => import(args),
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
@@ -121,6 +131,8 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Plot(args) => Request::Plot(args.request()),
         Command::Report(args) => Request::Report(args.request(robot_file::read(args.robot.as_deref(), &args.changes)?)),
         Command::Paper(_) => Request::Paper(requests::PaperRequest {}),
+        Command::New(args) => Request::New(new_request(args)?),
+        Command::Schema(_) => Request::Schema(requests::SchemaRequest {}),
         Command::Import(args) => Request::Import(args.request(sources(&args.files)?)),
         Command::Export(args) => Request::Export(args.request(robot(&args.robot)?)),
         Command::Validate(_) => Request::Validate(requests::ValidateRequest {}),
@@ -218,6 +230,42 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
 fn merge(args: &MergeArgs) -> Result<()> {
     let rows = funicular_files::merge(&args.parts, &args.output_file)?;
     errors::note(&format!("{} in {}", counted(rows, "row"), args.output_file.display()));
+    Ok(())
+}
+
+/// Request of a new robot, with the table that it names.
+fn new_request(args: &NewArgs) -> Result<requests::NewRequest> {
+    let table = match &args.from_csv {
+        Some(path) => sources(std::slice::from_ref(path))?.pop(),
+        None => None,
+    };
+    Ok(args.request(table))
+}
+
+/// Writes a new robot file. An existing file may hold numbers that somebody has written by hand, so it is never replaced.
+fn write_new(request: &requests::NewRequest, guard: &mut Guard, path: &Path) -> Result<()> {
+    let content = Content { name: "the robot file", option: "-o", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let target = Target::open(Some(path), content, guard)?;
+    if target.is_file() && path.is_file() {
+        bail!("{} exists and may hold your own numbers: name another file, or remove it", path.display());
+    }
+    let made = new_robot::run(request, Words::Program)?;
+    target.write(made.text.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    made.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}
+
+/// Writes the JSON Schema of the robot file.
+fn write_schema(guard: &mut Guard, path: &Path) -> Result<()> {
+    let content = Content { name: "the schema", option: "-o", in_words: "a JSON Schema", fitting: &[Kind::Json] };
+    let target = Target::open(Some(path), content, guard)?;
+    target.write(schema::text().as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
     Ok(())
 }
 

@@ -4,6 +4,7 @@ use crate::args::values::finite;
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{PlatformMotion, Robot};
+use funicular_study::csv_lines::line_at;
 use std::fs;
 use std::path::Path;
 
@@ -53,16 +54,6 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     }
 
     Ok(poses)
-}
-
-/// Line number of a record, from 1. It is counted here, because the position of the reader points to the end of the
-/// previous record, before blank lines, and does not count all kinds of line ends.
-fn line_at(bytes: &[u8], position: &csv::Position) -> usize {
-    let from = usize::try_from(position.byte()).unwrap_or(bytes.len()).min(bytes.len());
-    let ends = |byte: &u8| matches!(byte, b'\r' | b'\n');
-    let begin = from + bytes[from..].iter().take_while(|byte| ends(byte)).count();
-    let ends_line = |i: &usize| bytes[*i] == b'\n' || (bytes[*i] == b'\r' && bytes.get(i + 1) != Some(&b'\n'));
-    1 + (0..begin).filter(ends_line).count()
 }
 
 /// Place of each column. An unknown column is reported, and refused if its name is close to that of a pose column.

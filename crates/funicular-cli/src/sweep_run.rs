@@ -48,7 +48,10 @@ pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result
             refuse_output(job, guard, path)?;
             to_file(job, &plan, record, path, threads)
         }
-        None if run.format == Some(Format::Csv) => to_stdout(&plan, threads),
+        None if run.format == Some(Format::Csv) => {
+            warn(job);
+            to_stdout(&plan, threads)
+        }
         None => to_summary(job, &plan, threads),
     }
 }
@@ -140,7 +143,16 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
 
     work.finish()?;
     errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
-    if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
+    if run.format.is_some() {
+        return summary.print(run.format);
+    }
+    warn(job);
+    Ok(())
+}
+
+/// Prints the warnings about the robot where no summary has them.
+fn warn(job: &Job) {
+    job.sweep.warnings().iter().for_each(|warning| errors::warn(warning));
 }
 
 /// Refuses a destination that cannot hold rows.

@@ -7,8 +7,10 @@ use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;
 use funicular_study::import::{self, SourceFile};
+use funicular_study::new_robot;
 use funicular_study::pages;
 use funicular_study::request::Request;
+use funicular_study::robot_file::schema;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Watch, at_rest, export, json, run};
 use pyo3::prelude::*;
@@ -90,7 +92,7 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Computes text and caveats of a request of `report`, `paper` or `export`; `call` is the code that makes a page again.
+/// Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
     let request = self::request(request)?;
@@ -107,6 +109,11 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
                 let exported = export::run(&at_rest, of)?;
                 (exported.text, exported.warnings)
             }
+            Request::New(of) => {
+                let made = new_robot::run(of, Words::Python)?;
+                (made.text, made.warnings)
+            }
+            Request::Schema(_) => (schema::text(), Vec::new()),
             other => anyhow::bail!("`{}` makes no text", other.command()),
         })
     })?

@@ -272,8 +272,8 @@ pub(crate) struct PairKeywords<'a> {
 
 pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
     let (frequencies, _) = hz.frequencies()?;
-    let PairKeywords { input, output, adaptive, .. } = &keywords;
-    let (adaptive, one) = (*adaptive, input.is_one() && output.is_one());
+    let (input, output, adaptive) = (&keywords.input, &keywords.output, keywords.adaptive);
+    let one = input.is_one() && output.is_one();
     let pairs = frf::Pairs {
         inputs: input.names(),
         outputs: output.names(),

@@ -231,3 +231,13 @@ def test_warnings_come_with_the_result(robot: funicular.Robot) -> None:
     heavy = robot.with_({"materials.rope-4mm.breaking_load_n": 40.0})
     assert any("breaks at 40" in warning for warning in heavy.equilibrium().warnings)
     assert any("breaks at 40" in warning for warning in heavy.modes(1).warnings)
+
+
+def test_implausible_values_come_with_the_result_and_with_an_error(robot: funicular.Robot) -> None:
+    slip = robot.with_({"materials.rope-4mm.youngs_modulus_pa": 20.0})
+    warnings = slip.equilibrium(pose=[0.0, 0.0, 1.0]).warnings
+    assert sum("GPa given as Pa?" in warning and "Young's modulus is" in warning for warning in warnings) == 1
+    with pytest.raises(funicular.StaticsError) as caught:
+        robot.equilibrium(pose=[0.0, 0.0, 1500.0])
+    assert caught.value.code == "negative-tension"
+    assert str(caught.value).count("position in mm given as m?") == 1

@@ -7,6 +7,7 @@ from typing import Any
 
 import commands
 import funicular
+import funicular.plot
 import numpy as np
 import pytest
 from conftest import ROOT
@@ -26,13 +27,18 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
-    "reduce": ("`robot.equilibrium(…).reduce(…)`", [Robot.equilibrium, Equilibrium.reduce]),
+    "reduce": (
+        "`robot.equilibrium(…).state_space(…)`, `robot.equilibrium(…).reduce(…)` for the second-order form",
+        [Robot.equilibrium, Equilibrium.state_space],
+    ),
     "map": ("`robot.map(…)`", [Robot.map]),
     "sweep": ("`robot.sweep(…)`", [Robot.sweep]),
     "merge": ("`funicular.merge(parts, path)`", [funicular.merge]),
     "plot": ("`sweep.plot(…)`, `funicular.Sweep.read(path).plot(…)`", [Sweep.plot]),
     "report": ("`robot.equilibrium(…).report(…)`", [Robot.equilibrium, Equilibrium.report]),
     "paper": ("`funicular.paper(…)`", [funicular.paper]),
+    "new": ("`funicular.new_robot(…)`", [funicular.new_robot]),
+    "schema": ("`funicular.schema()`", [funicular.schema]),
     "import": ("`funicular.import_robot(files, …)`", [funicular.import_robot]),
     "export": ("`robot.equilibrium(…).export(to, path, …)`", [Robot.equilibrium, Equilibrium.export]),
     "validate": ("`funicular.validate()`", [funicular.validate]),
@@ -50,7 +56,14 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     (None, "--points"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
     (None, "--log"): ("`hz=numpy.geomspace(from_hz, to_hz, points)`", np.geomspace),
     (None, "--quantity"): ("`quantities=` of `Robot.map`, `Robot.sweep`", Robot.map),
-    (None, "--matrices"): ("`model.save(path)`; `model.state_space()`, `to_scipy()`, `to_control()`", funicular.ReducedModel.save),
+    (None, "--form"): ("`state_space(…)` or `reduce(…)` of the equilibrium", Equilibrium.reduce),
+    (None, "--matrices"): ("`model.save(path)`; `model.A`, …, `to_scipy()`, `to_control()`", funicular.StateSpaceModel.save),
+    (None, "--figure-width-mm"): ("`width=` of `funicular.plot.bode`, `funicular.plot.map`, `funicular.plot.shape`", funicular.plot.bode),
+    (None, "--font-size-pt"): ("`font_size_pt=` of these functions of `funicular.plot`", funicular.plot.bode),
+    (None, "--figure-mode"): ("`mode=` of `funicular.plot.shape`, from 0", funicular.plot.shape),
+    ("plot", "--quantity"): ("`column=` of `funicular.plot.map`", funicular.plot.map),
+    (None, "--plane"): ("`plane=` of `funicular.plot.map`", funicular.plot.map),
+    (None, "--at"): ("`at=` of `funicular.plot.map`", funicular.plot.map),
     ("map", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
     ("sweep", "--format"): ("`rows.to_pandas()`, `rows.write(path)`", Sweep.write),
     ("map", "--output-file"): ("`file=` of `Robot.map`, `Robot.sweep`", Robot.map),
@@ -60,6 +73,8 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     ("report", "--output-file"): ("`path=` of the call", Equilibrium.report),
     ("paper", "--output-file"): ("`path=` of the call", funicular.paper),
     ("export", "--output-file"): ("`path=` of the call", Equilibrium.export),
+    ("new", "--output-file"): ("`new.write(path)`", funicular.NewRobot.write),
+    ("schema", "--output-file"): ("`json.dumps(funicular.schema())`", funicular.schema),
     ("import", "--output-file"): ("`imported.write(path)`", funicular.Imported.write),
     ("request", "--format"): ("`json.dumps(result)`", funicular.run),
     ("request", "--output-file"): ("`json.dumps(result)`, `rows.write(path)`, `page.write(path)`", funicular.Page.write),

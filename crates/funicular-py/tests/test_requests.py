@@ -52,9 +52,10 @@ MORE = [
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic --in-plane-only",
     f"funicular pose-error {ROBOT} --mass-kg 10.55:86.35:5 {LENGTHS} --tolerance-mm 5",
-    f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --damping-at-hz 1",
-    f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
-    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 {STATE} {WHOLE}",
+    f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --order 12",
+    f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 "
+    "--damping-at-hz 1 --tolerance 0.1",
+    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 --form second-order {STATE} {WHOLE}",
     f"funicular map robots/cogiro.toml --grid z=1:2:2 {TENSIONS} {STATE} {MODEL} --quantity tensions --up-to-hz 50",
     f"funicular sweep {ROBOT} --vary cables.3.unstrained_length_m=6.7,6.8 --static-model spring --set platform.mass_kg=12",
     f"funicular report {ROBOT} --below-hz 3 --input mz --output arz --cable-model spring --mass-kg 12",
@@ -63,6 +64,12 @@ MORE = [
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
     "funicular paper",
+    "funicular new",
+    "funicular new --cables 6 --motion planar-xz --name rig --mass-kg 20 --box-m 0.4,0.3,0.2 --rope 7x7 --diameter-m 0.003 --pose 0,0,1.5",
+    "funicular new --motion point-mass --axial-stiffness-n 1e6 --mass-kg-per-m 0.1",
+    "funicular new --from-csv docs/robot-file.csv --csv-unit mm --mass-kg 60",
+    "funicular schema",
+    f"funicular parameters {ROBOT} --set loads.force_n.2=-5 --set cables.1.anchor_m.2=5.5",
     "funicular import docs/import/tripod.txt --mass-kg 7 --inertia-kg-m2 1,1,1,0,0,0 --center-of-mass-m 0,0,0.1 --diameter-m 0.01",
     "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml --mass-kg-per-m 0.05 --youngs-modulus-pa 1e11 "
     "--diameter-m 0.005 --pose 0,0,1",
@@ -119,7 +126,11 @@ def ours(line: str) -> dict[str, Any]:
     if command == "import":
         sources = [json.loads(funicular._study.source_file(Path(path))) for path in files]
         return funicular._study.request(command, None, {"files": sources, **keywords})
-    if command in ("paper", "validate"):
+    if command == "new":
+        if "from_csv" in keywords:
+            keywords["from_csv"] = json.loads(funicular._study.source_file(Path(keywords["from_csv"])))
+        return funicular._study.request(command, None, keywords)
+    if command in ("paper", "schema", "validate"):
         return funicular._study.request(command, None, keywords)
     return commands.robot_of(files, changes).request(command, **keywords)
 
@@ -186,7 +197,8 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         case "compare":
             assert plain(rest.compare(**own)) == theirs
         case "reduce":
-            assert rest.reduce(**own).to_dict() == theirs
+            reduced = rest.reduce if own.pop("form", "") == "second-order" else rest.state_space
+            assert reduced(**own).to_dict() == theirs
         case "cable":
             assert plain(rest.cable(hz=hz, **own)) == theirs
         case "frf":
@@ -225,7 +237,7 @@ def test_a_reduced_model_has_the_frequencies_and_responses_of_the_robot(tmp_path
         assert np.abs(response - expected).max() < bound * np.abs(expected).max()
     model.save(tmp_path / "model.npz")
     assert np.array_equal(np.load(tmp_path / "model.npz")["ss_A"], a)
-    with pytest.raises(funicular.InputError, match=r"must end in \.npz"):
+    with pytest.raises(funicular.InputError, match=r"must end in \.npz or \.mat"):
         model.save(tmp_path / "model.csv")
 
 
@@ -264,10 +276,22 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
     with pytest.raises(funicular.InputError, match="`mass_kg_per_m`"):
         funicular.import_robot(files)
 
+    run("new --from-csv docs/robot-file.csv --csv-unit mm --mass-kg 60 -o new-theirs.toml")
+    new = funicular.new_robot(from_csv="docs/robot-file.csv", csv_unit="mm", mass_kg=60)
+    new.write("new-ours.toml")
+    assert Path("new-ours.toml").read_bytes() == Path("new-theirs.toml").read_bytes()
+    assert new.warnings == () and new.robot.equilibrium().stable
+    with pytest.raises(FileExistsError, match="may hold your own numbers"):
+        new.write("new-ours.toml")
+    with pytest.raises(funicular.InputError, match="`cables` 1: one cable"):
+        funicular.new_robot(cables=1)
+
     page = rest.report("ours.html", below_hz=3)
     assert Path("ours.html").read_text() == page.html and "robot.equilibrium(" in page.html
     assert "<iframe" in page._repr_html_() and "<html" not in page._repr_html_()
     rows = robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}, file="map.parquet")
+    with pytest.raises(funicular.InputError, match="would hold one figure"):
+        rows.plot("map.pdf")
     shown = rows.plot("map.html")
     assert Path("map.html").read_text() == shown.html and "tension" in shown.html
     assert "rows in memory" in robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}).plot().html

@@ -31,6 +31,7 @@
 #[expect(missing_docs, reason = "fields are the keys of the JSON: quantity and unit are their names")]
 pub mod analyses;
 pub mod at_rest;
+pub mod csv_lines;
 mod error;
 pub mod export;
 #[cfg(feature = "pages")]
@@ -39,6 +40,7 @@ pub mod frequency_range;
 pub mod import;
 pub mod json;
 pub mod names;
+pub mod new_robot;
 #[cfg(feature = "pages")]
 pub mod pages;
 pub mod request;

@@ -8,15 +8,16 @@ mod keys;
 mod parts;
 
 pub use keys::KEYS;
-pub(crate) use parts::check_vector;
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
     ResponsePoints, RobotText, State, Tensions, Terms,
 };
+pub(crate) use parts::{check, check_vector};
 
 use crate::error::Error;
 use crate::import::SourceFile;
 use crate::names::{ModelForm, suggestion};
+use crate::new_robot::{LengthUnit, NewMotion, WireRope};
 use crate::signals::{Input, Output};
 use crate::values::{fraction, not_negative, positive};
 use anyhow::{anyhow, bail};
@@ -61,6 +62,10 @@ pub enum Request {
     Report(ReportRequest),
     /// HTML page that reproduces Yuan et al. 2014.
     Paper(PaperRequest),
+    /// Robot file with starting values.
+    New(NewRequest),
+    /// JSON Schema of the robot file.
+    Schema(SchemaRequest),
     /// Robot file made from files of other programs.
     Import(ImportRequest),
     /// Robot at equilibrium as a file of another program.
@@ -386,6 +391,51 @@ pub struct PaperRequest {}
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ValidateRequest {}
 
+/// Request of `new`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct NewRequest {
+    /// Name of the robot.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Number of cables; default 8, or for a planar platform and a point mass 4.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cables: Option<usize>,
+    /// Motion of the platform.
+    #[serde(default, with = "crate::names")]
+    pub motion: NewMotion,
+    /// Table of the points of the cables, in place of a number of cables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_csv: Option<SourceFile>,
+    /// Unit of the points in the table; default metres, or the unit in the names of the columns.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
+    pub csv_unit: Option<LengthUnit>,
+    /// Mass of the platform [kg]; default 100.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg: Option<f64>,
+    /// Sides of the homogeneous box that gives the inertia [m]; default 1 × 1 × 0.5, or the box around the attachments.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub box_m: Option<[f64; 3]>,
+    /// Construction of the wire rope.
+    #[serde(default, with = "crate::names")]
+    pub rope: WireRope,
+    /// Diameter of the rope [m]; default by the mass of the platform, 6 mm for 100 kg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diameter_m: Option<f64>,
+    /// Axial stiffness EA of another rope [N], in place of construction and diameter; needs its mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_stiffness_n: Option<f64>,
+    /// Mass of that rope per unstrained length [kg/m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg_per_m: Option<f64>,
+    /// Pose of the state; default a stable pose that the program finds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
+}
+
+/// Request of `schema`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct SchemaRequest {}
+
 /// Request of `import`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ImportRequest {
@@ -481,6 +531,8 @@ impl Request {
             Self::Sweep(_) => "sweep",
             Self::Report(_) => "report",
             Self::Paper(_) => "paper",
+            Self::New(_) => "new",
+            Self::Schema(_) => "schema",
             Self::Import(_) => "import",
             Self::Export(_) => "export",
             Self::Validate(_) => "validate",
@@ -507,7 +559,13 @@ impl Request {
             Self::Sweep(request) => Some(&request.robot),
             Self::Report(request) => Some(&request.robot),
             Self::Export(request) => Some(&request.robot),
-            Self::Paper(_) | Self::Import(_) | Self::Validate(_) | Self::Merge(_) | Self::Plot(_) => None,
+            Self::New(_)
+            | Self::Schema(_)
+            | Self::Paper(_)
+            | Self::Import(_)
+            | Self::Validate(_)
+            | Self::Merge(_)
+            | Self::Plot(_) => None,
         }
     }
 

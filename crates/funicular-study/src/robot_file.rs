@@ -1,5 +1,8 @@
 //! Robot file of a request: its text is changed, read and checked.
 
+pub mod page;
+pub mod schema;
+
 use crate::request::{Change, RobotText};
 use crate::set_values::{self, Assignment};
 use anyhow::{Result, anyhow, bail};

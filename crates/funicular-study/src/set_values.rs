@@ -1,13 +1,13 @@
 //! Changes `PATH=VALUE` of the text of a robot file. They are made before the file is read, so that all checks of the
 //! reader apply and its errors point at the changed line. A path may end at one number of an array:
-//! `cables.1.anchor_m.z`.
+//! `cables.1.anchor_m.z`, or by its index from 0, `cables.1.anchor_m.2`.
 
 use crate::names::{listed, suggestion};
 use crate::request::Change;
 use funicular::robot::parameters::{self, ComponentOfKey};
 use std::str::FromStr;
 use thiserror::Error;
-use toml_edit::{Decor, DocumentMut, Item, Key, TableLike, Value};
+use toml_edit::{Decor, DocumentMut, Item, Key, Table, TableLike, Value};
 
 /// Value and its place in the robot file.
 #[derive(Debug, Clone)]
@@ -50,10 +50,9 @@ pub struct Path {
 }
 
 impl Path {
-    /// Key of the value, whose ending is the unit; for one number of an array the key of the array.
-    pub fn key(&self) -> &str {
-        let beyond = usize::from(parameters::component(&self.keys).is_some());
-        self.keys.iter().rev().nth(beyond).map_or("", String::as_str)
+    /// Unit of the number at this path; `None` if a robot file has no number there.
+    pub fn unit(&self) -> Option<&'static str> {
+        parameters::unit(&self.keys)
     }
 
     /// Keys from the root of the file to the value.
@@ -66,9 +65,15 @@ impl Path {
         self.keys.first().is_some_and(|key| key == "state")
     }
 
-    /// True if another path leads to the same value, for any quoting.
+    /// True if another path leads to the same value, for any quoting, and for names and indices of components.
     pub fn is_same(&self, other: &Self) -> bool {
-        self.keys == other.keys
+        let place = |path: &Self| {
+            let component = parameters::component(&path.keys);
+            let of_key = path.keys.len() - component.map_or(0, |component| component.beyond_key);
+            (path.keys[..of_key].to_vec(), component.map(|at| (at.row, at.column.unwrap_or(at.row))))
+        };
+        // An index of a vector has no column, and neither has the name of its component.
+        place(self) == place(other)
     }
 
     /// Assignment of a number to the value at this path, requested by `option`.
@@ -210,13 +215,14 @@ pub fn apply(text: &str, assignments: &[Assignment]) -> Result<String> {
 }
 
 fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
-    let Some((mut key, mut parents)) = assignment.path.split_last() else { bail!("the path is empty") };
-    let component = parameters::component(&assignment.path).map(|component| (component, key));
-    if component.is_some()
-        && let Some(of_array) = parents.split_last()
-    {
-        (key, parents) = of_array;
+    let path = &assignment.path;
+    if let Some((count, names)) = parameters::unknown_component(path) {
+        let (array, rest) = path.split_at(count);
+        bail!("`{}` has the numbers {names}, and no `{}`", array.join("."), rest.join("."));
     }
+    let component = parameters::component(path);
+    let (to_key, rest) = path.split_at(path.len() - component.map_or(0, |component| component.beyond_key));
+    let Some((key, parents)) = to_key.split_last() else { bail!("the path is empty") };
 
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parents = parents.iter();
@@ -225,6 +231,9 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
     let mut in_lines = true;
     while let Some(parent) = parents.next() {
         walked.push(parent);
+        if walked.len() == 1 && table.get(parent).is_none() && parameters::is_optional_table(parent) {
+            table.insert(parent, Item::Table(Table::new()));
+        }
         let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
         let Some(item) = table.get_mut(parent) else {
             bail!("the robot file has no `{}`{}", walked.join("."), suggestion(parent, &names))
@@ -244,8 +253,8 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
 
     match component {
         None => put(table, key, in_lines, assignment, assignment.value.clone()),
-        Some((component, name)) => {
-            let value = with_component(table.get(key), &component, key, name, &assignment.value)?;
+        Some(component) => {
+            let value = with_component(table.get(key), &component, key, &rest.join("."), &assignment.value)?;
             put(table, key, in_lines, assignment, value)
         }
     }
@@ -262,7 +271,9 @@ fn with_component(
     let mut array = match (item.map(Item::as_value), component.default) {
         (Some(Some(Value::Array(array))), _) => array.clone(),
         (None, Some(default)) => default.into_iter().collect(),
-        (None, None) => bail!("the robot file has no `{key}` there: give all its numbers"),
+        (None, None) => {
+            bail!("the robot file has no `{key}` there: give all its numbers, for example `{}`", component.example)
+        }
         (Some(_), _) => bail!("`{key}` is not an array in the robot file and has no `{name}`"),
     };
     let ComponentOfKey { row, column, .. } = *component;
@@ -270,6 +281,9 @@ fn with_component(
     let Some(element) = array.get_mut(row) else { bail!("`{key}` has {count} elements and no `{name}`") };
 
     match (element.is_array(), column) {
+        (true, None) => {
+            bail!("`{name}` of `{key}` is a row of numbers: name one by row and column, as in `{row}.{row}`")
+        }
         (true, Some(column)) => {
             for (row, column) in [(row, column), (column, row)] {
                 let entry = array.get_mut(row).and_then(Value::as_array_mut).and_then(|row| row.get_mut(column));
@@ -385,7 +399,14 @@ mod tests {
         assert!(set(file, "platform.center_of_mass_m.x=0.1").unwrap().contains("center_of_mass_m = [0.1, 0.0, 0.0]"));
         assert!(set("", "gravity_m_s2.x=1").unwrap().contains("gravity_m_s2 = [1, 0.0, -9.81]"));
 
-        assert!(set(file, "wind.velocity_m_s.x=3").unwrap_err().contains("give all its numbers"));
+        // A table that may be absent is made.
+        assert!(
+            set("name = 'a'\n", "loads.force_n.z=-5").unwrap().contains("[loads]\nforce_n = [0.0, 0.0, -5] # set:")
+        );
+        assert!(set(file, "wind.velocity_m_s.x=3").unwrap().contains("velocity_m_s = [3, 0.0, 0.0]"));
+
+        let error = set(file, "state.position_m.0=1").unwrap_err();
+        assert!(error.contains("give all its numbers, for example `position_m = [0.0, 0.0, 1.0]`"), "{error}");
         assert!(
             set("[platform]\ninertia_kg_m2 = [1, 2, 3]", "platform.inertia_kg_m2.xy=1")
                 .unwrap_err()
@@ -393,6 +414,41 @@ mod tests {
         );
         assert!(set("gravity_m_s2 = 3", "gravity_m_s2.x=3").unwrap_err().contains("not an array"));
         assert!(set("gravity_m_s2 = []", "gravity_m_s2.x=3").unwrap_err().contains("0 elements"));
+    }
+
+    #[test]
+    fn an_index_is_another_name_of_a_number() {
+        let rows = "[platform]\ninertia_kg_m2 = [[1, 2, 3], [2, 4, 5], [3, 5, 6]]\n";
+        let moments = "[platform]\ninertia_kg_m2 = [1, 2, 3]\n";
+        let value = |text: &str| text.split(" # set").next().unwrap_or_default().to_owned();
+        let set = |file: &str, text: &str| {
+            apply(file, &[assignment(text).unwrap()]).map(|text| value(&text)).map_err(|error| error.to_string())
+        };
+        for (file, by_index, by_name) in [
+            ("gravity_m_s2 = [0, 0, -10]\n", "gravity_m_s2.2", "gravity_m_s2.z"),
+            ("", "loads.force_n.1", "loads.force_n.y"),
+            ("[state]\nposition_m = [1, 2, 3]\n", "state.roll_pitch_yaw_deg.2", "state.roll_pitch_yaw_deg.yaw"),
+            (moments, "platform.inertia_kg_m2.1", "platform.inertia_kg_m2.yy"),
+            (moments, "platform.inertia_kg_m2.1.1", "platform.inertia_kg_m2.yy"),
+            (rows, "platform.inertia_kg_m2.0.1", "platform.inertia_kg_m2.xy"),
+            (rows, "platform.inertia_kg_m2.2.1", "platform.inertia_kg_m2.yz"),
+        ] {
+            let changed = set(file, &format!("{by_index}=7")).unwrap();
+            assert_eq!(changed, set(file, &format!("{by_name}=7")).unwrap());
+            assert!(changed.contains('7'), "{changed}");
+            let is_same = |a: &str, b: &str| path(a).unwrap().is_same(&path(b).unwrap());
+            assert!(is_same(by_index, by_name) && !is_same(by_index, "gravity_m_s2.x"));
+        }
+
+        let error = set(rows, "platform.inertia_kg_m2.1=7").unwrap_err();
+        assert!(error.contains("`1` of `inertia_kg_m2` is a row of numbers: name one by row and column, as in `1.1`"));
+        for (text, last) in [("gravity_m_s2.3=1", "3"), ("gravity_m_s2.-1=1", "-1"), ("gravity_m_s2.0.0=1", "0.0")] {
+            let error = set("gravity_m_s2 = [0, 0, -10]\n", text).unwrap_err();
+            let says = format!("`gravity_m_s2` has the numbers x, y and z, or 0, 1 and 2, and no `{last}`");
+            assert!(error.contains(&says), "{error}");
+        }
+        let error = set("", "loads.force_n.w=1").unwrap_err();
+        assert!(error.contains("`loads.force_n` has the numbers x, y and z"), "{error}");
     }
 
     #[test]

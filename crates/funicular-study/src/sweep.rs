@@ -35,6 +35,7 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics;
+use funicular::warnings;
 use serde_json::{Map, Value, json};
 
 /// Map or sweep that is ready to run.
@@ -176,6 +177,11 @@ impl PreparedSweep {
     /// One robot of the sweep.
     pub fn robot(&self) -> &Robot {
         &self.robot
+    }
+
+    /// Warnings about values of the robot that no usual robot has; of a sweep, those of its first point.
+    pub fn warnings(&self) -> Vec<String> {
+        warnings::of_robot(&self.robot).iter().map(ToString::to_string).collect()
     }
 
     /// Points of the sweep.

@@ -24,6 +24,7 @@ const page = (function () {
     if (note) {
       const text = document.createElement("span");
       text.textContent = note;
+      text.title = "The graphics card draws views in space as pixels. The command funicular statics with -o FILE.svg draws the robot as lines.";
       row.append(text);
     }
     Object.keys(formats).forEach(function (ending) {
@@ -45,7 +46,7 @@ const page = (function () {
     };
     // A view in space is drawn by the graphics card as pixels; inside an SVG file it would still be pixels.
     if (place.classList.contains("scene")) {
-      offer(place, { png: picture("png", FINE) }, "pixels only; the program writes lines: -o FILE.svg");
+      offer(place, { png: picture("png", FINE) }, "drawn as pixels");
     } else {
       offer(place, { svg: picture("svg", 1), png: picture("png", FINE) });
     }

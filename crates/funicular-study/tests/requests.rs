@@ -147,7 +147,20 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &model,
                 &points,
-                &json!({ "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "tolerance": 1e-3, "damping_at_hz": 1.0 }),
+                &json!({
+                    "below_hz": 5.0, "input": ["fx", "mz"], "output": [], "form": "second-order", "tolerance": 1e-3,
+                    "damping_at_hz": 1.0
+                }),
+            ],
+        ),
+        of(
+            "reduce",
+            &[
+                &robot,
+                &state,
+                &model,
+                &points,
+                &json!({ "below_hz": 5.0, "input": [], "output": ["az"], "form": "state-space", "order": 8 }),
             ],
         ),
         of("map", &[&robot, &point, &json!({ "grid": grid })]),
@@ -158,6 +171,16 @@ fn requests() -> Vec<Value> {
         of("report", &[&robot, &state, &tensions, &model, &points, &signals, &share, &json!({ "below_hz": 20.0 })]),
         of("paper", &[]),
         of("import", &[&files, &ropes]),
+        of(
+            "new",
+            &[&json!({
+                "name": "rig", "cables": 6, "motion": "planar-xz", "csv_unit": "mm", "mass_kg": 20.0,
+                "from_csv": { "path": "a.csv", "text": "1,2,3,4,5,6" }, "box_m": [0.4, 0.3, 0.2], "rope": "7x7",
+                "diameter_m": 0.003, "axial_stiffness_n": 1e6, "mass_kg_per_m": 0.1,
+                "pose": [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            })],
+        ),
+        of("schema", &[]),
         of("export", &[&robot, &state, &tensions, &json!({ "to": "vtk", "segments": 5, "modes_below_hz": 10.0 })]),
         of("validate", &[]),
     ]
@@ -229,5 +252,26 @@ fn a_key_that_a_command_does_not_have_is_refused_in_every_command() {
         keys.insert("poze".to_owned(), json!(1));
         let error = Request::from_value(Value::Object(keys)).unwrap_err().to_string();
         assert!(error.contains("has no key `poze`; did you mean `pose`?"), "{error}");
+    }
+}
+
+/// Robots whose numbers other programs computed, random ones among them: none of them has an implausible value.
+#[test]
+fn no_reference_robot_is_implausible() {
+    use funicular::robot::Robot;
+    use funicular::statics::{self, StaticModel};
+    use funicular::warnings;
+
+    let reference: Value = serde_json::from_str(include_str!("../reference/independent.json")).unwrap();
+    let cases = reference["cases"].as_array().unwrap();
+    assert!(cases.len() > 10);
+    for case in cases {
+        let robot = Robot::from_toml(case["toml"].as_str().unwrap()).unwrap();
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        let mut warned = warnings::of_robot(&robot);
+        warned.extend(warnings::of_plausibility(&robot, &rest));
+        let warned: Vec<String> = warned.iter().map(ToString::to_string).collect();
+        assert_eq!(warned, Vec::<String>::new(), "{}", robot.name);
+        assert_eq!(warnings::plausibility::notes(&robot), Vec::<String>::new(), "{}", robot.name);
     }
 }

@@ -149,7 +149,7 @@ mod tests {
             (
                 json!({ "command": "statics", "robot": { "text": ROBOT }, "pose": [50.0, 0.0, 1.0] }),
                 NO_SOLUTION,
-                "no tensions within their limits",
+                "no tensions hold this pose, whatever their limits",
             ),
         ] {
             let (found, text) = answered(&request);

@@ -9,6 +9,8 @@
 mod candidates;
 mod control_model;
 mod reference;
+mod selection;
+mod terms;
 
 pub use control_model::{
     ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, Size, control_model,

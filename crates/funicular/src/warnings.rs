@@ -141,7 +141,8 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
 }
 
 /// Tension per unit wrench above which a pose counts as nearly singular: ten times the largest value at the poses of
-/// the library's robots, which have 0.9 to 3.1.
+/// the library's robots, which have 0.9 to 3.1. Eight cables with an inverse condition of 0.005, whose platform turns
+/// at 0.2 Hz, have about 100.
 pub const SINGULAR_GAIN: f64 = 30.0;
 
 /// Relative change of static displacements above which the turning drag causes a warning; a drag coefficient is hardly

@@ -2,12 +2,13 @@
 
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
-    ImportArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs,
-    RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName,
-    TermArgs,
+    ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs,
+    PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs,
+    SweepArgs, TensionArgs, TensionRuleName, TermArgs, WireRopeName,
 };
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
+use funicular_study::new_robot::{LengthUnit, NewMotion, WireRope};
 use funicular_study::request::{
     self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
     ResponsePoints, RobotText, State, Tensions, Terms,
@@ -290,6 +291,36 @@ impl ImportArgs {
                 center_of_mass_m: platform.center_of_mass_m.map(Into::into),
                 pose: platform.pose.map(|pose| Pose::Angles(pose.0)),
             },
+        }
+    }
+}
+
+impl NewArgs {
+    /// Request of a new robot; `csv` is the file of `--from-csv`.
+    pub(crate) fn request(&self, csv: Option<SourceFile>) -> request::NewRequest {
+        request::NewRequest {
+            name: self.name.clone(),
+            cables: self.cables,
+            motion: match self.motion {
+                MotionName::Rigid => NewMotion::Rigid,
+                MotionName::PointMass => NewMotion::PointMass,
+                MotionName::PlanarXz => NewMotion::PlanarXz,
+            },
+            from_csv: csv,
+            csv_unit: self.csv_unit.map(|unit| match unit {
+                LengthUnitName::M => LengthUnit::Metre,
+                LengthUnitName::Mm => LengthUnit::Millimetre,
+            }),
+            mass_kg: self.mass_kg,
+            box_m: self.box_m.map(Into::into),
+            rope: match self.rope {
+                WireRopeName::SixTimes19 => WireRope::SixTimes19,
+                WireRopeName::SevenTimes7 => WireRope::SevenTimes7,
+            },
+            diameter_m: self.diameter_m,
+            axial_stiffness_n: self.axial_stiffness_n,
+            mass_kg_per_m: self.mass_kg_per_m,
+            pose: self.pose.map(|pose| Pose::Angles(pose.0)),
         }
     }
 }

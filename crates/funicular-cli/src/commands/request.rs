@@ -1,6 +1,6 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analyse_or_draw, page, write_export, write_import};
+use super::{analyse_or_draw, page, write_export, write_import, write_new, write_schema};
 use crate::args::{OutputArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
@@ -55,6 +55,8 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
         Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),
+        Request::New(of) => write_new(of, &mut guard, &place()),
+        Request::Schema(_) => write_schema(&mut guard, &place()),
         Request::Import(of) => write_import(of, &mut guard, &place()),
         Request::Export(of) => {
             let robot = of.robot.read()?.robot;

@@ -64,7 +64,7 @@ impl Summary {
             feasible: 0,
             status: Vec::new(),
             ranges: Vec::new(),
-            warnings: Vec::new(),
+            warnings: job.sweep.warnings(),
             columns: columns.to_vec(),
             first: Vec::new(),
             varies: vec![false; coordinates.len()],

@@ -39,10 +39,12 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         (
             "modes ROBOT --below-hz 1",
             "xlsx",
-            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .md or .txt",
+            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .svg, .pdf, .md or .txt",
         ),
         ("modes ROBOT --below-hz 1", "parquet", "would hold text, and .parquet means a Parquet file"),
-        ("modes ROBOT --below-hz 1", "PDF", "would hold text, and .pdf means printed pages"),
+        ("stiffness ROBOT", "PDF", "would hold text, and .pdf means a figure in PDF"),
+        ("frf ROBOT --from-hz 1 --to-hz 2 --points 9 --input fz --output z --format csv", "svg", "would hold CSV"),
+        ("report", "svg", "would hold one figure, but the page has many: write one with `funicular statics`, `modes`"),
         ("statics ROBOT", "parquet.partial", "would hold text, and .partial means rows of an unfinished sweep"),
         (
             "statics ROBOT --format json",
@@ -61,7 +63,7 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         ),
         ("reduce ROBOT --below-hz 1", "npz", "would hold text, and .npz means arrays of NumPy"),
         ("report", "csv", "would hold a page, and .csv means CSV; choose a name that ends in .html"),
-        ("paper", "pdf", "would hold a page, and .pdf means printed pages"),
+        ("paper", "pdf", "would hold one figure, but the page has many"),
         ("plot ROWS", "png", "would hold a page, and .png means a picture"),
         (
             "import SOURCE",

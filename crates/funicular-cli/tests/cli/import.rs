@@ -98,6 +98,7 @@ fn one_robot_is_the_same_in_every_format() {
     let [bodies, cables] = caspr();
     let ideal = imported(&[&[bodies.as_str(), &cables], &ROPES[..]].concat());
     let reference = json("check", &ideal, &[]);
+    assert_eq!(reference["warnings"].as_array().unwrap().len(), 0, "{}", reference["warnings"]);
     let pose = "0.1,-0.05,1.5,0,0,0";
     for (what, arguments) in [
         ("order", [&[cables.as_str(), &bodies], &ROPES[..]].concat()),
@@ -105,7 +106,12 @@ fn one_robot_is_the_same_in_every_format() {
         ("WireX", vec![&example("tripod.wcrfx"), "--axial-stiffness-n", "1e6", "--pose", pose]),
         ("MoorDyn", vec![&example("tripod.txt")]),
     ] {
-        let robot = json("check", &imported(&arguments), &[]);
+        let text = imported(&arguments);
+        let robot = json("check", &text, &[]);
+        // Imported robots are plausible, and so are their equilibria.
+        for found in [&robot, &json("statics", &text, &[])] {
+            assert_eq!(found["warnings"].as_array().unwrap().len(), 0, "{what}: {}", found["warnings"]);
+        }
         for key in ["mass_kg", "inertia_kg_m2", "center_of_mass_m"] {
             assert_eq!(robot["platform"][key], reference["platform"][key], "{what}: {key}");
         }
@@ -375,6 +381,7 @@ fn a_platform_that_only_translates_is_a_point_mass_with_moved_anchors() {
     fs::write(&path, point).unwrap();
     let robot = imported(&[path.to_str().unwrap()]);
     let found = json("statics", &robot, &[]);
+    assert!(!found["warnings"].to_string().contains("usual is"), "{}", found["warnings"]);
     let lift: f64 = found["cables"].as_array().unwrap().iter().map(|c| numbers(&c["force_on_platform_n"])[2]).sum();
     assert!((lift - 25.0 * 9.80665).abs() < 1e-9, "{lift}");
 }

@@ -57,7 +57,7 @@ fn every_analysis_of_a_planar_robot_gives_six_components_with_zeros_out_of_the_p
     let frf = ["frf", "-", "--from-hz", "1", "--to-hz", "9", "--points", "50", "--input", "fx"];
     json_of(&[&frf[..], &["--output", "ry"]].concat(), PLATE);
     json_of(&["compare", "-", "--below-hz", "8"], PLATE);
-    let reduced = json_of(&["reduce", "-", "--below-hz", "5"], PLATE);
+    let reduced = json_of(&["reduce", "-", "--below-hz", "5", "--form", "second-order"], PLATE);
     let names: Vec<&str> =
         reduced["inputs"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["fx", "fz", "my"]);

@@ -107,6 +107,21 @@ fn a_page_warns_on_stderr_too() {
     assert!(stdout(&output).contains("<ul class=\"warnings\">"));
 }
 
+/// Four equal cables at a point mass have modes in which the mass rests.
+#[test]
+fn modes_of_cables_alone_do_not_count_as_modes_that_move_the_platform() {
+    let page = succeed(&["report", &robot("stadium-camera.toml"), "--below-hz", "0.8", "-o", "-"]);
+    let shares = |table: &str, column: usize| -> Vec<String> {
+        let body = page.split_once(&format!("<table id=\"{table}\"")).unwrap().1.split_once("</table>").unwrap().0;
+        let cell = |row: &str| Some(row.split("</td>").nth(column)?.rsplit('>').next()?.to_owned());
+        body.split("</tr>").filter(|row| row.contains("<td")).filter_map(cell).collect()
+    };
+    assert!(shares("table-modes", 4).iter().any(|share| share == "0.0"));
+    let listed = shares("table-side-by-side", 2);
+    assert!(!listed.is_empty() && !listed.iter().any(|share| share == "0.0"), "{listed:?}");
+    assert!(page.contains("with at least 0.1 % of their energy in it"));
+}
+
 /// Header and displacements of the mode shapes of a page, read like its script: per mode, cable, axis and station.
 fn shapes_of(page: &str) -> (Value, Vec<Vec<Vec<Vec<f64>>>>) {
     let packed = page.split_once("id=\"shapes-data\" data-packed>").unwrap().1.split_once('<').unwrap().0;

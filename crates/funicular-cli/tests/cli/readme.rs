@@ -41,6 +41,7 @@ fn the_documents_show_what_the_program_prints() {
     assert!(blocks_are_printed("README.md") >= 3, "statics, modes and compare are shown");
     assert!(blocks_are_printed("docs/how-to-choose.md") >= 2);
     assert!(blocks_are_printed("docs/sweeps.md") >= 1);
+    assert!(blocks_are_printed("docs/control.md") >= 1);
 }
 
 /// Checks the console blocks of a document, or renews them; their number.

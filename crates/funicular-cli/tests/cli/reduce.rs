@@ -1,13 +1,90 @@
-//! `reduce`: the files of a reduced model.
+//! `reduce`: state space and second-order form, and their files.
 
-use super::{json, number, run, stderr, succeed};
+use super::{json, number, numbers, run, stderr, succeed};
+use serde_json::Value;
+
+/// Arguments of a state space with one input and two outputs.
+const SMALL: [&str; 10] =
+    ["reduce", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "az", "--output", "cable:3@0.5:z"];
+
+/// Rows of a matrix in JSON.
+fn matrix(value: &Value) -> Vec<Vec<f64>> {
+    value.as_array().unwrap().iter().map(numbers).collect()
+}
+
+#[test]
+fn a_state_space_has_few_states_and_keeps_its_tolerance() {
+    let found = json(&[&SMALL[..], &["--tolerance", "0.02"]].concat());
+    let n = found["order"].as_u64().unwrap() as usize;
+    assert_eq!(found["form"], "state-space");
+    assert!((2..40).contains(&n) && number(&found["complete_order"]) > 100.0, "{n}");
+    assert!(number(&found["error"]) <= 0.02 && number(&found["damping_error"]) <= number(&found["error"]) + 0.02);
+    let (a, b, c, d) = (matrix(&found["a"]), matrix(&found["b"]), matrix(&found["c"]), matrix(&found["d"]));
+    assert_eq!([a.len(), a[0].len(), b.len(), b[0].len(), c.len(), c[0].len()], [n, n, n, 1, 2, n]);
+    assert_eq!([d.len(), d[0].len()], [2, 1]);
+
+    // Each mode has its states, and each response its error.
+    let states: u64 = found["states"].as_array().unwrap().iter().map(|row| row["states"].as_u64().unwrap()).sum();
+    assert_eq!(states as usize, n);
+    for row in found["responses"].as_array().unwrap() {
+        assert!(number(&row["error"]) <= 0.02 && number(&row["peak"]) > 0.0, "{row}");
+    }
+
+    let text = succeed(&[&SMALL[..], &["--order", "8"]].concat());
+    assert!(
+        text.contains("8 states; the complete model has") && text.contains("of the peak of each response"),
+        "{text}"
+    );
+    let csv = succeed(&[&SMALL[..], &["--order", "8", "--format", "csv"]].concat());
+    assert_eq!(csv.lines().count(), 5, "{csv}");
+}
+
+#[test]
+fn a_state_space_is_written_for_numpy_matlab_and_as_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let written = |name: &str| json(&[&SMALL[..], &["--order", "6", "--matrices", &place(name)]].concat());
+    let found = written("m.npz");
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(place("m.npz")).unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    std::io::copy(&mut archive.by_name("A.npy").unwrap(), &mut bytes).unwrap();
+    let values: Vec<f64> = npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap();
+    let a = matrix(&found["a"]);
+    assert!((0..6).all(|i| (0..6).all(|j| values[j * 6 + i].to_bits() == a[i][j].to_bits())));
+
+    written("m.mat");
+    let mat = std::fs::read(place("m.mat")).unwrap();
+    assert!(mat.starts_with(b"MATLAB 5.0 MAT-file") && mat.len() % 8 == 0);
+
+    written("folder");
+    let text = std::fs::read_to_string(place("folder/D.csv")).unwrap();
+    assert_eq!(text.lines().count(), 2);
+    assert!(folder.path().join("folder/description.json").exists());
+}
+
+#[test]
+fn a_state_space_that_cannot_be_is_refused() {
+    let with = |more: &[&'static str]| run(&[&SMALL[..], more].concat());
+    for (more, code, says) in [
+        (&["--order", "8", "--tolerance", "0.1"][..], 2, "--order and --tolerance both decide the number of states"),
+        (&["--order", "1"], 2, "--order is 1: give a number of states from 2 to 400"),
+        (&["--order", "8", "--form", "second-order"], 2, "take --form `state-space`"),
+        (&["--tolerance", "0"], 2, "tolerance"),
+        (&["--tolerance", "1e-13"], 1, "no state space has an error of at most"),
+        (&["--cable-model", "spring"], 1, "has no damping: a response has no peak"),
+        (&["--cable-model", "shallow-dynamic"], 2, "choose the cable model `catenary-dynamic`"),
+    ] {
+        let refused = with(more);
+        assert!(stderr(&refused).contains(says), "{more:?}: {}", stderr(&refused));
+        assert_eq!(refused.status.code(), Some(code), "{more:?}: {}", stderr(&refused));
+    }
+}
 
 #[test]
 fn a_reduced_model_is_read_by_others_as_it_was_made() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let arguments =
-        ["reduce", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "az", "--output", "cable:3@0.5:z"];
+    let arguments = [&SMALL[..], &["--form", "second-order"]].concat();
     fn with<'a>(arguments: &[&'a str], model: &'a str) -> Vec<&'a str> {
         [arguments, &["--matrices", model]].concat()
     }
@@ -41,9 +118,9 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     let refused = run(&with(&arguments, &csv));
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("is not empty"), "{}", stderr(&refused));
-    let refused = run(&with(&arguments, &place("model.mat")));
-    assert!(stderr(&refused).contains("neither an .npz file nor a folder"), "{}", stderr(&refused));
-    let refused = run(&["reduce", "ROBOT", "--below-hz", "3", "--cable-model", "shallow-dynamic"]);
+    let refused = run(&with(&arguments, &place("model.h5")));
+    assert!(stderr(&refused).contains("neither an .npz or .mat file nor a folder"), "{}", stderr(&refused));
+    let refused = run(&[&SMALL[..], &["--form", "second-order", "--cable-model", "shallow-dynamic"]].concat());
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("choose the cable model `catenary-dynamic`"), "{}", stderr(&refused));
 }

@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 15] = [
+    let lines: [&[&str]; 17] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -60,6 +60,8 @@ fn command_lines() -> Vec<Vec<String>> {
         ],
         &["sweep", "ROBOT", "--vary", "platform.mass_kg=10,20", "--quantity", "pose,frequencies:2"],
         &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
+        &["new", "--cables", "6", "--motion", "rigid", "--box-m", "0.4,0.3,0.2", "--mass-kg", "20", "--rope", "7x7"],
+        &["schema"],
     ];
     lines.iter().map(|line| line.iter().map(|word| (*word).to_owned()).collect()).collect()
 }
@@ -69,7 +71,7 @@ fn the_request_of_a_command_gives_its_result() {
     for line in command_lines() {
         let words: Vec<&str> = line.iter().map(String::as_str).collect();
         // Rows, not their summary, where there are rows; a file of another program has one format.
-        let format: &[&str] = if words[0] == "export" { &[] } else { &["--format", "csv"] };
+        let format: &[&str] = if ["export", "new", "schema"].contains(&words[0]) { &[] } else { &["--format", "csv"] };
         let direct = succeed(&[&words[..], format].concat());
         let request = succeed(&[&words[..], &["--print-request"]].concat());
         let again = run_with(&[&["request", "-"][..], format].concat(), &request);

@@ -57,6 +57,50 @@ fn warnings_go_to_stderr_and_into_the_json() {
     assert!(value["warnings"][0].as_str().unwrap().contains("axial"));
 }
 
+/// Young's modulus in GPa given as Pa, in every command that has an equilibrium, and in `check`.
+#[test]
+fn an_implausible_value_is_warned_of_once_by_every_command() {
+    let slip = ["--set", "materials.rope-4mm.youngs_modulus_pa=20"];
+    let warning = "rope \"rope-4mm\": Young's modulus is 20 Pa, usual is 3e8 to 3e11 Pa: GPa given as Pa?";
+    for line in [
+        "check ROBOT",
+        "statics ROBOT --pose 0,0,1",
+        "modes ROBOT --pose 0,0,1 --below-hz 3",
+        "stiffness ROBOT --pose 0,0,1",
+        "cable ROBOT --name 1 --pose 0,0,1 --from-hz 0 --to-hz 3 --points 5",
+        "map ROBOT --pose 0,0,1 --grid x=0:0.1:2",
+        "report ROBOT --pose 0,0,1 --below-hz 2 -o -",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').chain(slip).collect();
+        let output = run(&arguments);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+        assert_eq!(said.matches(warning).count(), 1, "{line}: {said}");
+        if line.starts_with("report") {
+            assert!(!stdout(&output).contains("used within their range"), "{line}");
+        }
+    }
+
+    // A remark where a value may be meant.
+    let noted = succeed(&["check", "ROBOT", "--set", "materials.rope-4mm.youngs_modulus_pa=80e9"]);
+    assert!(noted.contains("Note: rope \"rope-4mm\": `diameter_m` gives the area of the full circle"), "{noted}");
+}
+
+#[test]
+fn an_error_comes_with_the_implausible_values_that_may_cause_it() {
+    let far = ["statics", "ROBOT", "--pose", "0,0,1500"];
+    let output = run(&far);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    let lines: Vec<&str> = said.lines().collect();
+    assert!(lines.len() == 2 && lines[0].starts_with("error: no tensions found that hold this pose"), "{said}");
+    assert!(lines[0].contains("no cable pulls against the load of 3"), "{said}");
+    assert!(
+        lines[1].starts_with("warning: distance of the platform") && lines[1].ends_with("mm given as m?"),
+        "{said}"
+    );
+}
+
 #[test]
 fn set_changes_cables_by_name_and_text_without_quotes() {
     let value = json(&["check", "ROBOT", "--set", "cables.3.unstrained_length_m=6.5", "--set", "name=other"]);

@@ -62,3 +62,14 @@ fn stiffness_in_wind_turns_the_drag_and_a_named_model_says_what_it_leaves_out() 
     let still = json(&["stiffness", "ROBOT"]);
     assert!(still.get("antisymmetric_fraction").is_none() && still["warnings"].as_array().unwrap().is_empty());
 }
+
+/// Six cables on a circle: motions are independent, up to rounding.
+#[test]
+fn rounding_is_printed_as_zero_and_stays_in_the_json() {
+    let path = super::robot("fast.toml");
+    let arguments = ["stiffness", path.as_str(), "--pose", "0,0,100"];
+    let text = super::succeed(&arguments);
+    assert!(text.contains("per x [m]") && text.contains("fx [N]") && !text.contains("e-"), "{text}");
+    let rounding = super::json(&arguments)["real"][0][1].as_f64().unwrap();
+    assert!(rounding != 0.0 && rounding.abs() < 1e-9, "{rounding}");
+}

@@ -31,7 +31,7 @@ from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
-from funicular._study import Exported, Imported, import_robot, merge, paper, run, validate
+from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
 
 __all__ = [
@@ -47,6 +47,7 @@ __all__ = [
     "Imported",
     "InputError",
     "Modes",
+    "NewRobot",
     "NoSolutionError",
     "Page",
     "Pose",
@@ -61,8 +62,10 @@ __all__ = [
     "__version__",
     "import_robot",
     "merge",
+    "new_robot",
     "paper",
     "peaks",
     "run",
+    "schema",
     "validate",
 ]

@@ -6,6 +6,7 @@ from html import escape
 from os import PathLike
 from pathlib import Path
 
+from funicular._errors import InputError
 from funicular._funicular import write_file
 
 
@@ -20,6 +21,11 @@ class Page:
 
     def write(self, path: str | PathLike[str]) -> None:
         """Writes the page; the file is complete or absent."""
+        if Path(path).suffix.lower() in (".svg", ".pdf", ".png"):
+            raise InputError(
+                f"{path} would hold one figure, but this is a page in HTML: give a name that ends in .html, or draw a "
+                "figure with funicular.plot"
+            )
         write_file(Path(path), self.html)
 
     def __repr__(self) -> str:

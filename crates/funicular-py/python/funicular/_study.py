@@ -54,6 +54,36 @@ class Imported:
 
 
 @dataclass(frozen=True, repr=False)
+class NewRobot:
+    """Robot file with starting values and comments."""
+
+    text: str
+    """Text of the robot file."""
+    warnings: tuple[str, ...]
+    """Caveats; empty if the robot has a stable equilibrium in the state of the file."""
+
+    @property
+    def robot(self) -> Robot:
+        """Robot of the robot file."""
+        return Robot.from_toml(self.text)
+
+    def write(self, path: File) -> None:
+        """Writes the robot file, complete or not at all. A file that exists is never replaced.
+
+        Raises
+        ------
+        FileExistsError
+            The file exists and may hold numbers of your own.
+        """
+        if Path(path).exists():
+            raise FileExistsError(f"{path} exists and may hold your own numbers: name another file, or remove it")
+        write_file(Path(path), self.text)
+
+    def __repr__(self) -> str:
+        return f"<NewRobot {self.robot.name!r}: {len(self.warnings)} warnings>"
+
+
+@dataclass(frozen=True, repr=False)
 class Exported:
     """Equilibrium of a robot as the file of another program."""
 
@@ -120,7 +150,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
     Returns
     -------
     The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `paper` and `plot`, an
-    `Imported` for `import`, an `Exported` for `export`.
+    `Imported` for `import`, a `NewRobot` for `new`, an `Exported` for `export`.
 
     Raises
     ------
@@ -142,6 +172,12 @@ def run(request: Mapping[str, Any] | str) -> Any:
         case "export":
             made, warnings = text_of(text, "")
             return Exported(made, tuple(warnings))
+        case "new":
+            made, warnings = text_of(text, "")
+            return NewRobot(made, tuple(warnings))
+        case "schema":
+            made, _ = text_of(text, "")
+            return json.loads(made)
         case "import":
             made, assumed, lost = imported(text)
             return Imported(made, tuple(assumed), tuple(lost))
@@ -151,6 +187,73 @@ def run(request: Mapping[str, Any] | str) -> Any:
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
         case _:
             return json.loads(answer(text))
+
+
+def new_robot(
+    *,
+    cables: int | None = None,
+    motion: str = "rigid",
+    from_csv: File | None = None,
+    csv_unit: str | None = None,
+    name: str | None = None,
+    pose: Pose | ArrayLike | None = None,
+    mass_kg: float | None = None,
+    box_m: ArrayLike | None = None,
+    rope: str = "6x19",
+    diameter_m: float | None = None,
+    axial_stiffness_n: float | None = None,
+    mass_kg_per_m: float | None = None,
+) -> NewRobot:
+    """Makes a robot file with starting values, as the program's `new`.
+
+    Parameters
+    ----------
+    cables
+        Number of cables of a symmetric layout, up to 64; 8 if not given, 4 for `planar-xz` and `point-mass`.
+    motion
+        Motion of the platform: `rigid`, `point-mass` or `planar-xz`.
+    from_csv, csv_unit
+        Table of the cables in place of their number: name (may be left out), anchor x, y, z in the world frame,
+        attachment x, y, z in the platform frame; and its unit, `m` or `mm`.
+    name
+        Name of the robot.
+    pose
+        Pose that the robot file gives as its state; a stable pose that is found if not given.
+    mass_kg, box_m
+        Mass of the platform [kg], 100 if not given, and sides [m] of the homogeneous box that gives the inertia.
+    rope, diameter_m
+        Construction of the wire rope, `6x19` or `7x7`, and its diameter [m].
+    axial_stiffness_n, mass_kg_per_m
+        Axial stiffness EA [N] and mass per unstrained length [kg/m] of another rope.
+
+    Raises
+    ------
+    InputError
+        A value is out of its range, or the table cannot be read; the message says where and why.
+    """
+    keywords = {
+        "cables": cables,
+        "motion": motion,
+        "from_csv": None if from_csv is None else json.loads(source_file(Path(from_csv))),
+        "csv_unit": csv_unit,
+        "name": name,
+        "pose": pose,
+        "mass_kg": mass_kg,
+        "box_m": box_m,
+        "rope": rope,
+        "diameter_m": diameter_m,
+        "axial_stiffness_n": axial_stiffness_n,
+        "mass_kg_per_m": mass_kg_per_m,
+    }
+    made = run(request("new", None, keywords))
+    assert isinstance(made, NewRobot)
+    return made
+
+
+def schema() -> dict[str, Any]:
+    """Returns the JSON Schema of the robot file, as the program's `schema` writes it."""
+    made: dict[str, Any] = run({"command": "schema"})
+    return made
 
 
 def import_robot(

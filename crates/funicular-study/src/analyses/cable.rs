@@ -166,7 +166,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
         },
         world: World { real: world(|k| k.re), imag: world(|k| k.im) },
         frequency_hz,
-        warnings: warnings(robot, i, state, &sag, model, to_hz),
+        warnings: at_rest.implausible().chain(warnings(robot, i, state, &sag, model, to_hz)).collect(),
     })
 }
 

@@ -10,7 +10,9 @@ use crate::names::{ModelForm, Named};
 use crate::request;
 use anyhow::Result;
 use funicular::math::DMat;
-use funicular::reduced_model::{ControlModel, ModalStates, RequestedStateSpace, ResponseOfPair, Size, control_model};
+use funicular::reduced_model::{
+    ControlModel, DampingAt, ModalStates, RequestedStateSpace, ResponseOfPair, Size, control_model,
+};
 use serde::Serialize;
 
 /// Results of `reduce` as a state space.
@@ -127,7 +129,12 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Contr
         },
         complete_order: model.complete_order,
         modes_below: model.modes_below,
-        damping: damping_in_words(model.damping_error == 0.0, damping_at),
+        damping: match damping_at {
+            DampingAt::NaturalFrequencies if model.damping_error > 0.0 => {
+                "eigenvalues and residues of the ropes' constant ratios".to_owned()
+            }
+            _ => damping_in_words(model.damping_error == 0.0, damping_at),
+        },
         responses: model.responses.iter().map(response).collect(),
         states: model.states.iter().map(StatesRow::of).collect(),
         a: rows(&model.space.a),

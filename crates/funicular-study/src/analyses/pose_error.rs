@@ -4,7 +4,7 @@ use super::found;
 use super::statics::PoseRow;
 use crate::Watch;
 use crate::at_rest;
-use crate::error::{Cancelled, NoSolution};
+use crate::error::{Cancelled, NoSolution, with_warnings};
 use crate::request::{self, PoseErrorRequest};
 use crate::text::counted;
 use crate::values::positive;
@@ -118,9 +118,10 @@ pub fn run(robot: &Robot, request: &request::PoseErrorRequest, watch: &mut dyn W
         };
         ThresholdRow { tolerance_mm, within, from_mass_kg }
     });
+    let implausible = funicular::warnings::of_robot(robot).into_iter().map(|warning| warning.to_string());
     Ok(PoseErrors {
         robot: robot.name.clone(),
-        warnings: warnings(&points),
+        warnings: implausible.chain(warnings(&points)).collect(),
         unstrained_length_m: lengths.to_vec(),
         held,
         points: points
@@ -161,7 +162,8 @@ fn lengths(robot: &Robot, request: &request::PoseErrorRequest) -> Result<(Vec<f6
     if holder.state == State::Unknown {
         bail!("the robot file gives neither unstrained lengths nor a pose: give ⟪lengths_m⟫ or ⟪pose⟫");
     }
-    let Solution { equilibrium, rule, .. } = statics::solve(&holder, StaticModel::Catenary, rule)?;
+    let Solution { equilibrium, rule, .. } = statics::solve(&holder, StaticModel::Catenary, rule)
+        .map_err(|error| with_warnings(error.into(), funicular::warnings::of_robot(&holder)))?;
     let row = HeldPoseRow {
         pose: PoseRow::of(&equilibrium.pose),
         mass_kg: holder.platform.mass,

@@ -60,11 +60,11 @@ fn follow(begin: Edge, next: &mut BTreeMap<Edge, Vec<Edge>>) -> Option<Vec<Edge>
         at = to;
     }
     // Edges without segments would be searched again.
-    line.iter().for_each(|edge| {
+    for edge in &line {
         if next.get(edge).is_some_and(Vec::is_empty) {
             next.remove(edge);
         }
-    });
+    }
     (line.len() > 1).then_some(line)
 }
 

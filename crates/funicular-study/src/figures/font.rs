@@ -68,8 +68,8 @@ mod tests {
         for letter in "abcXYZ0189 .,:;()[]/%−–·×°²³≤µωσξλ".chars() {
             assert_ne!(font.glyph(letter), unknown, "{letter}");
         }
-        // Noto Sans has digits of 572 units in 1000.
-        assert!((font.width("0123456789") - 5.72).abs() < 1e-9, "{}", font.width("0123456789"));
+        // All digits of Noto Sans have a width of 1171 units, of which 2048 are its size.
+        assert!((font.width("0123456789") - 11710.0 / 2048.0).abs() < 1e-12, "{}", font.width("0123456789"));
         assert!((font.capital_height() - 0.714).abs() < 0.01);
     }
 }

@@ -215,9 +215,15 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     // A curve has every peak at its height, whatever the requested frequencies.
     let found = frf::run(robot.clone(), &request::FrfRequest { adaptive: true, ..of.clone() }, watch)?;
     let mut warnings = found.warnings.clone();
-    let [pair] = &found.responses[..] else {
-        bail!("a figure shows one response: give one ⟪input⟫ and one ⟪output⟫, or write .csv or .json");
-    };
+    let first_pair = &found.responses[0];
+    if let Some(other) = found.responses.iter().find(|pair| pair.unit != first_pair.unit) {
+        bail!(
+            "a figure shows responses with one unit, and these have {} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
+             unit, or write .csv or .json",
+            first_pair.unit,
+            other.unit
+        );
+    }
     let (marks, caveat) = marks(robot, of)?;
     warnings.extend(caveat);
     let hz = &found.frequency_hz;
@@ -231,47 +237,39 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     };
 
     // Magnitude. Its range leaves out the first twentieth of an even axis, where an accelerance falls to zero.
-    let magnitude: Vec<(f64, f64)> =
-        hz.iter().zip(pair.real.iter().zip(&pair.imag)).map(|(f, (re, im))| (*f, re.hypot(*im))).collect();
+    let (mut magnitudes, mut phases, mut legend) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
     let counts = |f: f64| of.range.log || f > first + 0.05 * (last - first);
-    let shown = || magnitude.iter().filter(|(f, m)| counts(*f) && *m > 0.0).map(|(_, m)| *m);
-    let high = shown().fold(0.0, f64::max);
-    let low = shown().fold(f64::INFINITY, f64::min).max(high / 10_f64.powf(MAX_DECADES));
+    for (i, pair) in found.responses.iter().enumerate() {
+        let values = || hz.iter().zip(pair.real.iter().zip(&pair.imag));
+        let magnitude: Vec<(f64, f64)> = values().map(|(f, (re, im))| (*f, re.hypot(*im))).collect();
+        for (_, m) in magnitude.iter().filter(|(f, m)| counts(*f) && *m > 0.0) {
+            (low, high) = (low.min(*m), high.max(*m));
+        }
+        let stroke = style::curve(i);
+        legend.push(entry(format!("{} / {}", pair.output, pair.input), Sample::Line(stroke.clone())));
+        magnitudes.push(Layer::Line { points: magnitude, stroke: stroke.clone() });
+        phases.push(Layer::Line { points: phase(values()), stroke });
+    }
+    let low = low.max(high / 10_f64.powf(MAX_DECADES));
     let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
-    let peaks = labelled_peaks(&pair.peaks, &x_axis());
-    // Numbers stand above the peaks.
+    // Numbers stand above the peaks; over several curves they would not show to which one they belong.
+    let peaks = if found.responses.len() == 1 { labelled_peaks(&first_pair.peaks, &x_axis()) } else { Vec::new() };
     let above = if peaks.is_empty() { 0.06 } else { 0.3 };
     let room = (high / low).log10().max(0.5);
     let y = Axis::logarithmic(
-        format!("magnitude [{}]", pair.unit),
+        format!("magnitude [{}]", first_pair.unit),
         low * 10_f64.powf(-0.05 * room),
         high * 10_f64.powf(above * room),
     );
-    let curve = style::curve(0);
-    let mut magnitude_layers = vec![Layer::Line { points: magnitude, stroke: curve.clone() }];
-    magnitude_layers.push(Layer::Upright { texts: peaks, colour: BLACK });
+    magnitudes.push(Layer::Upright { texts: peaks, colour: BLACK });
 
-    // Phase in (−180°, 180°], with gaps where it wraps, so that no line crosses the figure.
-    let mut phase: Vec<(f64, f64)> = Vec::new();
-    for (f, (re, im)) in hz.iter().zip(pair.real.iter().zip(&pair.imag)) {
-        let degrees = im.atan2(*re).to_degrees();
-        // An undamped response is real; the sign of its zero imaginary part has no meaning.
-        let degrees = if degrees <= -179.99 { 180.0 } else { degrees };
-        if phase.last().is_some_and(|(_, before)| (degrees - before).abs() > 270.0) {
-            phase.push((f64::NAN, f64::NAN));
-        }
-        phase.push((*f, degrees));
-    }
     let phase_axis = Axis::linear("phase [°]", -190.0, 190.0).with_labels(
         [-180, -90, 0, 90, 180].map(|angle: i32| (f64::from(angle), angle.to_string().replace('-', "−"))).to_vec(),
     );
-    let mut panels = vec![
-        Panel::new(y, 0.5, magnitude_layers),
-        Panel::new(phase_axis, 0.24, vec![Layer::Line { points: phase, stroke: curve.clone() }]),
-    ];
+    let mut panels = vec![Panel::new(y, 0.5, magnitudes), Panel::new(phase_axis, 0.24, phases)];
 
     // Natural frequencies below, by kind.
-    let mut legend = vec![entry(format!("{} / {}", pair.output, pair.input), Sample::Line(curve))];
     let mut stems = Vec::new();
     for (kind, _, stroke, height) in kinds() {
         let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == kind).map(|mode| mode.frequency_hz).collect();
@@ -285,15 +283,24 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
         panels.push(Panel { bare: true, ..Panel::new(Axis::linear("", 0.0, 1.0), 0.05, stems) });
     }
     Ok(chart(
-        Chart {
-            title: format!("{}: response of {} to {}", found.robot, pair.output, pair.input),
-            x: x_axis(),
-            panels,
-            legend,
-            colour_bar: None,
-        },
+        Chart { title: format!("{}: frequency response", found.robot), x: x_axis(), panels, legend, colour_bar: None },
         warnings,
     ))
+}
+
+/// Phase [°] of a response in (−180°, 180°], with gaps where it wraps, so that no line crosses the figure.
+fn phase<'a>(values: impl Iterator<Item = (&'a f64, (&'a f64, &'a f64))>) -> Vec<(f64, f64)> {
+    let mut phase: Vec<(f64, f64)> = Vec::new();
+    for (f, (re, im)) in values {
+        let degrees = im.atan2(*re).to_degrees();
+        // An undamped response is real; the sign of its zero imaginary part has no meaning.
+        let degrees = if degrees <= -179.99 { 180.0 } else { degrees };
+        if phase.last().is_some_and(|(_, before)| (degrees - before).abs() > 270.0) {
+            phase.push((f64::NAN, f64::NAN));
+        }
+        phase.push((*f, degrees));
+    }
+    phase
 }
 
 /// Natural frequencies up to the end of a response, and the reason if they are not marked.

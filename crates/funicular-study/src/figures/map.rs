@@ -36,7 +36,7 @@ impl ColourScale {
     pub(crate) fn of(values: &[f64]) -> Option<Self> {
         let finite = || values.iter().copied().filter(|value| value.is_finite());
         let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
-        (low <= high).then(|| Self { low, high, logarithmic: low > 0.0 && high > MIN_RATIO * low })
+        (low <= high).then_some(Self { low, high, logarithmic: low > 0.0 && high > MIN_RATIO * low })
     }
 
     fn fraction(&self, value: f64) -> f64 {
@@ -144,18 +144,12 @@ impl Map {
         let (n, m) = (self.x.len(), self.y.len());
         let at = |i: usize, j: usize| self.infeasible[j * n + i];
         let mut lines = Vec::new();
-        for j in 0..m {
-            for i in 1..n {
-                if at(i - 1, j) != at(i, j) {
-                    lines.push(vec![[x[i], y[j]], [x[i], y[j + 1]]]);
-                }
+        for (i, j) in (0..m).flat_map(|j| (0..n).map(move |i| (i, j))) {
+            if i > 0 && at(i - 1, j) != at(i, j) {
+                lines.push(vec![[x[i], y[j]], [x[i], y[j + 1]]]);
             }
-        }
-        for j in 1..m {
-            for i in 0..n {
-                if at(i, j - 1) != at(i, j) {
-                    lines.push(vec![[x[i], y[j]], [x[i + 1], y[j]]]);
-                }
+            if j > 0 && at(i, j - 1) != at(i, j) {
+                lines.push(vec![[x[i], y[j]], [x[i + 1], y[j]]]);
             }
         }
         lines

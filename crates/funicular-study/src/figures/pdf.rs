@@ -106,11 +106,15 @@ fn embed(pdf: &mut Pdf, font: Ref, face: &Font, letters: &Letters) {
     for (letter, glyph) in &letters.by_letter {
         by_glyph.entry(*glyph).or_insert(*letter);
     }
-    by_glyph.iter().for_each(|(glyph, letter)| map.pair(*glyph, *letter));
+    for (glyph, letter) in by_glyph {
+        map.pair(glyph, letter);
+    }
     pdf.cmap(unicode, map.finish().as_slice());
 
     let bytes = packed(&subset);
-    pdf.stream(file, &bytes).filter(Filter::FlateDecode).pair(Name(b"Length1"), subset.len() as i32);
+    pdf.stream(file, &bytes)
+        .filter(Filter::FlateDecode)
+        .pair(Name(b"Length1"), i32::try_from(subset.len()).unwrap_or(i32::MAX));
 }
 
 /// Operators that draw the page.

@@ -109,15 +109,12 @@ impl Space {
         parts.extend(shape.cables.iter().enumerate().map(|(i, line)| (view.depth(line[line.len() / 2]), Some(i))));
         parts.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, part) in parts {
-            match part {
-                Some(i) => {
-                    let line = shape.cables[i].iter().map(|p| view.at(*p)).collect();
-                    drawing.line(line, Stroke::solid(BLUE, CURVE_WIDTH));
-                }
-                None => {
-                    let edge = Stroke::solid(BLACK, AXIS_WIDTH);
-                    self.draw_platform(drawing, view, shape, Some(FACE), &edge, style);
-                }
+            if let Some(i) = part {
+                let line = shape.cables[i].iter().map(|p| view.at(*p)).collect();
+                drawing.line(line, Stroke::solid(BLUE, CURVE_WIDTH));
+            } else {
+                let edge = Stroke::solid(BLACK, AXIS_WIDTH);
+                self.draw_platform(drawing, view, shape, Some(FACE), &edge, style);
             }
         }
     }
@@ -214,7 +211,11 @@ impl Space {
         }
 
         let left = corners.into_iter().min_by(|a, b| on_floor(*a)[0].total_cmp(&on_floor(*b)[0])).unwrap_or(corners[0]);
-        let at = |z: f64| view.at(Vec3::new(left[0], left[1], z));
+        // A little to the left, so that its numbers keep away from the names of anchors above this corner.
+        let at = |z: f64| {
+            let [x, y] = view.at(Vec3::new(left[0], left[1], z));
+            [x - size, y]
+        };
         drawing.line(vec![at(floor), at(top)], axis.clone());
         let (values, places) = scale(floor, top, at(floor)[1] - at(top)[1], 2.0 * size);
         for value in values.into_iter().filter(|value| *value > floor + 0.02 * (top - floor)) {

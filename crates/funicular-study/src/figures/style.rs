@@ -81,7 +81,7 @@ pub(crate) struct Symbol {
 
 impl Symbol {
     /// Draws the symbol at points.
-    pub(crate) fn draw(&self, drawing: &mut Drawing, points: &[Point], style: &Type) {
+    pub(crate) fn draw(self, drawing: &mut Drawing, points: &[Point], style: &Type) {
         let half = 0.19 * style.size;
         let around = |[x, y]: Point, corners: &[[f64; 2]]| -> Vec<Point> {
             corners.iter().map(|[dx, dy]| [x + half * dx, y + half * dy]).collect()

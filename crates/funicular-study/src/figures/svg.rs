@@ -64,14 +64,17 @@ fn text_element(out: &mut String, text: &Text) {
         let _ = write!(out, " transform=\"rotate({} {x} {y})\"", number(-text.angle));
     }
     out.push('>');
-    let mut rise = 0.0;
+    let mut was_raised = false;
     for (run, raised) in &text.label.0 {
-        let wanted = if *raised { RAISED.1 * text.size } else { 0.0 };
-        if *raised || rise != wanted {
-            let size = if *raised { RAISED.0 * text.size } else { text.size };
-            let _ = write!(out, "<tspan dy=\"{}\" font-size=\"{}\">", number(rise - wanted), number(size));
-            let _ = write!(out, "{}</tspan>", escaped(run));
-            rise = wanted;
+        if *raised || was_raised {
+            let (size, down) = match (was_raised, *raised) {
+                (false, true) => (RAISED.0, -RAISED.1),
+                (true, true) => (RAISED.0, 0.0),
+                (_, false) => (1.0, RAISED.1),
+            };
+            let (size, down) = (number(size * text.size), number(down * text.size));
+            let _ = write!(out, "<tspan dy=\"{down}\" font-size=\"{size}\">{}</tspan>", escaped(run));
+            was_raised = *raised;
         } else {
             out.push_str(&escaped(run));
         }

@@ -1,6 +1,6 @@
 //! Draft of a robot during an import: facts of the source, additions from options, assumptions and losses.
 
-mod file;
+pub(crate) mod file;
 
 use crate::request::{self, ImportPlatform, ImportRopes};
 use anyhow::{Result, bail};

@@ -172,7 +172,7 @@ impl Points for RobotValues {
             .iter()
             .map(|axis| Column {
                 name: axis.path.text.clone(),
-                unit: unit(axis.path.key()).into(),
+                unit: unit(&axis.path).into(),
                 about: "value of the robot file".to_owned(),
                 kind: ColumnKind::Real,
             })
@@ -198,27 +198,9 @@ impl Points for RobotValues {
     }
 }
 
-/// Unit at the end of a key's name; the longest that fits.
-fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 16] = [
-        ("_n_per_m", "N/m"),
-        ("_n_s_m", "N s/m"),
-        ("_n_m_s", "N m s"),
-        ("_n_s_m2", "N s/m2"),
-        ("_kg_m3", "kg/m3"),
-        ("_kg_per_m", "kg/m"),
-        ("_kg_m2", "kg m2"),
-        ("_m_s2", "m/s2"),
-        ("_n_m", "N m"),
-        ("_m2", "m2"),
-        ("_pa", "Pa"),
-        ("_kg", "kg"),
-        ("_hz", "Hz"),
-        ("_deg", "deg"),
-        ("_n", "N"),
-        ("_m", "m"),
-    ];
-    UNITS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
+/// Unit of a column: that of the robot file's number, in the letters of the files of rows.
+fn unit(path: &set_values::Path) -> String {
+    path.unit().unwrap_or("1").replace("degrees", "deg").replace('²', "2").replace('³', "3")
 }
 
 #[cfg(test)]
@@ -228,22 +210,50 @@ mod tests {
     use funicular::robot::spec::SpecError;
 
     #[test]
-    fn the_unit_is_the_one_that_ends_the_key() {
-        for (key, expected) in [
-            ("mass_kg", "kg"),
-            ("mass_kg_per_m", "kg/m"),
-            ("diameter_m", "m"),
-            ("drag_area_m2", "m2"),
-            ("load_n_per_m", "N/m"),
-            ("axial_stiffness_n", "N"),
-            ("youngs_modulus_pa", "Pa"),
-            ("translational_damping_n_s_m", "N s/m"),
-            ("rotational_damping_n_m_s", "N m s"),
-            ("viscous_damping_n_s_m2", "N s/m2"),
-            ("damping_ratio", "1"),
+    fn the_unit_of_a_column_is_that_of_the_number() {
+        for (path, expected) in [
+            ("platform.mass_kg", "kg"),
+            ("platform.inertia_kg_m2.0.1", "kg m2"),
+            ("platform.drag_area_m2", "m2"),
+            ("platform.plane_normal.x", "1"),
+            ("platform.translational_damping_n_s_m.x", "N s/m"),
+            ("platform.rotational_damping_n_m_s.2", "N m s"),
+            ("gravity_m_s2.2", "m/s2"),
+            ("materials.rope.mass_kg_per_m", "kg/m"),
+            ("materials.rope.diameter_m", "m"),
+            ("materials.rope.load_n_per_m.z", "N/m"),
+            ("materials.rope.axial_stiffness_n", "N"),
+            ("materials.rope.youngs_modulus_pa", "Pa"),
+            ("materials.rope.viscous_damping_n_s_m2", "N s/m2"),
+            ("materials.rope.damping_ratio", "1"),
+            ("loads.moment_n_m.0", "N m"),
+            ("wind.velocity_m_s.x", "m/s"),
+            ("wind.air_density_kg_m3", "kg/m3"),
+            ("state.roll_pitch_yaw_deg.yaw", "deg"),
         ] {
-            assert_eq!(unit(key), expected, "{key}");
+            assert_eq!(unit(&set_values::path(path).unwrap()), expected, "{path}");
         }
+    }
+
+    /// Path of a parameter whose component is given by its index instead of its name.
+    fn by_index(parameters: &Parameters, at: usize) -> String {
+        let parameter = &parameters.list()[at];
+        let Some(name) = parameter.component else { return parameter.path() };
+        let path = parameter.path();
+        let array = path.strip_suffix(name).unwrap();
+        let axis = |letter: &str| ["x", "y", "z"].iter().position(|known| *known == letter).unwrap();
+        let index = match name {
+            "roll" => "0".to_owned(),
+            "pitch" => "1".to_owned(),
+            "yaw" => "2".to_owned(),
+            one if one.len() == 1 => axis(one).to_string(),
+            two => {
+                let (row, column) = two.split_at(1);
+                // The mirrored entry has the same value.
+                format!("{}.{}", axis(column), axis(row))
+            }
+        };
+        format!("{array}{index}")
     }
 
     /// Changes every number of every robot of the library, alone and in pairs, to values inside and outside its range.
@@ -263,6 +273,9 @@ mod tests {
             };
             for (i, parameter) in list.iter().enumerate().filter(|(_, parameter)| parameter.given) {
                 assert_eq!(parameters.robot_with(&[(i, parameter.value)]).as_ref(), Ok(parameters.robot()));
+                let index_path = set_values::path(&by_index(&parameters, i)).unwrap();
+                assert_eq!(parameters.find(index_path.keys()), Some(i), "{}", index_path.text);
+                assert!(index_path.is_same(&set_values::path(&parameter.path()).unwrap()));
                 let factor = 1.0 + next(1_000_000) as f64 * 1e-6;
                 for value in [parameter.value * factor, parameter.value + 0.1, -factor, 0.0, 1e-13, 0.7, 3e12, f64::NAN]
                 {
@@ -271,7 +284,10 @@ mod tests {
                     if other != i && list[other].given {
                         changes.push((other, list[other].value * factor));
                     }
-                    let path = |at: usize| set_values::path(&list[at].path()).unwrap();
+                    // Names and indices of components take turns.
+                    let named = next(2) == 0;
+                    let path_of = |at: usize| if named { list[at].path() } else { by_index(&parameters, at) };
+                    let path = |at: usize| set_values::path(&path_of(at)).unwrap();
                     let assignments: Vec<_> =
                         changes.iter().map(|(at, value)| path(*at).with(OPTION, *value)).collect();
                     let edited = Robot::from_toml(&set_values::apply(text, &assignments).unwrap());
@@ -301,16 +317,19 @@ mod tests {
     #[test]
     fn a_sweep_over_numbers_has_the_robots_of_the_edited_texts() {
         let text = funicular_robots::COGIRO;
-        // The second value and the limits of a cable are not in the file. The limits exclude each other in some rows.
+        // The second value, the tables of load and wind, and the limits of a cable are not in the file. The limits exclude each other in some rows.
         let axes = [
             ("cables.1.anchor_m.z", Steps::range(5.0, 6.0, 3)),
             ("platform.translational_damping_n_s_m.x", Steps::range(0.0, 0.2, 2)),
+            // The robot has no [loads] and no [wind].
+            ("loads.force_n.2", Steps::range(-50.0, 50.0, 2)),
+            ("wind.velocity_m_s.0", Steps::range(1.0, 5.0, 2)),
             ("cables.2.minimum_tension_n", Steps::range(10.0, 400.0, 3)),
             ("cables.2.maximum_tension_n", Steps::range(300.0, 1000.0, 3)),
         ];
         let axes = axes.map(|(path, steps)| ValueAxis::new(path, steps.unwrap()).unwrap()).to_vec();
         let sweep = RobotValues::new(text.to_owned(), axes, Box::new(Ok)).unwrap();
-        assert!(sweep.numbers.is_some());
+        assert!(sweep.numbers.is_some() && !text.contains("[loads]") && !text.contains("[wind]"));
         let (mut robots, mut refusals) = (0, 0);
         for i in 0..sweep.count() {
             let by_text = sweep.robot(&sweep.assignments(&sweep.values(i)));
@@ -337,6 +356,7 @@ mod tests {
                 .contains("changes nothing: no part of the robot uses this value, or another option sets it")
         );
         assert!(varied(&[path, "platform.\"mass_kg\""], None).unwrap().contains("given twice"));
+        assert!(varied(&["gravity_m_s2.z", "gravity_m_s2.2"], None).unwrap().contains("given twice"));
         assert!(varied(&["platform.mas_kg"], None).unwrap().contains("did you mean `mass_kg`?"));
     }
 }

@@ -6,7 +6,9 @@
 //! against the full model. Derivation: docs/theory.md, section 13.
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
-use super::reference::{Maximum, Reference, derivatives};
+use super::reference::{Maximum, Reference};
+use super::selection::{Sum, chosen};
+use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
 };
@@ -74,12 +76,13 @@ pub struct ResponseOfPair {
     pub error: f64,
     /// Frequency of this maximum [Hz].
     pub error_hz: f64,
-    /// False if the response is below a millionth of the responses that input and output have otherwise. Its error is
-    /// then relative to this millionth.
+    /// False if the response is below a millionth of the responses that input and output have otherwise, as by symmetry.
+    /// Its error is then relative to those.
     pub coupled: bool,
 }
 
-/// Largest error relative to the response at the same frequency. It is large beside a zero of the response.
+/// Largest error relative to the response at the same frequency, where this is above a millionth of its peak. It is large
+/// beside a zero of the response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointwiseError {
     /// Index of the output.
@@ -130,10 +133,6 @@ const OMITTED: f64 = 0.1;
 const MAX_TOLERANCE: f64 = 1e-3;
 /// Rounds in which frequencies of large errors are added to those at which modes are chosen.
 const MAX_ROUNDS: usize = 6;
-/// Fraction of the tolerance that the choice uses; the rest is for maxima between the frequencies.
-const USED: f64 = 0.995;
-/// Residue relative to the largest of the same eigenvalue below which it is rounding.
-const RESIDUE: f64 = 1e-9;
 
 /// State space of a robot linearised about an equilibrium, of as few states as the requirements allow.
 ///
@@ -231,7 +230,7 @@ pub fn control_model(
             sets.extend(sets_from(f64::INFINITY, &reference)?);
             found = chosen(&sets, &reference, size);
         }
-        let chosen = found?;
+        let chosen = Chosen { terms: found? };
         let static_part = chosen.static_part(&reference);
         let errors = reference.maxima(&mut |frequency_hz, values| {
             let model = chosen.response(frequency_hz, &static_part);
@@ -300,158 +299,6 @@ fn cut(
     unreachable!("the last ratio keeps all modes")
 }
 
-/// Part of one pair of states, or of one state, in all responses:
-/// `R/(s − λ)`, its conjugate, and a constant that makes it zero at s = 0.
-#[derive(Clone)]
-struct Term {
-    value: Complex,
-    /// Column of the outputs, in their quantities.
-    column: Vec<Complex>,
-    /// Row of the inputs.
-    row: Vec<Complex>,
-    /// Residues of all pairs of output and input.
-    residues: Vec<Complex>,
-    /// Feedthrough of all pairs.
-    constants: Vec<f64>,
-    platform: f64,
-    is_residual: bool,
-    /// Maximum of the term relative to the peaks.
-    size: f64,
-}
-
-impl Term {
-    fn states(&self) -> usize {
-        if self.value.im > 0.0 { 2 } else { 1 }
-    }
-
-    /// Adds `factor` times the term at a frequency [Hz] to the responses of all pairs.
-    fn add(&self, frequency_hz: f64, factor: f64, responses: &mut [Complex]) {
-        self.add_strictly_proper(frequency_hz, factor, responses);
-        for (response, constant) in responses.iter_mut().zip(&self.constants) {
-            *response += factor * constant;
-        }
-    }
-
-    /// Adds `factor` times the term without its constant.
-    fn add_strictly_proper(&self, frequency_hz: f64, factor: f64, responses: &mut [Complex]) {
-        let s = Complex::new(0.0, frequency_hz * TAU);
-        let upper = factor / (s - self.value);
-        if self.states() == 2 {
-            let lower = factor / (s - self.value.conj());
-            for (response, residue) in responses.iter_mut().zip(&self.residues) {
-                *response += residue * upper + residue.conj() * lower;
-            }
-        } else {
-            for (response, residue) in responses.iter_mut().zip(&self.residues) {
-                *response += residue * upper;
-            }
-        }
-    }
-}
-
-/// Terms of a damped mode: one per independent direction of its residues.
-fn terms(pair: &DampedPair, reference: &Reference) -> Vec<Term> {
-    let (outputs, inputs) = pair.residue.shape();
-    let scaled = pair.residue.map_with_location(|o, i, r| r / (reference.output_scale[o] * reference.input_scale[i]));
-    let decomposed = scaled.svd(true, true);
-    let (Some(left), Some(right)) = (&decomposed.u, &decomposed.v_t) else { return Vec::new() };
-    let largest = decomposed.singular_values.max();
-    let is_real = pair.value.im <= 0.0;
-
-    (0..decomposed.singular_values.len())
-        .filter(|k| decomposed.singular_values[*k] > RESIDUE * largest)
-        .map(|k| {
-            let root = decomposed.singular_values[k].sqrt();
-            let column: Vec<Complex> =
-                (0..outputs).map(|o| left[(o, k)] * (root * reference.output_scale[o])).collect();
-            let row: Vec<Complex> = (0..inputs).map(|i| right[(k, i)] * (root * reference.input_scale[i])).collect();
-            let (column, row) = if is_real { real_factors(&column, &row) } else { (column, row) };
-            term(pair, column, row, reference)
-        })
-        .collect()
-}
-
-/// Real column and row with the same product, for the real residues of a real eigenvalue.
-fn real_factors(column: &[Complex], row: &[Complex]) -> (Vec<Complex>, Vec<Complex>) {
-    let largest = row.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_default();
-    let turn = if largest.norm() > 0.0 { largest.conj() / largest.norm() } else { 1.0.into() };
-    let real = |values: &[Complex], turn: Complex| values.iter().map(|z| Complex::from((z * turn).re)).collect();
-    (real(column, turn.conj()), real(row, turn))
-}
-
-/// Term of a column for displacements and a row for forces.
-fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, reference: &Reference) -> Term {
-    let outputs = column.len();
-    let value = pair.value;
-    let twice = if value.im > 0.0 { 2.0 } else { 1.0 };
-
-    // Feedthrough: what makes the displacement zero at s = 0, so that the static part of every mode can be added
-    // elsewhere; and that of the acceleration, `s² R/(s − λ) = λ² R/(s − λ) + λ R + s R`, whose last part vanishes in
-    // the sum with the conjugate for a mode of second order.
-    let mut constants = vec![0.0; reference.pairs()];
-    for (at, constant) in constants.iter_mut().enumerate() {
-        let residue = column[at % outputs] * row[at / outputs];
-        *constant = match reference.quantity(at) {
-            Quantity::Displacement => twice * (residue / value).re,
-            Quantity::Velocity => 0.0,
-            Quantity::Acceleration => twice * (residue * value).re,
-        };
-    }
-    for (output, entry) in column.iter_mut().enumerate() {
-        *entry *= value.powu(derivatives(reference.quantity(output)));
-    }
-
-    let residues = row.iter().flat_map(|b| column.iter().map(move |c| c * b)).collect();
-    let (platform, is_residual) = (pair.platform, pair.is_residual);
-    let mut term = Term { value, column, row, residues, constants, platform, is_residual, size: 0.0 };
-    let mut responses = vec![Complex::from(0.0); reference.pairs()];
-    for frequency_hz in &reference.frequencies_hz {
-        responses.fill(0.0.into());
-        term.add(*frequency_hz, 1.0, &mut responses);
-        term.size = responses.iter().zip(&reference.sizes).map(|(r, size)| r.norm() / size).fold(term.size, f64::max);
-    }
-    term
-}
-
-/// Difference between the full responses and those of some terms, at all frequencies of the reference.
-struct Sum<'a> {
-    reference: &'a Reference<'a>,
-    differences: Vec<Complex>,
-}
-
-impl<'a> Sum<'a> {
-    /// Difference without any term: the static displacement is the feedthrough.
-    fn of_none(reference: &'a Reference<'a>) -> Self {
-        let pairs = reference.pairs();
-        let differences =
-            reference.values.iter().enumerate().map(|(at, value)| value - reference.at_rest[at % pairs]).collect();
-        Self { reference, differences }
-    }
-
-    fn of_all(reference: &'a Reference<'a>, terms: &[Term]) -> Self {
-        let mut sum = Self::of_none(reference);
-        for term in terms {
-            sum.add(term, -1.0);
-        }
-        sum
-    }
-
-    /// Adds `factor` times a term to the difference: −1 takes it into the model, 1 out of it.
-    fn add(&mut self, term: &Term, factor: f64) {
-        let at_each = self.differences.chunks_exact_mut(self.reference.pairs());
-        for (responses, frequency_hz) in at_each.zip(&self.reference.frequencies_hz) {
-            term.add(*frequency_hz, factor, responses);
-        }
-    }
-
-    /// Maximum difference relative to the peaks.
-    fn largest(&self) -> f64 {
-        let pairs = self.reference.pairs();
-        let relative = |(at, difference): (usize, &Complex)| difference.norm() / self.reference.sizes[at % pairs];
-        self.differences.iter().enumerate().map(relative).fold(0.0, f64::max)
-    }
-}
-
 fn largest(errors: &[Maximum], sizes: &[f64]) -> f64 {
     errors.iter().zip(sizes).map(|(error, size)| error.value / size).fold(0.0, f64::max)
 }
@@ -460,99 +307,6 @@ fn largest(errors: &[Maximum], sizes: &[f64]) -> f64 {
 struct Chosen {
     /// Terms, ascending in frequency.
     terms: Vec<Term>,
-}
-
-/// Terms for a size, from the set that needs the fewest states or leaves the smallest error.
-fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> Result<Chosen, ReductionError> {
-    let mut best: Option<(Vec<Term>, f64)> = None;
-    let mut smallest = (f64::INFINITY, 0);
-    let order = |terms: &[Term]| terms.iter().map(Term::states).sum::<usize>();
-
-    for set in sets {
-        let mut ranked: Vec<&Term> = set.iter().collect();
-        ranked.sort_by(|a, b| b.size.total_cmp(&a.size));
-        match size {
-            Size::Order(states) => {
-                let (terms, error) = of_order(&ranked, reference, states);
-                if !terms.is_empty() && best.as_ref().is_none_or(|(_, other)| error < *other) {
-                    best = Some((terms, error));
-                }
-            }
-            Size::Tolerance(tolerance) => {
-                let (terms, error) = within(&ranked, reference, USED * tolerance);
-                if error < smallest.0 {
-                    smallest = (error, order(&terms));
-                }
-                let fewer = |(other, of_other): &(Vec<Term>, f64)| (order(&terms), error) < (order(other), *of_other);
-                if error <= USED * tolerance && best.as_ref().is_none_or(fewer) {
-                    best = Some((terms, error));
-                }
-            }
-        }
-    }
-
-    match (best, size) {
-        (Some((mut terms, _)), _) => {
-            terms.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
-            Ok(Chosen { terms })
-        }
-        (None, Size::Order(order)) => Err(ReductionError::Order(order)),
-        (None, Size::Tolerance(requested)) => {
-            Err(ReductionError::Tolerance { requested, reached: smallest.0, order: smallest.1 })
-        }
-    }
-}
-
-/// The first terms in the order of their size that have at most so many states, and their error.
-fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term>, f64) {
-    let mut terms: Vec<Term> = Vec::new();
-    let mut left = states;
-    let mut sum = Sum::of_none(reference);
-    for term in ranked {
-        if term.states() <= left {
-            left -= term.states();
-            sum.add(term, -1.0);
-            terms.push((*term).clone());
-        }
-    }
-    let error = sum.largest();
-    (terms, error)
-}
-
-/// The first terms in the order of their size that keep the tolerance, without those that turn out not to be needed; or
-/// all terms if these do not keep it. With their error.
-fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>, f64) {
-    let mut sum = Sum::of_none(reference);
-    let mut count = 0;
-    let mut error = f64::INFINITY;
-    for term in ranked {
-        sum.add(term, -1.0);
-        count += 1;
-        error = sum.largest();
-        if error <= tolerance {
-            break;
-        }
-    }
-    let mut kept: Vec<&Term> = ranked[..count].to_vec();
-    if error > tolerance {
-        return (kept.into_iter().cloned().collect(), error);
-    }
-
-    // Take out one after the other, the smallest first, what the tolerance allows.
-    for at in (0..kept.len()).rev() {
-        if kept.len() == 1 {
-            break;
-        }
-        sum.add(kept[at], 1.0);
-        let without = sum.largest();
-        if without <= tolerance {
-            error = without;
-            kept.remove(at);
-        } else {
-            sum.add(kept[at], -1.0);
-        }
-    }
-    (kept.into_iter().cloned().collect(), error)
 }
 
 /// Numbers of a model that do not follow from its terms.
@@ -658,8 +412,8 @@ impl Chosen {
             let model = self.response(frequency_hz, static_part);
             for (pair, (full, reduced)) in values.iter().zip(model).enumerate() {
                 let error = (full - reduced).norm() / full.norm();
-                if reference.is_coupled(pair) && error > worst.error && error.is_finite() {
-                    let response = full.norm() / reference.peaks[pair].value;
+                let response = full.norm() / reference.peaks[pair].value;
+                if reference.is_coupled(pair) && response > NO_RESPONSE && error > worst.error {
                     let (output, input) = (pair % outputs, pair / outputs);
                     worst = PointwiseError { output, input, error, frequency_hz, response };
                 }
@@ -669,62 +423,9 @@ impl Chosen {
     }
 }
 
+/// Response relative to its peak below which an error relative to it has no meaning, as that of an acceleration at
+/// frequencies near zero.
+const NO_RESPONSE: f64 = 1e-6;
+
 /// Feedthrough relative to the peak of a pair below which it is rounding.
 const NO_FEEDTHROUGH: f64 = 1e-10;
-
-/// Matrices of one term in real coordinates: `[0, ω; −ω, −2ζω]` for a pair.
-struct RealBlock {
-    a: DMat,
-    b: DMat,
-    c: DMat,
-}
-
-impl RealBlock {
-    fn of(term: &Term, reference: &Reference) -> Self {
-        let (inputs, outputs) = (term.row.len(), term.column.len());
-        let value = term.value;
-        if term.states() == 1 {
-            let b = DMat::from_fn(1, inputs, |_, i| term.row[i].re);
-            let c = DMat::from_fn(outputs, 1, |o, _| term.column[o].re);
-            return Self { a: DMat::from_element(1, 1, value.re), b, c }.balanced(reference);
-        }
-
-        // Phase for which the input acts on the second state, the velocity of the mode, as far as it can: the rows of
-        // the inputs become imaginary in the mean.
-        let square: Complex =
-            term.row.iter().zip(&reference.input_scale).map(|(b, scale)| (b / scale) * (b / scale)).sum();
-        let mut turn = Complex::from_polar(1.0, 0.5 * (std::f64::consts::PI - square.arg()));
-        let largest = (0..inputs).max_by(|a, b| term.row[*a].norm().total_cmp(&term.row[*b].norm()));
-        if largest.is_some_and(|i| (term.row[i] * turn).im < 0.0) {
-            turn = -turn;
-        }
-
-        // The coordinates are x = 2 Re(v z) with the eigenvector v = (ω, λ) of the block.
-        let omega = value.norm();
-        let b = DMat::from_fn(2, inputs, |state, i| {
-            let row = term.row[i] * turn;
-            2.0 * if state == 0 { omega * row.re } else { (value * row).re }
-        });
-        let c = DMat::from_fn(outputs, 2, |o, state| {
-            let column = term.column[o] / turn;
-            let second = column.im / value.im;
-            if state == 0 { (column.re - value.re * second) / omega } else { second }
-        });
-        let a = DMat::from_row_slice(2, 2, &[0.0, omega, -omega, 2.0 * value.re]);
-        Self { a, b, c }.balanced(reference)
-    }
-
-    /// Scales the states so that input and output have entries of equal size, measured in their scales.
-    fn balanced(mut self, reference: &Reference) -> Self {
-        let by_input: f64 =
-            self.b.column_iter().zip(&reference.input_scale).map(|(b, scale)| b.norm_squared() / (scale * scale)).sum();
-        let by_output: f64 =
-            self.c.row_iter().zip(&reference.output_scale).map(|(c, scale)| c.norm_squared() / (scale * scale)).sum();
-        if by_input > 0.0 && by_output > 0.0 {
-            let factor = (by_output / by_input).sqrt().sqrt();
-            self.b *= factor;
-            self.c /= factor;
-        }
-        self
-    }
-}

@@ -24,7 +24,7 @@ const ROUNDS: usize = 6;
 const HIGH: f64 = 0.9;
 /// Minimum size of a response that counts as one, as a fraction of the responses that its input and its output have
 /// otherwise. Symmetry and rounding leave smaller ones.
-pub(super) const MIN_COUPLING: f64 = 1e-6;
+const MIN_COUPLING: f64 = 1e-6;
 
 /// Largest value of a pair of output and input, and its frequency [Hz].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ pub(super) struct Reference<'a> {
     pub(super) at_rest: Vec<f64>,
     /// Peak of each pair up to the limit.
     pub(super) peaks: Vec<Maximum>,
-    /// Peak of each pair, or the minimum size that counts if it is larger.
+    /// Size to which the error of each pair is related: its peak, or the product of the scales if it is not coupled.
     pub(super) sizes: Vec<f64>,
     /// Scales of outputs and inputs; divided by both, every peak is at most 1.
     pub(super) output_scale: Vec<f64>,
@@ -223,7 +223,8 @@ impl<'a> Reference<'a> {
         self.sizes = (0..self.peaks.len())
             .map(|pair| {
                 let scale = self.output_scale[pair % outputs] * self.input_scale[pair / outputs];
-                self.peaks[pair].value.max(MIN_COUPLING * scale)
+                let peak = self.peaks[pair].value;
+                if peak >= MIN_COUPLING * scale { peak } else { scale }
             })
             .collect();
     }

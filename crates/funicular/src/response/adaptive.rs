@@ -25,12 +25,12 @@ pub struct Measured {
 pub struct Resolution {
     /// Maximum relative error of the magnitude if its logarithm is interpolated between neighbouring frequencies.
     pub tolerance: f64,
-    /// Maximum number of frequencies at which responses are computed.
+    /// Number of frequencies beyond which no interval is halved any more.
     pub max_points: usize,
 }
 
 impl Default for Resolution {
-    /// 1 % (0.09 dB) and at most 200,000 frequencies, which take about a second.
+    /// 1 % (0.09 dB) and 200,000 frequencies, which take about a second.
     fn default() -> Self {
         Self { tolerance: 0.01, max_points: 200_000 }
     }

@@ -5,7 +5,8 @@
 //! from the same parsed file with the numbers of the text replaced. So every check of the reader applies, and no number
 //! passes through text.
 
-use super::spec::{Component, Key, Numbers, Numeric, Shape, SpecError, TABLES, TOP, from_tree, parsed};
+use super::spec::key::{Absent, Component, Key, KeyValue, Numeric, Shape};
+use super::spec::{Numbers, SpecError, TABLES, TOP, from_tree, parsed};
 use super::{PlatformMotion, Robot, RobotChange};
 use crate::math::Vec3;
 use std::borrow::Cow;
@@ -225,10 +226,29 @@ impl Parameters {
         &self.list
     }
 
-    /// Index in the list of the parameter with these keys.
-    pub fn find<K: AsRef<str>>(&self, keys: &[K]) -> Option<usize> {
+    /// Index in the list of the parameter at a path. A component is named, as in `anchor_m`, `z`, or numbered from 0, as
+    /// in `anchor_m`, `2` and `inertia_kg_m2`, `0`, `1`.
+    pub fn find<K: AsRef<str>>(&self, path: &[K]) -> Option<usize> {
+        let path: Vec<&str> = path.iter().map(AsRef::as_ref).collect();
+        let (key, of_key) = key_of(&path)?;
+        let shape = key.numeric_value()?.shape;
+        let (own, rest) = path.split_at(of_key);
+        let at_key = |parameter: &&Parameter| parameter.keys.len() >= of_key && parameter.keys[..of_key] == *own;
+        let place = match (shape.place(rest), rest) {
+            (None, []) => None,
+            (None, _) => return None,
+            // One index of a tensor is a principal moment; in a tensor with rows it is a row.
+            (Some(Component::Element(i)), _) if shape == Shape::Tensor => {
+                if self.list.iter().filter(at_key).any(|other| other.component == Some("xy")) {
+                    return None;
+                }
+                Some(Component::Entry(i, i))
+            }
+            (place, _) => place,
+        };
         self.list.iter().position(|parameter| {
-            parameter.keys.len() == keys.len() && parameter.keys.iter().zip(keys).all(|(own, key)| own == key.as_ref())
+            let named = parameter.component.and_then(|name| shape.place(&[name]));
+            at_key(&parameter) && named == place
         })
     }
 
@@ -361,8 +381,31 @@ impl Parameters {
     }
 }
 
-/// Component that the last key of a path names, and the default of the array if the file has none; `None` for a path
-/// that ends at a key of the file.
+/// Key of the table at the beginning of a path, and the number of the path's keys up to it. The rest of the path names a
+/// component.
+fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
+    (1..=path.len()).rev().find_map(|count| {
+        let (header, key) = match path[..count] {
+            [key] => (TOP.to_owned(), key),
+            ["materials", _, key] => ("[materials.NAME]".to_owned(), key),
+            ["cables", _, key] => ("[[cables]]".to_owned(), key),
+            [table, key] => (format!("[{table}]"), key),
+            _ => return None,
+        };
+        let table = TABLES.iter().find(|table| table.header == header)?;
+        table.keys.iter().find(|known| known.name == key).map(|key| (key, count))
+    })
+}
+
+/// Key that holds numbers, at the beginning of a path, and the rest of the path.
+fn numbers_of<'p>(path: &'p [&'p str]) -> Option<(&'static Key, &'static Numeric, &'p [&'p str])> {
+    let (key, count) = key_of(path)?;
+    let KeyValue::Numbers(numbers) = &key.value else { return None };
+    Some((key, numbers, &path[count..]))
+}
+
+/// Component that the end of a path names, by its name or its index from 0; `None` for a path that ends at a key of the
+/// file.
 ///
 /// # Example
 /// ```
@@ -370,26 +413,19 @@ impl Parameters {
 ///
 /// let z = component(&["cables", "3", "anchor_m", "z"]).unwrap();
 /// assert_eq!((z.row, z.column), (2, None));
+/// assert_eq!(component(&["cables", "3", "anchor_m", "2"]), Some(z));
+/// let xy = component(&["platform", "inertia_kg_m2", "1", "0"]).unwrap();
+/// assert_eq!((xy.row, xy.column), (0, Some(1)));
 /// assert!(component(&["cables", "3", "anchor_m"]).is_none());
 /// ```
 pub fn component<K: AsRef<str>>(path: &[K]) -> Option<ComponentOfKey> {
-    let (name, keys) = path.split_last()?;
-    let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
-    let (header, key) = match keys[..] {
-        [key] => (TOP.to_owned(), key),
-        ["materials", _, key] => ("[materials.NAME]".to_owned(), key),
-        ["cables", _, key] => ("[[cables]]".to_owned(), key),
-        [table, key] => (format!("[{table}]"), key),
-        _ => return None,
+    let path: Vec<&str> = path.iter().map(AsRef::as_ref).collect();
+    let (key, numbers, rest) = numbers_of(&path)?;
+    let (row, column) = match numbers.shape.place(rest)? {
+        Component::Element(i) => (i, None),
+        Component::Entry(i, j) => (i, Some(j)),
     };
-    let keys = TABLES.iter().find(|(table, _)| *table == header)?.1;
-    let numbers = keys.iter().find(|known| known.name == key)?.number.as_ref()?;
-    let (_, place) = numbers.shape.components().iter().find(|(known, _)| *known == name.as_ref())?;
-    let (row, column) = match place {
-        Component::Element(i) => (*i, None),
-        Component::Entry(i, j) => (*i, Some(*j)),
-    };
-    Some(ComponentOfKey { row, column, default: numbers.default })
+    Some(ComponentOfKey { row, column, beyond_key: rest.len(), default: key.default_numbers(), example: key.example })
 }
 
 /// Place of a component in the array of its key.
@@ -397,10 +433,55 @@ pub fn component<K: AsRef<str>>(path: &[K]) -> Option<ComponentOfKey> {
 pub struct ComponentOfKey {
     /// Element of the vector, or row of the tensor.
     pub row: usize,
-    /// Column of the tensor; the mirrored entry has the same value.
+    /// Column of the tensor; the mirrored entry has the same value. `None` for an element of a vector and for a principal
+    /// moment.
     pub column: Option<usize>,
+    /// Number of keys of the path after the key of the array: one, or two for row and column.
+    pub beyond_key: usize,
     /// Default vector, used if the file gives none.
     pub default: Option<[f64; 3]>,
+    /// Line of a robot file with the whole array.
+    pub example: &'static str,
+}
+
+/// Array at the beginning of a path that goes on to no number of it: the number of keys up to the array, and the names and
+/// indices of its numbers for a message.
+///
+/// # Example
+/// ```
+/// use funicular::robot::parameters::unknown_component;
+///
+/// assert_eq!(unknown_component(&["loads", "force_n", "3"]), Some((2, "x, y and z, or 0, 1 and 2")));
+/// assert_eq!(unknown_component(&["loads", "force_n", "2"]), None);
+/// ```
+pub fn unknown_component<K: AsRef<str>>(path: &[K]) -> Option<(usize, &'static str)> {
+    let path: Vec<&str> = path.iter().map(AsRef::as_ref).collect();
+    let (_, numbers, rest) = numbers_of(&path)?;
+    let names = numbers.shape.names();
+    let is_unknown = !rest.is_empty() && !names.is_empty() && numbers.shape.place(rest).is_none();
+    is_unknown.then_some((path.len() - rest.len(), names))
+}
+
+/// Unit of the number at a path, as in [`Parameter::unit`]; `None` if no key with numbers is there.
+///
+/// # Example
+/// ```
+/// use funicular::robot::parameters::unit;
+///
+/// assert_eq!(unit(&["loads", "force_n", "2"]), Some("N"));
+/// assert_eq!(unit(&["wind", "velocity_m_s", "x"]), Some("m/s"));
+/// assert_eq!(unit(&["name"]), None);
+/// ```
+pub fn unit<K: AsRef<str>>(path: &[K]) -> Option<&'static str> {
+    let path: Vec<&str> = path.iter().map(AsRef::as_ref).collect();
+    numbers_of(&path).map(|(_, numbers, _)| numbers.unit)
+}
+
+/// True for a table at the top of the file that may be absent: `loads`, `wind` and `state`.
+pub fn is_optional_table(name: &str) -> bool {
+    let root = TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys);
+    root.into_iter()
+        .any(|key| key.name == name && matches!(key.value, KeyValue::Table) && key.absent != Absent::Refused)
 }
 
 /// Copy of a value without borrowed text. Its numbers go to the list `numbers` (first byte, number), and placeholders
@@ -440,12 +521,12 @@ fn owned_table(table: &DeTable<'_>, numbers: &mut Vec<(usize, f64)>) -> DeTable<
 fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     let mut list = Vec::new();
     let mut table = |part: RobotPart, header: &str, path: &[&str], table: &DeTable| {
-        let keys = TABLES.iter().find(|(name, _)| *name == header).map_or(&[][..], |(_, keys)| keys);
+        let keys = TABLES.iter().find(|table| table.header == header).map_or(&[][..], |table| table.keys);
         for key in keys {
-            let Some(numbers) = &key.number else { continue };
+            let KeyValue::Numbers(numbers) = &key.value else { continue };
             let found = match table.get(key.name) {
                 Some(value) => numbers_at(value.get_ref(), &value.span(), numbers.shape),
-                None => defaults(key, numbers, table, robot),
+                None => defaults(key, numbers.shape, table, robot),
             };
             for (component, value, places) in found {
                 let names = path.iter().copied().chain([key.name]).chain(component);
@@ -457,7 +538,7 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
                     value,
                     unit: numbers.unit,
                     range: numbers.range,
-                    about: numbers.about,
+                    about: key.about,
                     given: !places.is_empty(),
                     places,
                 });
@@ -483,9 +564,13 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
             }
         }
     }
+    let absent = DeTable::new();
     for (part, name) in [(RobotPart::Load, "loads"), (RobotPart::Wind, "wind"), (RobotPart::State, "state")] {
-        if let Some(DeValue::Table(entry)) = root.get(name).map(Spanned::get_ref) {
-            table(part, &format!("[{name}]"), &[name], entry);
+        match root.get(name).map(Spanned::get_ref) {
+            Some(DeValue::Table(entry)) => table(part, &format!("[{name}]"), &[name], entry),
+            // Without a pose, the orientation has no meaning either.
+            _ if part == RobotPart::State => {}
+            _ => table(part, &format!("[{name}]"), &[name], &absent),
         }
     }
     list
@@ -526,7 +611,7 @@ fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> V
 }
 
 /// Default numbers of a key that the file leaves out, if they have a meaning for this robot.
-fn defaults(key: &Key, numbers: &Numeric, table: &DeTable, robot: &Robot) -> Vec<KeyNumber> {
+fn defaults(key: &Key, shape: Shape, table: &DeTable, robot: &Robot) -> Vec<KeyNumber> {
     let motion = &robot.platform.motion;
     let means_something = match key.name {
         "plane_offset_m" => matches!(motion, PlatformMotion::Planar(_)),
@@ -536,8 +621,8 @@ fn defaults(key: &Key, numbers: &Numeric, table: &DeTable, robot: &Robot) -> Vec
         "damping_ratio" => !table.contains_key("viscous_damping_n_s_m2"),
         _ => true,
     };
-    let Some(default) = numbers.default.filter(|_| means_something) else { return Vec::new() };
-    match numbers.shape.components() {
+    let Some(default) = key.default_numbers().filter(|_| means_something) else { return Vec::new() };
+    match shape.components() {
         [] => vec![(None, default[0], Vec::new())],
         components => {
             components.iter().zip(default).map(|((name, _), value)| (Some(*name), value, Vec::new())).collect()

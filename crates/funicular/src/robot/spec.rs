@@ -3,54 +3,14 @@
 //! The file is read as a tree of values with their places ([`toml::de::DeTable`]), not through derived types. So one
 //! reading reports every error at the value that caused it, and an unknown key is compared with the known ones.
 //!
-//! # Keys
-//!
-//! | Key | Meaning | Default |
-//! |---|---|---|
-//! | `name` | name of the robot | required |
-//! | `source` | source of the numbers | `""` |
-//! | `gravity_m_s2` | acceleration of gravity, world axes | `[0, 0, -9.81]` |
-//! | **`[platform]`** | | required |
-//! | `mass_kg` | mass, positive | required |
-//! | `motion` | `"rigid"`, `"point-mass"` (translations only), `"planar-xy"`, `"planar-xz"`, `"planar-yz"` (two translations and the rotation about the third axis), or `"planar"` with a normal | `"rigid"` |
-//! | `plane_normal` | normal of the plane in which the platform's origin moves, world axes, any length | required if `"planar"`, else refused |
-//! | `plane_offset_m` | distance of that plane from the world's origin along the normal (z, y or x, or `plane_normal`) | 0 |
-//! | `inertia_kg_m2` | tensor about the centre of mass, platform axes: three numbers or 3×3; for a planar platform also one number, the moment about the normal, which is all that counts there | required, refused for a point mass |
-//! | `center_of_mass_m` | in the platform frame | `[0, 0, 0]` |
-//! | `drag_area_m2` | drag coefficient times area; the wind acts at the centre of mass | 0 |
-//! | **`[materials.NAME]`** | | one or more |
-//! | `youngs_modulus_pa` with `diameter_m` or `area_m2` | axial stiffness as `E A` | one of the two ways |
-//! | `axial_stiffness_n` | axial stiffness EA itself | one of the two ways |
-//! | `mass_kg_per_m` | mass per unstrained length; 0 is massless | required |
-//! | `damping_ratio` or `viscous_damping_n_s_m2` | ξ in \[0, 0.5), or c ≥ 0 | `damping_ratio = 0` |
-//! | `minimum_tension_n`, `maximum_tension_n` | limits of the tension anywhere in these cables | none |
-//! | `breaking_load_n` | tension at which the rope breaks; the maximum tension if no other is given | none |
-//! | `drag_coefficient` | for wind across the rope; needs `diameter_m`, or `drag_diameter_m` if ice or a sheath makes the rope thicker | no drag |
-//! | `load_n_per_m` | dead load per unstrained length besides the weight, world axes | `[0, 0, 0]` |
-//! | **`[[cables]]`** | | one or more |
-//! | `name` | unique | required |
-//! | `material` | a NAME of `[materials.NAME]` | required |
-//! | `anchor_m` | exit point in the world frame | required |
-//! | `attachment_m` | point in the platform frame | required, zero for a point mass |
-//! | `minimum_tension_n`, `maximum_tension_n` | limits of this cable | those of its material |
-//! | `load_n_per_m` | as for a material | that of its material |
-//! | `unstrained_length_m` | positive; given for all cables or for none | none |
-//! | **`[loads]`** | on the platform, besides its weight; fixed in the world | none |
-//! | `force_n` | force, world axes | `[0, 0, 0]` |
-//! | `point_m` | point at which the force acts, platform frame | `[0, 0, 0]` |
-//! | `moment_n_m` | moment, world axes; refused for a point mass, like `point_m` | `[0, 0, 0]` |
-//! | **`[wind]`** | steady and uniform, on ropes with a `drag_coefficient` and on the platform | still air |
-//! | `velocity_m_s` | velocity of the air, world axes | required |
-//! | `air_density_kg_m3` | positive | 1.225 |
-//! | **`[state]`** | a pose; not allowed together with lengths | none |
-//! | `position_m` | platform origin in the world frame | required |
-//! | `roll_pitch_yaw_deg` | R = Rz(yaw) Ry(pitch) Rx(roll) | `[0, 0, 0]` |
+//! [`TABLES`] lists every key with its unit, range, default and meaning; docs/robot-file.md is made from it.
 //!
 //! Every number is finite and at most 1e12 in magnitude; a quantity that has to be positive is at least 1e-12. No robot
 //! comes near these limits, and within them no product in the analyses overflows.
 
 mod cables;
 mod issue;
+pub mod key;
 mod limits;
 mod materials;
 mod platform;
@@ -61,8 +21,9 @@ use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
-pub(super) use read::{Component, Key, Numbers, Numeric, Shape, TOP, parsed};
-use read::{Reader, Section, is_zero};
+use key::{Absent, Key, KeyValue, Shape, Table};
+use read::{DECIMAL_POINT, Reader, Section, is_zero};
+pub(super) use read::{Numbers, TOP, parsed};
 use toml::de::DeTable;
 
 /// Default gravity [m/s²]: the rounded standard value, used by the publications that the results are compared with.
@@ -70,9 +31,11 @@ const DEFAULT_GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
 /// Keys at the top of the file.
 const ROOT: &[Key] = &[
-    Key::other("name", r#"name = "my robot""#),
-    Key::other("source", r#"source = "author, year, table""#),
-    Key::vector(
+    Key::other("name", r#"name = "my robot""#, KeyValue::Name, "name of the robot"),
+    Key::other("source", r#"source = "author, year, table""#, KeyValue::Text, "source of the numbers")
+        .without(Absent::Means("empty")),
+    Key::numeric(
+        Shape::Vector,
         "gravity_m_s2",
         "gravity_m_s2 = [0.0, 0.0, -9.81]",
         "m/s²",
@@ -80,21 +43,49 @@ const ROOT: &[Key] = &[
         "acceleration of gravity, world axes",
     )
     .or(DEFAULT_GRAVITY),
-    Key::other("platform", "[platform]"),
-    Key::other("materials", "[materials.rope]"),
-    Key::other("cables", "[[cables]]"),
-    Key::other("loads", "[loads]"),
-    Key::other("wind", "[wind]"),
-    Key::other("state", "[state]"),
+    Key::other("platform", "[platform]", KeyValue::Table, "moving platform"),
+    Key::other("materials", "[materials.rope]", KeyValue::NamedTables, "ropes, one or more, each with a name"),
+    Key::other("cables", "[[cables]]", KeyValue::Tables, "cables, one or more"),
+    Key::other("loads", "[loads]", KeyValue::Table, "load on the platform besides its weight, fixed in the world")
+        .without(Absent::Means("no load")),
+    Key::other(
+        "wind",
+        "[wind]",
+        KeyValue::Table,
+        "steady and uniform wind, on ropes with a `drag_coefficient` and on platforms with a `drag_area_m2`",
+    )
+    .without(Absent::Means("still air")),
+    Key::other(
+        "state",
+        "[state]",
+        KeyValue::Table,
+        "pose of the platform, from which the unstrained lengths follow; refused if the cables have lengths",
+    )
+    .without(Absent::Means("the pose follows from the unstrained lengths of the cables, or is given to a command")),
 ];
 
 /// Keys of `[loads]`.
 const LOADS: &[Key] = &[
-    Key::vector("force_n", "force_n = [0.0, 0.0, -50.0]", "N", Range::Any, "force on the platform, world axes")
-        .or([0.0; 3]),
-    Key::vector("moment_n_m", "moment_n_m = [0.0, 0.0, 2.0]", "N m", Range::Any, "moment on the platform, world axes")
-        .or([0.0; 3]),
-    Key::vector(
+    Key::numeric(
+        Shape::Vector,
+        "force_n",
+        "force_n = [0.0, 0.0, -50.0]",
+        "N",
+        Range::Any,
+        "force on the platform, world axes",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Vector,
+        "moment_n_m",
+        "moment_n_m = [0.0, 0.0, 2.0]",
+        "N m",
+        Range::Any,
+        "moment on the platform, world axes",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Vector,
         "point_m",
         "point_m = [0.0, 0.0, -0.1]",
         "m",
@@ -106,27 +97,38 @@ const LOADS: &[Key] = &[
 
 /// Keys of `[wind]`.
 const WIND: &[Key] = &[
-    Key::vector(
+    Key::numeric(
+        Shape::Vector,
         "velocity_m_s",
         "velocity_m_s = [8.0, 0.0, 0.0]",
         "m/s",
         Range::Magnitude(Wind::FASTEST),
         "velocity of the air, world axes",
-    ),
-    Key::number("air_density_kg_m3", "air_density_kg_m3 = 1.225", "kg/m³", Range::Positive, "density of the air")
-        .or([Wind::AIR_DENSITY; 3]),
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "air_density_kg_m3",
+        "air_density_kg_m3 = 1.225",
+        "kg/m³",
+        Range::Positive,
+        "density of the air",
+    )
+    .or([Wind::AIR_DENSITY; 3]),
 ];
 
 /// Keys of `[state]`.
 const STATE: &[Key] = &[
-    Key::vector(
+    Key::numeric(
+        Shape::Vector,
         "position_m",
         "position_m = [0.0, 0.0, 1.0]",
         "m",
         Range::Any,
         "origin of the platform frame in the world frame",
     ),
-    Key::angles(
+    Key::numeric(
+        Shape::Angles,
         "roll_pitch_yaw_deg",
         "roll_pitch_yaw_deg = [0.0, 0.0, 0.0]",
         "degrees",
@@ -136,19 +138,24 @@ const STATE: &[Key] = &[
     .or([0.0; 3]),
 ];
 
-/// Every table of the file, to recognise a key in the wrong table.
-pub(super) const TABLES: &[(&str, &[Key])] = &[
-    (TOP, ROOT),
-    ("[platform]", platform::KEYS),
-    ("[materials.NAME]", materials::KEYS),
-    ("[[cables]]", cables::KEYS),
-    ("[loads]", LOADS),
-    ("[wind]", WIND),
-    ("[state]", STATE),
+/// Every table of the robot file, with its keys in the order of the documentation.
+pub const TABLES: &[Table] = &[
+    Table { header: TOP, keys: ROOT },
+    Table { header: "[platform]", keys: platform::KEYS },
+    Table { header: "[materials.NAME]", keys: materials::KEYS },
+    Table { header: "[[cables]]", keys: cables::KEYS },
+    Table { header: "[loads]", keys: LOADS },
+    Table { header: "[wind]", keys: WIND },
+    Table { header: "[state]", keys: STATE },
 ];
 
+/// Table of the keys before the first header of the file, `platform` and the other tables among them.
+pub fn top_of_file() -> &'static Table {
+    &TABLES[0]
+}
+
 impl Robot {
-    /// Reads a robot file (TOML; the keys are listed in [`spec`](self)).
+    /// Reads a robot file (TOML; [`TABLES`](crate::robot::spec::TABLES) lists the keys).
     ///
     /// `text` may begin with a byte-order mark and may have either kind of line end.
     ///
@@ -192,14 +199,29 @@ impl Robot {
                 // Only the first error: after a syntax error the parser guesses, and its further errors mislead.
                 let message = format!("the file is not valid TOML: {}", error.message());
                 let issue = reader.issue(error.span().unwrap_or(0..0), message);
-                // The parser gives this message for every invalid value, `10 kg` and `4 * 1e-3` among them.
-                if error.message().contains("must be quoted") {
+                if has_decimal_comma(text, error.span()) {
+                    issue.help(DECIMAL_POINT);
+                } else if error.message().contains("must be quoted") {
+                    // The parser gives this message for every invalid value, `10 kg` and `4 * 1e-3` among them.
                     issue.help("a value is one number without its unit, text in quotes, or an array in brackets");
                 }
                 Err(SpecError::new(text, reader.issues))
             }
         }
     }
+}
+
+/// True if the parser stopped at a comma between two digits, as in `60,0`.
+fn has_decimal_comma(text: &str, span: Option<std::ops::Range<usize>>) -> bool {
+    let Some(at) = span.map(|span| span.start) else { return false };
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let bytes = text.as_bytes();
+    // The parser points at the comma or, for some values, at the number before it.
+    let first = at.saturating_sub(1).max(1);
+    let line_end = text.get(at..).and_then(|rest| rest.find('\n')).map_or(bytes.len(), |length| at + length);
+    let end = line_end.min(at + 40);
+    let comma = (first..end).find(|i| bytes[*i] == b',');
+    comma.is_some_and(|i| is_digit(bytes.get(i - 1)) && is_digit(bytes.get(i + 1)))
 }
 
 /// Robot of a parsed text, with numbers beside its tree.
@@ -230,10 +252,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         Some(value) => reader.prose("source", value),
         None => Some(String::new()),
     };
-    let gravity = match root.get("gravity_m_s2") {
-        Some(value) => reader.vector(&root, "gravity_m_s2", value),
-        None => Some(DEFAULT_GRAVITY),
-    };
+    let gravity = reader.vector_or_default(&root, "gravity_m_s2");
 
     let motion = platform::motion(reader, &root);
     let platform = platform::read(reader, &root, motion);
@@ -289,7 +308,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     let table = reader.table("wind", "[wind]", value)?;
     let section = reader.open("[wind]", value.span(), table, WIND);
 
-    let velocity = reader.required(&section, "velocity_m_s").and_then(|v| reader.vector(&section, "velocity_m_s", v));
+    let velocity = reader.vector_or_default(&section, "velocity_m_s");
     if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
         let speed = Vec3::from(velocity).norm();
         if speed > Wind::FASTEST {
@@ -303,10 +322,7 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
         }
     }
 
-    let air_density = match section.get("air_density_kg_m3") {
-        Some(value) => reader.number_of(&section, "air_density_kg_m3", value),
-        None => Some(Wind::AIR_DENSITY),
-    };
+    let air_density = reader.number_or_default(&section, "air_density_kg_m3");
     Some(Wind { velocity_w: Vec3::from(velocity?), air_density: air_density? })
 }
 

@@ -380,14 +380,19 @@ impl StaticsError {
 
 /// Reason of an error in brackets; empty if it is not known.
 fn because(obstacle: &Option<Box<Obstacle>>) -> String {
-    obstacle.as_ref().map_or_else(String::new, |obstacle| format!(" ({obstacle})"))
+    obstacle.as_ref().map_or_else(String::new, |obstacle| match **obstacle {
+        Obstacle::OneSided { .. } => format!(" ({obstacle}; {})", obstacle.advice()),
+        Obstacle::NotSpanned { .. } => format!(" ({obstacle})"),
+    })
 }
 
 /// Message of tensions beyond their limits. If even tensions without limits do not balance the load, wider limits do
 /// not help, and the message says so.
 fn beyond_limits(miss: &LimitViolation) -> String {
     match &miss.obstacle {
-        Some(obstacle) => format!("no tensions hold this pose, whatever their limits: {obstacle}"),
+        Some(obstacle) => {
+            format!("no tensions hold this pose, whatever their limits: {obstacle}; {}", obstacle.advice())
+        }
         None => format!(
             "no tensions within their limits hold this pose: the best tensions violate the limits {miss}; choose \
              another pose, mass or centre of mass, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"

@@ -159,3 +159,24 @@ impl fmt::Display for LimitViolation {
         if limits.is_empty() { Ok(()) } else { write!(f, ", because of {}", limits.join(" and ")) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_margin_of_rounding_is_zero_and_a_real_violation_is_not() {
+        let margin =
+            |min: f64, max: f64| TensionMargin { range: TensionRange { minimum: 50.0, maximum: 2000.0 }, min, max };
+        // Rows of maps have had -1e-13 to -2e-12 N.
+        for rounding in [1e-13, 2e-12, 1e-9] {
+            assert_eq!(margin(50.0 - rounding, 300.0).distance(), 0.0);
+            assert_eq!(margin(60.0, 2000.0 + rounding).distance(), 0.0);
+            assert_eq!(margin(50.0 - rounding, 300.0).relative(), Some(0.0));
+        }
+        assert!((margin(50.0 - 1e-5, 300.0).distance() + 1e-5).abs() < 1e-12);
+        assert!((margin(60.0, 2000.0 + 1e-5).distance() + 1e-5).abs() < 1e-12);
+        // Distances within the limits stay as they are.
+        assert!(margin(50.0 + 1e-9, 300.0).distance() > 0.0);
+    }
+}

@@ -8,7 +8,7 @@ use funicular::robot::Robot;
 use std::fmt::Write;
 
 /// Width of comments.
-const WIDTH: usize = 118;
+pub(crate) const WIDTH: usize = 118;
 
 impl Draft {
     /// Writes the robot file and checks that it can be read.
@@ -157,7 +157,7 @@ fn same(a: &DraftRope, b: &DraftRope) -> bool {
 }
 
 /// Writes comment lines beginning with `# `, wrapped between words.
-fn comment(out: &mut String, bullet: &str, text: &str) {
+pub(crate) fn comment(out: &mut String, bullet: &str, text: &str) {
     let mut line = format!("# {bullet}");
     let indent = " ".repeat(bullet.len());
     let mut empty = true;
@@ -180,7 +180,7 @@ fn comment(out: &mut String, bullet: &str, text: &str) {
 }
 
 /// TOML string in quotes.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
@@ -191,18 +191,18 @@ fn key(text: &str) -> String {
 }
 
 /// Shortest digits that are read back as the same number.
-fn float(value: f64) -> String {
+pub(crate) fn float(value: f64) -> String {
     // Adding zero turns −0 into 0: its sign has no meaning here.
     let value = value + 0.0;
     let plain = value == 0.0 || (1e-4..1e6).contains(&value.abs());
     if plain { format!("{value:?}") } else { format!("{value:e}") }
 }
 
-fn vector(v: &Vec3) -> String {
+pub(crate) fn vector(v: &Vec3) -> String {
     format!("[{}, {}, {}]", float(v.x), float(v.y), float(v.z))
 }
 
-fn tensor(tensor: &Mat3) -> String {
+pub(crate) fn tensor(tensor: &Mat3) -> String {
     if *tensor == Mat3::from_diagonal(&tensor.diagonal()) {
         return vector(&tensor.diagonal());
     }

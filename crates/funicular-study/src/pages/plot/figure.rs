@@ -6,8 +6,9 @@ use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};
 use crate::figures::map::{ColourBar, ColourScale, Map, limits};
 use crate::figures::{Figure, Kind, style};
-use crate::sweep::SweepRows;
+use crate::sweep::{Quantity, SweepRows};
 use anyhow::{Result, anyhow, bail};
+use funicular::robot::Robot;
 
 /// Choice of what the figure of a map or sweep shows.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -36,42 +37,66 @@ pub fn figure(file: &dyn SweepRows, place: &str, choice: &Choice) -> Result<Made
     refuse_no_rows(file, place)?;
     let rows = Rows::read(file)?;
     let name = robot_name(&file.record().plan);
-    if rows.axes.len() >= 2 { slice(&rows, &name, choice) } else { lines(&rows, &name, choice) }
+    let wanted = choice.quantity.as_ref().map(|text| Wanted::of(text, file));
+    if rows.axes.len() >= 2 {
+        slice(&rows, &name, wanted.as_ref(), choice)
+    } else {
+        lines(&rows, &name, wanted.as_ref(), choice)
+    }
 }
 
-/// Series that have the chosen name, out of groups that share a figure.
-fn chosen<'a>(groups: &[Vec<&'a Series>], choice: &Choice) -> Result<Vec<&'a Series>> {
-    let names = || -> Vec<&str> { groups.iter().map(|group| group[0].name.as_str()).collect() };
-    let Some(wanted) = &choice.quantity else {
+/// Columns that a choice of a quantity means.
+struct Wanted {
+    /// Text of the choice.
+    text: String,
+    columns: Vec<String>,
+}
+
+impl Wanted {
+    /// Columns of a quantity such as `tension-max`, or the column with this name.
+    fn of(text: &str, file: &dyn SweepRows) -> Self {
+        let quantity = text.trim().parse::<Quantity>().ok().zip(Robot::from_toml(&file.record().robot_file).ok());
+        let columns = match quantity {
+            Some((quantity, robot)) => quantity.columns(&robot).into_iter().map(|column| column.name).collect(),
+            None => vec![text.trim().replace('-', "_")],
+        };
+        Self { text: text.to_owned(), columns }
+    }
+}
+
+/// Series of the chosen quantity, out of groups that share a figure.
+fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&Wanted>) -> Result<Vec<&'a Series>> {
+    let names = |groups: &[Vec<&Series>]| -> String {
+        groups.iter().map(|group| group[0].name.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let Some(wanted) = wanted else {
         return match groups {
             [] => Err(anyhow!("no row has a value, so there is nothing to draw")),
             [one] => Ok(one.clone()),
             _ => Err(anyhow!(
                 "a figure shows one quantity, and the rows have {}: choose it with ⟪quantity⟫",
-                names().join(", ")
+                names(groups)
             )),
         };
     };
-    let key = wanted.trim().replace('-', "_");
-    // A quantity such as `tension-max` has a column `tension_max_n`; `tensions` has a column for each cable.
-    let stem = key.strip_suffix('s').unwrap_or(&key);
-    let is = |series: &Series| series.name == key || label(&series.name).replace(' ', "_") == key;
-    let begins = |series: &Series| series.name.starts_with(&format!("{stem}_")) || series.name == stem;
-    let exact = groups.iter().find(|group| group.iter().any(|series| is(series)));
-    let found = exact.or_else(|| groups.iter().find(|group| group.iter().any(|series| begins(series))));
-    match found {
-        Some(group) => {
-            // A single column may be chosen out of its group.
-            let one: Vec<&Series> = group.iter().copied().filter(|series| is(series)).collect();
-            Ok(if one.is_empty() { group.clone() } else { one })
-        }
-        None if groups.is_empty() => Err(anyhow!("no row has a value, so there is nothing to draw")),
-        None => Err(anyhow!("⟪quantity⟫: the rows have no values of `{wanted}`; they have {}", names().join(", "))),
+    let found: Vec<Vec<&Series>> = groups
+        .iter()
+        .map(|group| group.iter().copied().filter(|series| wanted.columns.contains(&series.name)).collect::<Vec<_>>())
+        .filter(|group| !group.is_empty())
+        .collect();
+    match &found[..] {
+        [] => Err(anyhow!("⟪quantity⟫: the rows have no numbers of `{}`; they have {}", wanted.text, names(groups))),
+        [one] => Ok(one.clone()),
+        several => Err(anyhow!(
+            "⟪quantity⟫: a figure cannot show all of `{}`; choose one of its columns: {}",
+            wanted.text,
+            names(several)
+        )),
     }
 }
 
 /// Curves of one group of quantities.
-fn lines(rows: &Rows, name: &str, choice: &Choice) -> Result<Made> {
+fn lines(rows: &Rows, name: &str, wanted: Option<&Wanted>, choice: &Choice) -> Result<Made> {
     if choice.plane.is_some() || !choice.at.is_empty() {
         bail!("these rows have one axis: ⟪plane⟫ and ⟪at⟫ choose a slice of a grid with two or more");
     }
@@ -84,7 +109,7 @@ fn lines(rows: &Rows, name: &str, choice: &Choice) -> Result<Made> {
         }
     }
     let groups: Vec<Vec<&Series>> = groups.into_iter().map(|(_, members)| members).collect();
-    let members = chosen(&groups, choice)?;
+    let members = chosen(&groups, wanted)?;
 
     let along = curves::along(rows);
     let (from, to) = bounds(along.x.iter().copied());
@@ -139,10 +164,10 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Slice of a grid.
-fn slice(rows: &Rows, name: &str, choice: &Choice) -> Result<Made> {
+fn slice(rows: &Rows, name: &str, wanted: Option<&Wanted>, choice: &Choice) -> Result<Made> {
     let groups: Vec<Vec<&Series>> =
         rows.series.iter().filter(|series| series.count > 0).map(|series| vec![series]).collect();
-    let series = chosen(&groups, choice)?[0];
+    let series = chosen(&groups, wanted)?[0];
     let (h, v) = plane(rows, choice)?;
     let at = places(rows, choice, [h, v])?;
     let mut notes = Vec::new();

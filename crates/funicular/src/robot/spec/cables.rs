@@ -1,8 +1,9 @@
 //! `[[cables]]`: each cable, and the conditions between cables.
 
+use super::key::{Absent, Key, KeyValue, Shape};
 use super::limits;
 use super::materials::Materials;
-use super::read::{Key, Reader, Section, Value, is_zero, shortened};
+use super::read::{Reader, Section, Value, is_zero, shortened};
 use crate::math::Vec3;
 use crate::robot::parameters::Range as Limits;
 use crate::robot::{Anchor, Cable, PlatformMotion, Pose};
@@ -17,44 +18,61 @@ const COINCIDENT: f64 = 1e-9;
 
 /// Keys of `[[cables]]`.
 pub(super) const KEYS: &[Key] = &[
-    Key::other("name", r#"name = "1""#),
-    Key::other("material", r#"material = "rope""#),
-    Key::vector("anchor_m", "anchor_m = [5.0, 2.0, 4.0]", "m", Limits::Any, "exit point of the cable, world frame"),
-    Key::vector(
+    Key::other("name", r#"name = "1""#, KeyValue::Name, "name of the cable, unique"),
+    Key::other("material", r#"material = "rope""#, KeyValue::Name, "rope of the cable: a NAME of `[materials.NAME]`"),
+    Key::numeric(
+        Shape::Vector,
+        "anchor_m",
+        "anchor_m = [5.0, 2.0, 4.0]",
+        "m",
+        Limits::Any,
+        "exit point of the cable, world frame",
+    ),
+    Key::numeric(
+        Shape::Vector,
         "attachment_m",
         "attachment_m = [0.1, 0.1, 0.0]",
         "m",
         Limits::Any,
         "attachment of the cable, platform frame",
-    ),
-    Key::number(
+    )
+    .without(Absent::Depends("required, except for a point mass, for which it is zero")),
+    Key::numeric(
+        Shape::Number,
         "minimum_tension_n",
         "minimum_tension_n = 50",
         "N",
         Limits::NotNegative,
         "minimum tension of the cable, before that of its rope",
-    ),
-    Key::number(
+    )
+    .without(Absent::Means("that of its rope")),
+    Key::numeric(
+        Shape::Number,
         "maximum_tension_n",
         "maximum_tension_n = 5000",
         "N",
         Limits::Positive,
         "maximum tension of the cable, before that of its rope",
-    ),
-    Key::vector(
+    )
+    .without(Absent::Means("that of its rope")),
+    Key::numeric(
+        Shape::Vector,
         "load_n_per_m",
         "load_n_per_m = [0.0, 0.5, 0.0]",
         "N/m",
         Limits::Any,
         "dead load per unstrained length, in place of that of its rope, world axes",
-    ),
-    Key::number(
+    )
+    .without(Absent::Means("that of its rope")),
+    Key::numeric(
+        Shape::Number,
         "unstrained_length_m",
         "unstrained_length_m = 6.5",
         "m",
         Limits::Positive,
         "unstrained length of the cable",
-    ),
+    )
+    .without(Absent::Means("no length; all cables have one, or none has")),
 ];
 
 /// A cable and the places of its values.

@@ -1,8 +1,9 @@
 //! `[materials.NAME]`: properties of a rope. Unused materials are allowed: a file may offer several ropes to choose
 //! from.
 
+use super::key::{Absent, Key, Shape};
 use super::limits;
-use super::read::{Key, MAX_NUMBER, MIN_NUMBER, Reader, Section};
+use super::read::{MAX_NUMBER, MIN_NUMBER, Reader, Section};
 use crate::math::Vec3;
 use crate::robot::parameters::Range;
 use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
@@ -15,30 +16,52 @@ const RATIO_LIMIT: f64 = 0.5;
 
 /// Keys of `[materials.NAME]`.
 pub(super) const KEYS: &[Key] = &[
-    Key::number(
+    Key::numeric(
+        Shape::Number,
         "youngs_modulus_pa",
         "youngs_modulus_pa = 100e9",
         "Pa",
         Range::Positive,
         "modulus E of the rope; EA is E times the area",
-    ),
-    Key::number("diameter_m", "diameter_m = 0.004", "m", Range::Positive, "diameter of the rope"),
-    Key::number("area_m2", "area_m2 = 8e-6", "m²", Range::Positive, "cross-section of the rope"),
-    Key::number(
+    )
+    .without(Absent::Depends(TWO_WAYS)),
+    Key::numeric(
+        Shape::Number,
+        "diameter_m",
+        "diameter_m = 0.004",
+        "m",
+        Range::Positive,
+        "diameter of the rope; the modulus then counts for its full circle",
+    )
+    .without(Absent::Depends(TWO_WAYS)),
+    Key::numeric(
+        Shape::Number,
+        "area_m2",
+        "area_m2 = 8e-6",
+        "m²",
+        Range::Positive,
+        "cross-section that the modulus refers to, for wire ropes usually the metal area",
+    )
+    .without(Absent::Depends(TWO_WAYS)),
+    Key::numeric(
+        Shape::Number,
         "axial_stiffness_n",
         "axial_stiffness_n = 250e3",
         "N",
         Range::Positive,
         "axial stiffness EA of the rope",
-    ),
-    Key::number(
+    )
+    .without(Absent::Depends(TWO_WAYS)),
+    Key::numeric(
+        Shape::Number,
         "mass_kg_per_m",
         "mass_kg_per_m = 0.06",
         "kg/m",
         Range::NotNegative,
         "mass of the rope per unstrained length",
     ),
-    Key::number(
+    Key::numeric(
+        Shape::Number,
         "damping_ratio",
         "damping_ratio = 0.003",
         "1",
@@ -46,37 +69,62 @@ pub(super) const KEYS: &[Key] = &[
         "damping ratio of the rope, the same at every frequency",
     )
     .or([0.0; 3]),
-    Key::number(
+    Key::numeric(
+        Shape::Number,
         "viscous_damping_n_s_m2",
         "viscous_damping_n_s_m2 = 0.01",
         "N s/m²",
         Range::NotNegative,
         "viscous damping of the rope per length",
-    ),
-    Key::number(
+    )
+    .without(Absent::Means("the `damping_ratio` applies; a file gives one of the two")),
+    Key::numeric(
+        Shape::Number,
         "minimum_tension_n",
         "minimum_tension_n = 50",
         "N",
         Range::NotNegative,
         "minimum tension of the cables of this rope",
-    ),
-    Key::number(
+    )
+    .without(Absent::Means("no minimum of the file; analyses use a small multiple of the cable's weight")),
+    Key::numeric(
+        Shape::Number,
         "maximum_tension_n",
         "maximum_tension_n = 5000",
         "N",
         Range::Positive,
         "maximum tension of the cables of this rope",
-    ),
-    Key::number("breaking_load_n", "breaking_load_n = 12e3", "N", Range::Positive, "tension at which the rope breaks"),
-    Key::number(
+    )
+    .without(Absent::Means("the `breaking_load_n` if it is given, else no maximum")),
+    Key::numeric(
+        Shape::Number,
+        "breaking_load_n",
+        "breaking_load_n = 12e3",
+        "N",
+        Range::Positive,
+        "tension at which the rope breaks",
+    )
+    .without(Absent::Means("unknown")),
+    Key::numeric(
+        Shape::Number,
         "drag_coefficient",
         "drag_coefficient = 1.2",
         "1",
         Range::NotNegative,
         "drag coefficient of the rope in a wind across it",
-    ),
-    Key::number("drag_diameter_m", "drag_diameter_m = 0.005", "m", Range::Positive, "diameter that the wind meets"),
-    Key::vector(
+    )
+    .without(Absent::Means("no drag")),
+    Key::numeric(
+        Shape::Number,
+        "drag_diameter_m",
+        "drag_diameter_m = 0.005",
+        "m",
+        Range::Positive,
+        "diameter that the wind meets",
+    )
+    .without(Absent::Means("the `diameter_m`")),
+    Key::numeric(
+        Shape::Vector,
         "load_n_per_m",
         "load_n_per_m = [0.0, 0.0, -0.5]",
         "N/m",
@@ -129,10 +177,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     }
 
     let drag = drag(reader, section, stiffness.diameter());
-    let load_per_length = match section.get("load_n_per_m") {
-        Some(value) => reader.vector(section, "load_n_per_m", value),
-        None => Some([0.0; 3]),
-    };
+    let load_per_length = reader.vector_or_default(section, "load_n_per_m");
 
     Some(Material {
         name: name.to_owned(),
@@ -294,6 +339,6 @@ fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
             Some(Damping::Ratio(ratio))
         }
         (None, Some(value)) => reader.number_of(section, "viscous_damping_n_s_m2", value).map(Damping::Viscous),
-        (None, None) => Some(Damping::Ratio(0.0)),
+        (None, None) => Some(Damping::Ratio(section.default("damping_ratio")[0])),
     }
 }

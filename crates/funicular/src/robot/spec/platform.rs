@@ -1,6 +1,7 @@
 //! `[platform]`: mass, motion, and an inertia tensor that a body can have.
 
-use super::read::{Key, MIN_NUMBER, Reader, Section, Value, is_zero, known, shortened};
+use super::key::{Absent, Key, KeyValue, Shape};
+use super::read::{MAX_NUMBER, MIN_NUMBER, Reader, Section, Value, is_zero, known, parsed, shortened};
 use crate::math::{Mat3, Vec3, symmetric_part};
 use crate::robot::parameters::Range;
 use crate::robot::{Plane, Platform, PlatformMotion};
@@ -17,31 +18,42 @@ const FLAT: f64 = 1e-6;
 
 /// Keys of `[platform]`.
 pub(super) const KEYS: &[Key] = &[
-    Key::number("mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
-    Key::other("motion", r#"motion = "rigid""#),
-    Key::vector(
+    Key::numeric(
+        Shape::Number,
+        "mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
+    Key::other("motion", r#"motion = "rigid""#, KeyValue::Word(MOTIONS), "degrees of freedom of the platform")
+        .without(Absent::DefaultWord("rigid")),
+    Key::numeric(
+        Shape::Vector,
         "plane_normal",
         "plane_normal = [0.0, 1.0, 0.0]",
-        "any unit",
+        "1",
         Range::Any,
-        "normal of the plane in which the platform moves, world axes",
-    ),
-    Key::number(
+        "normal of the plane in which the platform moves, world axes, any length",
+    )
+    .without(Absent::Depends("required with `motion = \"planar\"`, else refused")),
+    Key::numeric(
+        Shape::Number,
         "plane_offset_m",
         "plane_offset_m = 0.0",
         "m",
         Range::Any,
-        "distance of that plane from the world's origin along the normal",
+        "distance of that plane from the world's origin along the normal, for planar platforms only",
     )
     .or([0.0; 3]),
-    Key::tensor(
+    Key::numeric(
+        Shape::Tensor,
         "inertia_kg_m2",
         "inertia_kg_m2 = [0.1, 0.1, 0.2]",
         "kg m²",
         Range::Any,
-        "inertia tensor about the centre of mass, platform axes; the tensor has to be one that a body can have",
-    ),
-    Key::vector(
+        "inertia tensor about the centre of mass, platform axes: three principal moments or three rows of three numbers; \
+         for a planar platform also one number, the moment about the normal; the tensor has to be one that a body can \
+         have",
+    )
+    .without(Absent::Depends("required, except for a point mass, for which it is refused")),
+    Key::numeric(
+        Shape::Vector,
         "center_of_mass_m",
         "center_of_mass_m = [0.0, 0.0, 0.0]",
         "m",
@@ -49,15 +61,17 @@ pub(super) const KEYS: &[Key] = &[
         "centre of mass, platform frame",
     )
     .or([0.0; 3]),
-    Key::number(
+    Key::numeric(
+        Shape::Number,
         "drag_area_m2",
         "drag_area_m2 = 0.5",
         "m²",
         Range::NotNegative,
-        "drag coefficient times area of the platform",
+        "drag coefficient times area of the platform; the wind acts at the centre of mass",
     )
     .or([0.0; 3]),
-    Key::vector(
+    Key::numeric(
+        Shape::Vector,
         "translational_damping_n_s_m",
         "translational_damping_n_s_m = [10.0, 10.0, 10.0]",
         "N s/m",
@@ -65,7 +79,8 @@ pub(super) const KEYS: &[Key] = &[
         "viscous damping of the platform's translation, platform axes",
     )
     .or([0.0; 3]),
-    Key::vector(
+    Key::numeric(
+        Shape::Vector,
         "rotational_damping_n_m_s",
         "rotational_damping_n_m_s = [0.1, 0.1, 0.1]",
         "N m s",
@@ -75,8 +90,15 @@ pub(super) const KEYS: &[Key] = &[
     .or([0.0; 3]),
 ];
 
-/// Values of `motion`.
-const WORDS: [&str; 6] = ["rigid", "point-mass", "planar-xy", "planar-xz", "planar-yz", "planar"];
+/// Values of `motion`, with their meanings.
+const MOTIONS: &[(&str, &str)] = &[
+    ("rigid", "three translations and three rotations"),
+    ("point-mass", "three translations"),
+    ("planar-xy", "translations along x and y, rotation about z"),
+    ("planar-xz", "translations along x and z, rotation about y"),
+    ("planar-yz", "translations along y and z, rotation about x"),
+    ("planar", "two translations in the plane with the normal `plane_normal`, rotation about this normal"),
+];
 
 /// Reads the motion; `None` if the word in the file is unknown. Reports nothing if there is no `[platform]`: [`read`]
 /// does.
@@ -146,9 +168,10 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
 
 fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
     let word = reader.text("motion", value)?;
-    let known = WORDS.into_iter().find(|known| *known == word);
+    let words = || MOTIONS.iter().map(|(word, _)| *word);
+    let known = words().find(|known| *known == word);
     if known.is_none() {
-        let suggestion = nearest(&word, WORDS).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+        let suggestion = nearest(&word, words()).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
         reader.issue(value.span(), format!("`motion` is \"{}\", which is unknown", shortened(&word))).help(format!(
             "write \"rigid\", \"point-mass\", \"planar-xy\", \"planar-xz\", \"planar-yz\", or \"planar\" with a \
              `plane_normal`{suggestion}"
@@ -165,11 +188,20 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
 
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
 
-    let inertia = match motion {
-        Some(PlatformMotion::Rigid) => reader.required(&section, "inertia_kg_m2").and_then(|v| inertia(reader, v)),
-        Some(PlatformMotion::Planar(plane)) => {
-            reader.required(&section, "inertia_kg_m2").and_then(|v| planar_inertia(reader, v, &plane))
+    let required_inertia = |reader: &mut Reader| {
+        let found_before = reader.issues.len();
+        let value = reader.required(&section, "inertia_kg_m2");
+        if value.is_none()
+            && let Some(issue) = reader.issues.get_mut(found_before)
+            && let Some(example) = mass.and_then(|mass| box_example(root, mass))
+        {
+            issue.help(example);
         }
+        value
+    };
+    let inertia = match motion {
+        Some(PlatformMotion::Rigid) => required_inertia(reader).and_then(|v| inertia(reader, v)),
+        Some(PlatformMotion::Planar(plane)) => required_inertia(reader).and_then(|v| planar_inertia(reader, v, &plane)),
         Some(PlatformMotion::PointMass) => {
             if let Some(value) = section.get("inertia_kg_m2") {
                 reader
@@ -194,10 +226,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         None => Some([0.0; 3]),
     };
 
-    let drag_area = match section.get("drag_area_m2") {
-        Some(value) => reader.number_of(&section, "drag_area_m2", value),
-        None => Some(0.0),
-    };
+    let drag_area = reader.number_or_default(&section, "drag_area_m2");
 
     let translational = damping(reader, &section, "translational_damping_n_s_m");
     let rotational = damping(reader, &section, "rotational_damping_n_m_s");
@@ -216,6 +245,45 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         center_of_mass_p: Vec3::from(center_of_mass?),
         motion: motion?,
     })
+}
+
+/// Remedy for a missing tensor: the moments of a homogeneous box with the size of the attachments. `None` if the file has
+/// no attachments that span at least a rectangle.
+fn box_example(root: &Section, mass: f64) -> Option<String> {
+    let DeValue::Array(cables) = root.get("cables")?.get_ref() else { return None };
+    let attachments: Vec<[f64; 3]> = cables.iter().filter_map(|cable| attachment(cable.get_ref())).collect();
+    let extent = |i: usize| {
+        let along = attachments.iter().map(|attachment| attachment[i]);
+        along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+    };
+    let size = [extent(0), extent(1), extent(2)];
+
+    // Second moments m a²/12 are rounded, not their sums: so the moments of a flat box stay those of a body.
+    let second = size.map(|side| rounded(mass * side * side / 12.0, 4));
+    let moments = [second[1] + second[2], second[0] + second[2], second[0] + second[1]];
+    if !moments.iter().all(|moment| *moment > MIN_NUMBER && *moment < MAX_NUMBER) {
+        return None;
+    }
+    let [xx, yy, zz] = moments.map(|moment| rounded(moment, 10));
+    let [a, b, c] = size.map(|side| rounded(side, 4));
+    Some(format!(
+        "add it, for example `inertia_kg_m2 = [{xx}, {yy}, {zz}]`: moments m(b² + c²)/12, m(a² + c²)/12 and \
+         m(a² + b²)/12 of a homogeneous box of {mass} kg with the size of the attachments, {a} × {b} × {c} m; replace this \
+         starting value by that of the real platform"
+    ))
+}
+
+/// Attachment of an entry of `[[cables]]`, if it has three numbers.
+fn attachment(cable: &DeValue) -> Option<[f64; 3]> {
+    let DeValue::Table(cable) = cable else { return None };
+    let DeValue::Array(numbers) = cable.get("attachment_m")?.get_ref() else { return None };
+    let numbers: Option<Vec<f64>> = numbers.iter().map(|number| parsed(number.get_ref())).collect();
+    numbers?.try_into().ok()
+}
+
+/// Value with a number of significant digits.
+fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 /// Viscous damping along the platform's three axes; zero if the key is absent.
@@ -320,7 +388,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
 
 /// Value with four significant digits, for a message.
 fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let rounded = rounded(value, 4);
     if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 

@@ -1,5 +1,6 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every message points at the value.
 
+use super::key::{Key, Numeric};
 use super::{Issue, TABLES};
 use crate::robot::parameters::Range as Limits;
 use crate::suggest::nearest;
@@ -15,140 +16,11 @@ const QUOTED: usize = 40;
 /// Name of the file's top level in messages.
 pub(in crate::robot) const TOP: &str = "the top of the file";
 
+/// Remedy for a number with a decimal comma.
+pub(super) const DECIMAL_POINT: &str = "write numbers with a decimal point, not a comma: 60.0";
+
 /// Value with its place.
 pub(super) type Value<'t> = Spanned<DeValue<'t>>;
-
-/// A known key.
-pub(in crate::robot) struct Key {
-    /// Name in the file.
-    pub name: &'static str,
-    /// Example line for the help of a missing key.
-    pub example: &'static str,
-    /// Unit, range and meaning if the value is a number or an array of numbers.
-    pub number: Option<Numeric>,
-}
-
-/// Unit, range and meaning of the numbers of a key. The reader checks by them, and [`crate::robot::parameters`] lists
-/// them.
-#[derive(Clone, Copy)]
-pub(in crate::robot) struct Numeric {
-    pub unit: &'static str,
-    pub range: Limits,
-    pub about: &'static str,
-    /// Default values; a single number is the first of them.
-    pub default: Option<[f64; 3]>,
-    pub shape: Shape,
-}
-
-/// Arrangement of the numbers of a key.
-#[derive(Clone, Copy, PartialEq)]
-pub(in crate::robot) enum Shape {
-    /// One number.
-    Number,
-    /// Three numbers x, y, z.
-    Vector,
-    /// Three numbers roll, pitch, yaw.
-    Angles,
-    /// One moment, three principal moments, or three rows of three numbers.
-    Tensor,
-}
-
-/// Place of one number in the array of its key.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::robot) enum Component {
-    /// Element of an array of three.
-    Element(usize),
-    /// Entry of a symmetric tensor; an off-diagonal entry has a mirrored one.
-    Entry(usize, usize),
-}
-
-impl Shape {
-    /// Names and places of the components.
-    pub(in crate::robot) fn components(self) -> &'static [(&'static str, Component)] {
-        use Component::{Element, Entry};
-        match self {
-            Self::Number => &[],
-            Self::Vector => &[("x", Element(0)), ("y", Element(1)), ("z", Element(2))],
-            Self::Angles => &[("roll", Element(0)), ("pitch", Element(1)), ("yaw", Element(2))],
-            Self::Tensor => &[
-                ("xx", Entry(0, 0)),
-                ("yy", Entry(1, 1)),
-                ("zz", Entry(2, 2)),
-                ("xy", Entry(0, 1)),
-                ("xz", Entry(0, 2)),
-                ("yz", Entry(1, 2)),
-            ],
-        }
-    }
-}
-
-impl Key {
-    /// Key whose value is not a number.
-    pub(super) const fn other(name: &'static str, example: &'static str) -> Self {
-        Self { name, example, number: None }
-    }
-
-    /// Key with one number.
-    pub(super) const fn number(
-        name: &'static str,
-        example: &'static str,
-        unit: &'static str,
-        range: Limits,
-        about: &'static str,
-    ) -> Self {
-        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Number })
-    }
-
-    /// Key with a vector.
-    pub(super) const fn vector(
-        name: &'static str,
-        example: &'static str,
-        unit: &'static str,
-        range: Limits,
-        about: &'static str,
-    ) -> Self {
-        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Vector })
-    }
-
-    /// Key with roll, pitch and yaw.
-    pub(super) const fn angles(
-        name: &'static str,
-        example: &'static str,
-        unit: &'static str,
-        range: Limits,
-        about: &'static str,
-    ) -> Self {
-        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Angles })
-    }
-
-    /// Key with a symmetric tensor.
-    pub(super) const fn tensor(
-        name: &'static str,
-        example: &'static str,
-        unit: &'static str,
-        range: Limits,
-        about: &'static str,
-    ) -> Self {
-        Self::numeric(name, example, Numeric { unit, range, about, default: None, shape: Shape::Tensor })
-    }
-
-    const fn numeric(name: &'static str, example: &'static str, number: Numeric) -> Self {
-        Self { name, example, number: Some(number) }
-    }
-
-    /// Unit, range and meaning of a key that holds numbers.
-    pub(super) fn numbers(&self) -> &Numeric {
-        self.number.as_ref().expect("the reader asks for numbers of keys that have some")
-    }
-
-    /// This key with a default value.
-    pub(super) const fn or(mut self, default: [f64; 3]) -> Self {
-        if let Some(number) = &mut self.number {
-            number.default = Some(default);
-        }
-        self
-    }
-}
 
 /// Key of this name in a table of keys that contains it.
 pub(super) fn known(keys: &'static [Key], name: &str) -> &'static Key {
@@ -180,6 +52,11 @@ impl<'t> Section<'t> {
     /// Unit, range and meaning of a key that holds numbers.
     pub(super) fn number(&self, key: &str) -> &'static Numeric {
         known(self.keys, key).numbers()
+    }
+
+    /// Default numbers of a key that has them.
+    pub(super) fn default(&self, key: &str) -> [f64; 3] {
+        known(self.keys, key).default_numbers().expect("the reader asks for defaults of keys that have one")
     }
 
     /// Name of the table in messages.
@@ -260,7 +137,7 @@ impl<'t> Reader<'t> {
             }
             let message = format!("unknown key `{}` {}", shortened(name), inside(&label));
             let all = keys.iter().map(|k| format!("`{}`", k.name)).collect::<Vec<_>>().join(", ");
-            let home = TABLES.iter().find(|(_, keys)| keys.iter().any(|k| k.name == name)).map(|(home, _)| home);
+            let home = TABLES.iter().find(|table| table.keys.iter().any(|k| k.name == name)).map(|table| table.header);
             let help = if let Some(home) = home {
                 format!("`{name}` belongs {}; keys here are {all}", inside(home))
             } else if let Some(near) = nearest(name, keys.iter().map(|k| k.name)) {
@@ -353,7 +230,13 @@ impl<'t> Reader<'t> {
         let Ok(three) = <[&Value; 3]>::try_from(elements) else {
             let count = array.len();
             let elements = if count == 1 { "element" } else { "elements" };
-            self.issue(value.span(), format!("{label} has {count} {elements} where {needed} are needed"));
+            // `[0,5, 1,0, 2,0]`: a decimal comma makes more elements, all of them whole numbers.
+            let commas = (4..=6).contains(&count)
+                && array.iter().all(|element| matches!(element.get_ref(), DeValue::Integer(_)));
+            let issue = self.issue(value.span(), format!("{label} has {count} {elements} where {needed} are needed"));
+            if commas {
+                issue.help(DECIMAL_POINT);
+            }
             return None;
         };
         Some(three)
@@ -374,8 +257,19 @@ impl<'t> Reader<'t> {
     /// Vector of a key.
     pub(super) fn vector_as(&mut self, key: &Key, value: &Value) -> Option<[f64; 3]> {
         let (label, numbers) = (format!("`{}`", key.name), key.numbers());
-        let three = self.three(&label, &format!("three numbers [x, y, z] in {}", numbers.unit), value)?;
+        let unit = if numbers.unit == "1" { String::new() } else { format!(" in {}", numbers.unit) };
+        let three = self.three(&label, &format!("three numbers [x, y, z]{unit}"), value)?;
         self.three_numbers(&label, numbers.range, three)
+    }
+
+    /// Vector of a key of a section, or its default.
+    pub(super) fn vector_or_default(&mut self, section: &Section, key: &str) -> Option<[f64; 3]> {
+        section.get(key).map_or_else(|| Some(section.default(key)), |value| self.vector(section, key, value))
+    }
+
+    /// Number of a key of a section, or its default.
+    pub(super) fn number_or_default(&mut self, section: &Section, key: &str) -> Option<f64> {
+        section.get(key).map_or_else(|| Some(section.default(key)[0]), |value| self.number_of(section, key, value))
     }
 
     /// Text.

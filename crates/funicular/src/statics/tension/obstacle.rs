@@ -147,36 +147,39 @@ fn not_spanned(coordinates: &Coordinates, wrenches: &[Vec6], load: &Vec6) -> Opt
     })
 }
 
+impl Obstacle {
+    /// Advice for a message about this obstacle.
+    pub(in crate::statics) fn advice(&self) -> &'static str {
+        match self {
+            Self::OneSided { cause: OneSidedCause::GravityUp, .. } => "check the sign of `gravity_m_s2`",
+            Self::OneSided { cause: OneSidedCause::EndsSwapped, .. } => {
+                "check whether `anchor_m` and `attachment_m` are swapped"
+            }
+            Self::OneSided { cause: OneSidedCause::LoadLifts, .. } => "check the sign of `force_n`",
+            Self::OneSided { cause: OneSidedCause::SameSide, .. } => "choose a pose between the anchors",
+            Self::OneSided { cause: OneSidedCause::AboveAnchors, .. } => {
+                "choose a pose below the anchors, or check the signs of z"
+            }
+            Self::NotSpanned { .. } => "choose another pose, or attach a cable that pulls there",
+        }
+    }
+}
+
 impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OneSided { force_w, cause } => {
                 let cause = match cause {
                     OneSidedCause::GravityUp => {
-                        "`gravity_m_s2` points up, along +z, and the platform is on the wrong side of its anchors; \
-                         check the sign of `gravity_m_s2`"
+                        "`gravity_m_s2` points up, along +z, and the platform is on the wrong side of its anchors"
                     }
-                    OneSidedCause::EndsSwapped => {
-                        "the attachments are farther from each other than the anchors; check whether `anchor_m` and \
-                         `attachment_m` are swapped"
-                    }
-                    OneSidedCause::LoadLifts => {
-                        "the load lifts the platform, and all cables pull up; check the sign of `force_n`"
-                    }
-                    OneSidedCause::SameSide => {
-                        "all anchors are on the side to which the load acts; choose a pose between the anchors"
-                    }
-                    OneSidedCause::AboveAnchors => {
-                        "all cables pull down, because no anchor is above its attachment; choose a pose below the \
-                         anchors, or check the signs of z"
-                    }
+                    OneSidedCause::EndsSwapped => "the attachments are farther from each other than the anchors",
+                    OneSidedCause::LoadLifts => "the load lifts the platform, and all cables pull up",
+                    OneSidedCause::SameSide => "all anchors are on the side to which the load acts",
+                    OneSidedCause::AboveAnchors => "all cables pull down, because no anchor is above its attachment",
                 };
-                write!(
-                    f,
-                    "no cable pulls against the load of {:.4} N along {}: {cause}",
-                    force_w.norm(),
-                    direction(&force_w.normalize())
-                )
+                let along = direction(&force_w.normalize());
+                write!(f, "no cable pulls against the load of {:.4} N along {along}: {cause}", force_w.norm())
             }
             Self::NotSpanned { translation_w, rotation_w, unbalanced } => {
                 let [translation, rotation] = [translation_w, rotation_w].map(Vec3::norm);
@@ -186,17 +189,12 @@ impl fmt::Display for Obstacle {
                     format!("turn the platform about {}", direction(&rotation_w.normalize()))
                 } else {
                     format!(
-                        "pull the platform along {} and turn it about {} (rotation times the platform's size)",
+                        "pull the platform along {} while it turns about {}",
                         direction(translation_w),
                         direction(rotation_w)
                     )
                 };
-                write!(
-                    f,
-                    "no cable can {motion}, but the load needs it: {:.2} % of the load stay unbalanced with any tensions \
-                     of straight cables; choose another pose, or attach a cable that pulls there",
-                    100.0 * unbalanced
-                )
+                write!(f, "no cable can {motion}, so that {:.2} % of the load stay unbalanced", 100.0 * unbalanced)
             }
         }
     }

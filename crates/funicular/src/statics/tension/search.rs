@@ -94,6 +94,9 @@ struct MarginOptimum {
     held_by: Vec<(usize, Limit)>,
     /// Multipliers of the balance; zero if the distance is in units of the widths.
     multipliers: Vec6,
+    /// Tensions with which the cables hang in the linear problem of a minimum violation; below them a cable is
+    /// continued by its tangent.
+    hung: Vec<f64>,
 }
 
 /// Limited growth of the smallest distance from the limits [N].
@@ -475,7 +478,7 @@ impl<'a> TensionSearch<'a> {
 
             // Linear problem about tensions at which the cables can hang.
             let linear = self.linearise();
-            let optimum = self.margin_optimum(&linear, None, &here, stride.climb)?;
+            let optimum = MarginOptimum { hung, ..self.margin_optimum(&linear, None, &here, stride.climb)? };
 
             let change =
                 here.iter().zip(&optimum.tau).fold(0.0, |m: f64, (from, to)| m.max((to - from).abs())) / self.size;
@@ -565,7 +568,7 @@ impl<'a> TensionSearch<'a> {
             }
             multipliers = solutions.multipliers(|i| -pressed[i]);
         }
-        Ok(MarginOptimum { tau, height, distance: height / unit, held_by, multipliers })
+        Ok(MarginOptimum { tau, height, distance: height / unit, held_by, multipliers, hung: Vec::new() })
     }
 
     /// Violation of the limits at the optimum, and the reason why even tensions without limits do not balance the load,
@@ -592,14 +595,15 @@ impl<'a> TensionSearch<'a> {
     /// these limits is maximised among the optima: if it is positive, none of them belongs to the list; otherwise its
     /// multipliers name further ones.
     fn limits_in_the_way(&mut self, optimum: &MarginOptimum) -> Vec<(usize, Limit)> {
-        // The last step of the search may have been a short one that no limit has stopped: solve the problem about the
-        // optimum.
-        self.set(&optimum.tau);
+        // The last step of the search may have been a short one that no limit has stopped: solve its problem again.
+        self.set(&optimum.hung);
         let linear = self.linearise();
-        let Ok(there) = self.margin_optimum(&linear, None, &optimum.tau, None) else { return optimum.held_by.clone() };
-        let Ok(solutions) = self.solutions_for_feasible_set(&linear, &vec![1.0; self.cables.len()]) else {
-            return there.held_by;
-        };
+        let again = self.margin_optimum(&linear, None, &optimum.tau, None);
+        let solutions = self.solutions_for_feasible_set(&linear, &vec![1.0; self.cables.len()]);
+        let (Ok(there), Ok(solutions)) = (again, solutions) else { return self.limits_at(optimum) };
+        if there.held_by.is_empty() {
+            return self.limits_at(optimum);
+        }
 
         // Limits of an optimum: sign, tension that is not passed, and whether the optimum is at it.
         let slack = LEAVES * self.size;
@@ -646,6 +650,17 @@ impl<'a> TensionSearch<'a> {
         }
         named.sort_by_key(|(i, _)| *i);
         named
+    }
+
+    /// Limits that hold an optimum whose linear problem is not at hand: those of its search, or else those of the
+    /// problem about the cables as they hang.
+    fn limits_at(&mut self, optimum: &MarginOptimum) -> Vec<(usize, Limit)> {
+        if !optimum.held_by.is_empty() {
+            return optimum.held_by.clone();
+        }
+        self.set(&optimum.tau);
+        let there = self.margin_optimum(&self.linearise(), None, &optimum.tau, None);
+        there.map_or_else(|_| Vec::new(), |there| there.held_by)
     }
 
     fn not_converged(&self, change: f64, limit: f64) -> StaticsError {

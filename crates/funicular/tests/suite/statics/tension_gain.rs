@@ -34,3 +34,37 @@ fn the_tension_gain_grows_towards_a_singular_pose_and_is_warned_of() {
         );
     }
 }
+
+/// A platform that hangs with its attachments below the anchors, turned by a small angle: nothing resists yaw at zero.
+#[test]
+fn an_inverse_condition_of_a_two_hundredth_is_warned_of() {
+    let mut found = Vec::new();
+    for twist in [0.3_f64, 0.004] {
+        let mut text = "name = \"parallel\"\n[platform]\nmass_kg = 60.0\ninertia_kg_m2 = [4.45, 6.25, 8.2]\n\
+             center_of_mass_m = [0.0, 0.0, 0.0]\n[materials.r]\naxial_stiffness_n = 1.4e6\nmass_kg_per_m = 0.13\n"
+            .to_owned();
+        for i in 0..8 {
+            // Upper and lower corners turn to opposite sides, little: then hardly anything resists a rotation.
+            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            let angle = f64::from(i / 2) * std::f64::consts::FRAC_PI_2 + side * twist;
+            let corner = f64::from(i / 2) * std::f64::consts::FRAC_PI_2;
+            text += &format!(
+                "[[cables]]\nname = \"{i}\"\nmaterial = \"r\"\nanchor_m = [{}, {}, {}]\nattachment_m = [{}, {}, {}]\n",
+                9.0 * corner.cos(),
+                9.0 * corner.sin(),
+                7.5 + 0.5 * side,
+                0.6 * angle.cos(),
+                0.6 * angle.sin(),
+                -0.25 * side,
+            );
+        }
+        let robot = Robot::from_toml(&text).unwrap();
+        let held = statics::inverse(&robot, &Pose::new([0.0, 0.0, 3.0], [0.0; 3]), StaticModel::Catenary).unwrap();
+        let warned = funicular::warnings::of_statics(&robot, &held)
+            .iter()
+            .any(|warning| warning.to_string().starts_with("the pose is nearly singular"));
+        found.push((statics::inverse_condition(&robot, &held), warned));
+    }
+    assert!(found[0].0 > 0.05 && !found[0].1, "{found:?}");
+    assert!((0.0045..0.0055).contains(&found[1].0) && found[1].1, "{found:?}");
+}

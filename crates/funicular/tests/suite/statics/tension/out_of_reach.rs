@@ -5,7 +5,9 @@ use crate::random::Draw;
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::{DMat, Vec3, Vec6};
 use funicular::robot::{Pose, Robot};
-use funicular::statics::{self, LimitViolation, StaticModel, StaticsError, TensionRange, TensionRule};
+use funicular::statics::{
+    self, LimitViolation, Obstacle, OneSidedCause, StaticModel, StaticsError, TensionRange, TensionRule,
+};
 
 #[test]
 fn a_miss_is_what_the_limits_would_have_to_give_way_by() {
@@ -200,9 +202,155 @@ fn a_miss_always_says_which_limits_are_in_the_way() {
     let robot = Robot::from_toml(COGIRO).unwrap();
     for far in [[100.0, 2.0, 1.0], [1000.0, 2.0, 1.0], [10.0, 2.0, 1.0], [0.0, 0.0, 50.0], [-30.0, 0.0, 1.0]] {
         let error = statics::inverse(&robot, &Pose::new(far, [0.0; 3]), StaticModel::Catenary).unwrap_err();
-        let text = error.to_string();
-        assert!(text.contains("because of the m") && !text.contains("because of ;"), "{far:?}: {text}");
+        let (StaticsError::BeyondLimits(miss) | StaticsError::NotFoundWithinLimits { miss, .. }) = &error else {
+            panic!("{far:?}: {error}")
+        };
+        assert!(miss.to_string().contains("because of the m"), "{far:?}: {miss}");
+        // Outside the anchors no limits help, and the message says in which direction no cable pulls.
+        assert!(error.obstacle().is_some() && error.to_string().contains("no cable "), "{far:?}: {error}");
     }
     let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new(), obstacle: None };
     assert_eq!(silent.to_string(), "by 1.0000 N");
+}
+
+/// Violation of the limits by straight cables, with the named limits as cable and true for the maximum.
+fn violation(robot: &Robot, pose: &Pose) -> Option<(f64, Vec<(usize, bool)>)> {
+    let verdict = statics::distribute_tensions(robot, pose, StaticModel::Ideal, &TensionRule::Lowest);
+    let Err(StaticsError::BeyondLimits(miss)) = verdict else { return None };
+    let place = |name: &String| robot.cables.iter().position(|cable| cable.name == *name).unwrap();
+    let minima = miss.minimum_of.iter().map(|name| (place(name), false));
+    let named = minima.chain(miss.maximum_of.iter().map(|name| (place(name), true))).collect();
+    Some((miss.by, named))
+}
+
+/// Robot with one limit of one cable made stricter by `more` [N].
+fn stricter(robot: &Robot, (i, is_maximum): (usize, bool), more: f64) -> Robot {
+    let mut robot = robot.clone();
+    let limits = &mut robot.cables[i].tension_limits;
+    if is_maximum {
+        limits.maximum = limits.maximum.map(|value| value - more);
+    } else {
+        limits.minimum = limits.minimum.map(|value| value + more);
+    }
+    robot
+}
+
+/// Oracle: the violation grows if and only if a named limit becomes stricter, since only those have a multiplier.
+#[test]
+fn exactly_the_limits_on_which_the_violation_depends_are_named() {
+    let (mut named_in_all, mut beside, mut symmetric) = (0, 0, 0);
+    let mut robots: Vec<(Robot, Pose)> = (0..60).map(|i| (cogiro(0.0, 100.0, 400.0), cogiro_pose(i))).collect();
+
+    // Four-fold symmetric at the centre: two kinds of cables, each of them alike.
+    let mut even = cogiro(0.0, 100.0, 150.0);
+    even.platform.center_of_mass_p = Vec3::zeros();
+    for (i, cable) in even.cables.iter_mut().enumerate() {
+        let angle = std::f64::consts::FRAC_PI_2 * (i / 2) as f64;
+        let turned =
+            |x: f64, y: f64, z: f64| Vec3::new(angle.cos() * x - angle.sin() * y, angle.sin() * x + angle.cos() * y, z);
+        let (anchor, attachment) = if i % 2 == 0 { (5.4, [0.5, -0.4, 0.0]) } else { (4.6, [-0.35, 0.5, 1.0]) };
+        cable.anchor = turned(7.0, 5.0, anchor).into();
+        cable.attachment_p = turned(attachment[0], attachment[1], attachment[2]);
+    }
+    robots.push((even, Pose::new([0.0, 0.0, 1.5], [0.0; 3])));
+
+    for (case, (robot, pose)) in robots.iter().enumerate() {
+        let Some((by, named)) = violation(robot, pose) else { continue };
+        let size = 1e-4 * by.max(1.0);
+        for limit in (0..8).flat_map(|i| [(i, false), (i, true)]) {
+            let (grown, _) = violation(&stricter(robot, limit, size), pose).unwrap();
+            // A multiplier is a share of the newton by which one limit is stricter; 1e-4 of it is rounding.
+            let grows = grown - by > 1e-4 * size;
+            assert_eq!(grows, named.contains(&limit), "case {case}, {limit:?} of {named:?}: {by} to {grown}");
+        }
+        named_in_all += named.len();
+        beside += 16 - named.len();
+        if case == 60 {
+            symmetric = named.len();
+            // Symmetry: a kind of cables is named with all its members.
+            assert!(named.len() % 4 == 0, "{named:?}");
+        }
+    }
+    assert!(named_in_all > 50 && beside > 50 && symmetric >= 4, "{named_in_all} {beside} {symmetric}");
+}
+
+/// Farkas' lemma: either tensions without limits balance the load, or there is a direction along which no cable pulls and
+/// the load has to be balanced. Robots in any pose, with loads in any direction.
+#[test]
+fn the_direction_of_an_obstacle_is_one_in_which_no_cable_pulls() {
+    let (mut spanned, mut obstructed) = (0, 0);
+    for i in 0..400 {
+        let mut draw = Draw(31 * i + 7);
+        let mut robot = cogiro(0.0, 0.0, 1e9);
+        robot.load.point_p = Vec3::zeros();
+        robot.load.force_w = Vec3::from(draw.vector(1500.0));
+        robot.load.moment_w = Vec3::from(draw.vector(200.0));
+        let pose = Pose::new(draw.vector(5.0), draw.vector(20.0));
+        let ell = robot.platform_length();
+        let load = {
+            let weight = robot.gravity_w * robot.platform.mass;
+            let arm = pose.rot_wp * robot.platform.center_of_mass_p;
+            (weight + robot.load.force_w, (arm.cross(&weight) + robot.load.moment_w) / ell)
+        };
+        let size = (load.0.norm_squared() + load.1.norm_squared()).sqrt();
+
+        match statics::distribute_tensions(&robot, &pose, StaticModel::Ideal, &TensionRule::Lowest) {
+            Ok(_) => spanned += 1,
+            Err(error) => {
+                let obstacle = error.obstacle().unwrap_or_else(|| panic!("{i}: {error}"));
+                let (translation, rotation, unbalanced) = match *obstacle {
+                    Obstacle::NotSpanned { translation_w, rotation_w, unbalanced } => {
+                        (translation_w, rotation_w, Some(unbalanced))
+                    }
+                    Obstacle::OneSided { force_w, .. } => {
+                        assert!((force_w - load.0).norm() < 1e-9 * size);
+                        (-load.0.normalize(), Vec3::zeros(), None)
+                    }
+                };
+                assert!(((translation.norm_squared() + rotation.norm_squared()).sqrt() - 1.0).abs() < 1e-12);
+                for cable in &robot.cables {
+                    let lever = pose.rot_wp * cable.attachment_p;
+                    let pull = cable.chord_w(&pose).normalize();
+                    let power = pull.dot(&translation) + lever.cross(&pull).dot(&rotation) / ell;
+                    assert!(power < 1e-8, "{i}: {obstacle:?}, cable {} has {power}", cable.name);
+                }
+                // The unbalanced part is the projection of the load on the direction.
+                let along = -(load.0.dot(&translation) + load.1.dot(&rotation)) / size;
+                assert!(along > 0.0, "{i}: {obstacle:?}");
+                if let Some(unbalanced) = unbalanced {
+                    assert!((along - unbalanced).abs() < 1e-8, "{i}: {along} {unbalanced}");
+                }
+                obstructed += 1;
+            }
+        }
+    }
+    assert!(spanned > 20 && obstructed > 100, "{spanned} {obstructed}");
+}
+
+#[test]
+fn cables_that_all_pull_down_are_told_with_their_cause() {
+    let mut robot = Robot::from_toml(COGIRO).unwrap();
+    let said = |robot: &Robot, z: f64| {
+        let error = statics::inverse(robot, &Pose::new([0.0, 0.0, z], [0.0; 3]), StaticModel::Catenary).unwrap_err();
+        assert_eq!(error.code(), "tension-limits");
+        let Some(Obstacle::OneSided { cause, .. }) = error.obstacle() else { panic!("{error}") };
+        (*cause, error.to_string())
+    };
+    let (cause, text) = said(&robot, 8.0);
+    assert!(cause == OneSidedCause::AboveAnchors && text.contains("all cables pull down"), "{text}");
+    robot.load.force_w = Vec3::new(0.0, 0.0, 2000.0);
+    assert_eq!(said(&robot, 1.5).0, OneSidedCause::LoadLifts);
+    robot.load.force_w = Vec3::zeros();
+
+    robot.gravity_w = -robot.gravity_w;
+    let (cause, text) = said(&robot, 1.5);
+    assert!(cause == OneSidedCause::GravityUp && text.contains("check the sign of `gravity_m_s2`"), "{text}");
+    robot.gravity_w = -robot.gravity_w;
+
+    for cable in &mut robot.cables {
+        let anchor = cable.anchor.reference_w();
+        cable.anchor = cable.attachment_p.into();
+        cable.attachment_p = anchor;
+    }
+    assert_eq!(said(&robot, 1.5).0, OneSidedCause::EndsSwapped);
 }

@@ -1,0 +1,51 @@
+"""The JSON Schema of the robot file accepts robot files and refuses mistakes, by the validator of another project."""
+
+import tomllib
+from typing import Any
+
+import funicular
+import pytest
+from conftest import ROBOT_FILES, ROBOTS
+from jsonschema import Draft7Validator
+
+
+@pytest.fixture(scope="module")
+def validator() -> Draft7Validator:
+    schema = funicular.schema()
+    Draft7Validator.check_schema(schema)
+    return Draft7Validator(schema)
+
+
+@pytest.mark.parametrize("name", ROBOT_FILES)
+def test_every_robot_of_the_library_is_valid(validator: Draft7Validator, name: str) -> None:
+    assert [error.message for error in validator.iter_errors(tomllib.loads((ROBOTS / name).read_text()))] == []
+
+
+@pytest.mark.parametrize("motion", ["rigid", "point-mass", "planar-xz"])
+def test_a_new_robot_is_valid(validator: Draft7Validator, motion: str) -> None:
+    assert list(validator.iter_errors(tomllib.loads(funicular.new_robot(motion=motion).text))) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("mass_kg = 100.0", "mas_kg = 100.0", "'mas_kg' was unexpected"),
+        ("[platform]", "[platfrom]", "'platfrom' was unexpected"),
+        ("mass_kg = 100.0", "mass_kg = 0.0", "less than the minimum"),
+        ("mass_kg = 100.0", 'mass_kg = "100"', "is not of type 'number'"),
+        ("mass_kg = 100.0", "", "'mass_kg' is a required property"),
+        ('motion = "rigid"', 'motion = "rigit"', "is not one of"),
+        ('name = "1"', 'name = " "', "does not match"),
+        ("position_m = [0.0, 0.0, 2.4]", "position_m = [0.0, 0.0]", "is too short"),
+        ("damping_ratio = 0.003", "damping_ratio = 0.5", "greater than or equal to the maximum"),
+        ("inertia_kg_m2 = [", "inertia_kg_m2 = [0.5, ", "is not valid under any of the given schemas"),
+    ],
+)
+def test_a_mistake_is_refused_by_schema_and_program(validator: Draft7Validator, old: str, new: str, says: str) -> None:
+    text = funicular.new_robot().text
+    assert old in text
+    wrong = text.replace(old, new, 1)
+    data: dict[str, Any] = tomllib.loads(wrong)
+    assert any(says in error.message for error in validator.iter_errors(data)), [e.message for e in validator.iter_errors(data)]
+    with pytest.raises(funicular.RobotFileError):
+        funicular.Robot.from_toml(wrong)

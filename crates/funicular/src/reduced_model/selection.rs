@@ -1,0 +1,142 @@
+//! Choice of the modes of a state space: as few as a tolerance allows, or the best for a number of states.
+
+use super::ReductionError;
+use super::control_model::Size;
+use super::reference::Reference;
+use super::terms::Term;
+use crate::math::Complex;
+
+/// Fraction of the tolerance that the choice uses; the rest is for maxima between the frequencies.
+const USED: f64 = 0.995;
+
+/// Difference between the full responses and those of some terms, at all frequencies of the reference.
+pub(super) struct Sum<'a> {
+    reference: &'a Reference<'a>,
+    differences: Vec<Complex>,
+}
+
+impl<'a> Sum<'a> {
+    /// Difference without any term: the static displacement is the feedthrough.
+    fn of_none(reference: &'a Reference<'a>) -> Self {
+        let pairs = reference.pairs();
+        let differences =
+            reference.values.iter().enumerate().map(|(at, value)| value - reference.at_rest[at % pairs]).collect();
+        Self { reference, differences }
+    }
+
+    pub(super) fn of_all(reference: &'a Reference<'a>, terms: &[Term]) -> Self {
+        let mut sum = Self::of_none(reference);
+        for term in terms {
+            sum.add(term, -1.0);
+        }
+        sum
+    }
+
+    /// Adds `factor` times a term to the difference: −1 takes it into the model, 1 out of it.
+    fn add(&mut self, term: &Term, factor: f64) {
+        let at_each = self.differences.chunks_exact_mut(self.reference.pairs());
+        for (responses, frequency_hz) in at_each.zip(&self.reference.frequencies_hz) {
+            term.add(*frequency_hz, factor, responses);
+        }
+    }
+
+    /// Maximum difference relative to the peaks.
+    pub(super) fn largest(&self) -> f64 {
+        let pairs = self.reference.pairs();
+        let relative = |(at, difference): (usize, &Complex)| difference.norm() / self.reference.sizes[at % pairs];
+        self.differences.iter().enumerate().map(relative).fold(0.0, f64::max)
+    }
+}
+
+/// Terms for a size, from the set that needs the fewest states or leaves the smallest error.
+pub(super) fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> Result<Vec<Term>, ReductionError> {
+    let mut best: Option<(Vec<Term>, f64)> = None;
+    let mut smallest = (f64::INFINITY, 0);
+    let order = |terms: &[Term]| terms.iter().map(Term::states).sum::<usize>();
+
+    for set in sets {
+        let mut ranked: Vec<&Term> = set.iter().collect();
+        ranked.sort_by(|a, b| b.size.total_cmp(&a.size));
+        match size {
+            Size::Order(states) => {
+                let (terms, error) = of_order(&ranked, reference, states);
+                if !terms.is_empty() && best.as_ref().is_none_or(|(_, other)| error < *other) {
+                    best = Some((terms, error));
+                }
+            }
+            Size::Tolerance(tolerance) => {
+                let (terms, error) = within(&ranked, reference, USED * tolerance);
+                if error < smallest.0 {
+                    smallest = (error, order(&terms));
+                }
+                let fewer = |(other, of_other): &(Vec<Term>, f64)| (order(&terms), error) < (order(other), *of_other);
+                if error <= USED * tolerance && best.as_ref().is_none_or(fewer) {
+                    best = Some((terms, error));
+                }
+            }
+        }
+    }
+
+    match (best, size) {
+        (Some((mut terms, _)), _) => {
+            terms.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
+            Ok(terms)
+        }
+        (None, Size::Order(order)) => Err(ReductionError::Order(order)),
+        (None, Size::Tolerance(requested)) => {
+            Err(ReductionError::Tolerance { requested, reached: smallest.0, order: smallest.1 })
+        }
+    }
+}
+
+/// The first terms in the order of their size that have at most so many states, and their error.
+fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term>, f64) {
+    let mut terms: Vec<Term> = Vec::new();
+    let mut left = states;
+    let mut sum = Sum::of_none(reference);
+    for term in ranked {
+        if term.states() <= left {
+            left -= term.states();
+            sum.add(term, -1.0);
+            terms.push((*term).clone());
+        }
+    }
+    let error = sum.largest();
+    (terms, error)
+}
+
+/// The first terms in the order of their size that keep the tolerance, without those that turn out not to be needed; or
+/// all terms if these do not keep it. With their error.
+fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>, f64) {
+    let mut sum = Sum::of_none(reference);
+    let mut count = 0;
+    let mut error = f64::INFINITY;
+    for term in ranked {
+        sum.add(term, -1.0);
+        count += 1;
+        error = sum.largest();
+        if error <= tolerance {
+            break;
+        }
+    }
+    let mut kept: Vec<&Term> = ranked[..count].to_vec();
+    if error > tolerance {
+        return (kept.into_iter().cloned().collect(), error);
+    }
+
+    // Take out one after the other, the smallest first, what the tolerance allows.
+    for at in (0..kept.len()).rev() {
+        if kept.len() == 1 {
+            break;
+        }
+        sum.add(kept[at], 1.0);
+        let without = sum.largest();
+        if without <= tolerance {
+            error = without;
+            kept.remove(at);
+        } else {
+            sum.add(kept[at], -1.0);
+        }
+    }
+    (kept.into_iter().cloned().collect(), error)
+}
