@@ -52,7 +52,7 @@ class Analyses:
         normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
         the natural frequencies of the cable with both ends fixed.
         """
-    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex = ..., tolerance: SupportsFloat | SupportsIndex = ..., assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
         """
         Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
         recommended model.
@@ -64,9 +64,9 @@ class Analyses:
         platform
             Compare the modes of the platform alone.
         platform_share
-            Minimum fraction of the kinetic energy in the platform for a mode of the platform.
+            Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
         tolerance
-            Maximum relative difference of frequency for a model that is good enough.
+            Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
         assembly, in_plane_only
             Terms of the stiffness, as in `stiffness`.
 
@@ -119,7 +119,7 @@ class Analyses:
         ResponseError
             One of the frequencies is an undamped natural frequency.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex = ..., damped: bool = True) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
@@ -137,7 +137,7 @@ class Analyses:
             Models, as in `stiffness`.
         platform_share
             Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
-            platform.
+            platform; 0.5 if not given.
         damped
             Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
             damping, and there are no eigenvalues.
@@ -170,7 +170,7 @@ class Analyses:
         cable_model, assembly, in_plane_only
             Models, as in `stiffness`.
         """
-    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex = ..., input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex = ...) -> Page:
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex = ..., input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
         """
         Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
 
@@ -179,14 +179,14 @@ class Analyses:
         path
             File to which the page is also written.
         below_hz
-            Limit of the frequencies [Hz].
+            Limit of the frequencies [Hz]; 20 if not given.
         input, output
             Signals of the response on the page, as in `frf`; `fz` and `az` if not given, or `fx` and `ax` for a
             platform that cannot move along z.
         input_point_m, output_point_m, cable_model, assembly, in_plane_only
             Points and models, as in `frf`.
         platform_share
-            Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+            Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
         """
     def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
         """
@@ -577,7 +577,7 @@ class Robot(Analyses):
         """
         Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., platform_share: SupportsFloat | SupportsIndex = ..., payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -598,9 +598,9 @@ class Robot(Analyses):
             Values of the axes that the grid does not have: x, y, z [m], roll, pitch, yaw [degrees], or the pose of
             unstrained lengths [m]; the state of the robot file if not given.
         up_to_hz
-            Limit of the search for natural frequencies [Hz].
+            Limit of the search for natural frequencies [Hz]; 1000 if not given.
         platform_share
-            Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`.
+            Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`; 0.5 if not given.
         payload_center_m
             Centre of mass of the payload for `payload-max`, platform frame [m]; that of the platform if not given.
         file
@@ -717,7 +717,7 @@ class Robot(Analyses):
         """
         Source of the robot's numbers.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., platform_share: SupportsFloat | SupportsIndex = ..., payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
