@@ -172,7 +172,7 @@ fn equilibria_table(found: &Statics) -> Option<String> {
     let stable = equilibria.iter().filter(|row| row.stable).count();
     let sum = match search.expected_index_sum {
         Some(expected) if expected == search.index_sum => {
-            "; equilibria with an even and with an odd number of falling directions are equally many, as they must be"
+            "; as theory requires, as many equilibria have an even as an odd number of unstable directions"
         }
         _ => "",
     };
@@ -191,7 +191,7 @@ fn stability(row: &EquilibriumRow) -> String {
     match (row.falling_directions, row.indifferent_directions) {
         (0, 0) => "stable".to_owned(),
         (0, _) => "indifferent".to_owned(),
-        (falling, _) => format!("unstable ({falling})"),
+        (falling, _) => format!("unstable ({})", table::counted(falling, "direction")),
     }
 }
 

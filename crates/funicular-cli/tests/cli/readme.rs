@@ -1,4 +1,4 @@
-//! README.md shows what the program prints. `UPDATE_README=1 cargo test -p funicular-cli readme` writes it anew.
+//! The documents show what the program prints. `UPDATE_README=1 cargo test -p funicular-cli readme` writes it anew.
 
 use super::{command, stderr, stdout};
 use std::fs;
@@ -11,12 +11,14 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Runs a line of the README where its paths are right.
-fn printed(line: &str) -> String {
+/// Output of a line of a document, run where its paths are right; the message if the document shows that it fails.
+fn printed(line: &str, shown: &str) -> String {
     let arguments: Vec<&str> = line.split(' ').collect();
     let output = command(&arguments).current_dir(root()).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
-    stdout(&output).to_owned()
+
+    let expected = i32::from(shown.starts_with("error: "));
+    assert_eq!(output.status.code(), Some(expected), "{line}: {}", stderr(&output));
+    if expected == 0 { stdout(&output).to_owned() } else { stderr(&output).to_owned() }
 }
 
 /// The same words; numbers may differ by one in the last place, and what is zero but for rounding by anything.
@@ -44,6 +46,35 @@ fn the_documents_show_what_the_program_prints() {
     assert!(blocks_are_printed("docs/control.md") >= 1);
 }
 
+/// The test has a name of its own, so that it runs beside the one above.
+#[test]
+fn the_pages_for_new_readers_show_what_the_program_prints() {
+    assert!(blocks_are_printed("docs/quick-start.md") >= 5, "check, statics, modes, frf and a message are shown");
+    assert!(blocks_are_printed("docs/workspace.md") >= 4);
+    assert!(blocks_are_printed("docs/measuring.md") >= 4);
+}
+
+/// Keys and options that the glossary names exist: a word of the program that changes has to change there.
+#[test]
+fn the_glossary_names_options_and_keys_that_exist() {
+    let glossary = fs::read_to_string(root().join("docs/glossary.md")).unwrap();
+    let rows: Vec<&str> = glossary.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
+    assert!(rows.len() >= 15, "{} words", rows.len());
+
+    let statics = super::succeed(&["help", "statics"]);
+    let others = ["map", "frf", "modes"].map(|verb| super::succeed(&["help", verb])).concat();
+    let help = statics + &others;
+    let keys = super::succeed(&["parameters", root().join("docs/quick-start/hall.toml").to_str().unwrap()]);
+    for row in &rows {
+        for code in row.rsplit('|').nth(1).unwrap().split('`').skip(1).step_by(2) {
+            let option = code.split(' ').find(|word| word.starts_with("--"));
+            assert!(option.is_none_or(|option| help.contains(option)), "{row}: no option {code}");
+            let key = code.ends_with("_m") || code.ends_with("_ratio");
+            assert!(!key || keys.contains(code) || code == "unstrained_length_m", "{row}: no key {code}");
+        }
+    }
+}
+
 /// Checks the console blocks of a document, or renews them; their number.
 fn blocks_are_printed(document: &str) -> usize {
     let path = root().join(document);
@@ -54,7 +85,7 @@ fn blocks_are_printed(document: &str) -> usize {
     while let Some((before, after)) = rest.split_once(BEGIN) {
         let (block, after) = after.split_once(END).expect("a console block ends");
         let (line, shown) = block.split_once('\n').expect("a console block has a command");
-        let now = printed(line);
+        let now = printed(line, shown);
         let update = std::env::var_os("UPDATE_README").is_some();
         assert!(update || same(shown, &now), "{line}: {document} shows\n{shown}\nthe program prints\n{now}");
         renewed += &[before, BEGIN, line, "\n", &now, END].concat();

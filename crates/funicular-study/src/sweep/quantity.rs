@@ -234,8 +234,9 @@ static TABLE: [Definition; 20] = [
     Definition {
         name: "stiffness",
         about: "static stiffness along every coordinate, with the other coordinates free",
-        documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: load along a coordinate divided by the \
-                        motion along it, with all other coordinates free; in wind the drag turns with the cables",
+        documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: static stiffness along one coordinate \
+                        while the platform is free to move along the others: 1/(K⁻¹)_ii of the 6×6 stiffness K, not its \
+                        entry K_ii; in wind the drag turns with the cables",
         takes: Takes::Nothing,
         needs: Needs::Elastic,
         frequencies: |_| 0,
