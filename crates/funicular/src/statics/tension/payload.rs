@@ -154,7 +154,7 @@ pub fn payload_bound(
     let search = TensionSearch::new(robot, pose, model, cables);
     let mut payload = PayloadSearch { robot, pose, search, unit, requested, iterations: 0 };
     let optimum = payload.extreme()?;
-    payload.collect(model, &optimum)
+    Ok(payload.collect(model, &optimum))
 }
 
 /// Search for the extreme payload.
@@ -293,19 +293,19 @@ impl PayloadSearch<'_> {
     }
 
     /// Result with the cables as they hang with the extreme payload.
-    fn collect(self, model: StaticModel, optimum: &Optimum) -> Result<PayloadBound, StaticsError> {
+    fn collect(self, model: StaticModel, optimum: &Optimum) -> PayloadBound {
         let g = self.robot.gravity_w.norm();
         let iterations = self.iterations;
         if optimum.unlimited && self.requested.side == PayloadSide::Maximum {
             let (cables, limits) = (Vec::new(), Vec::new());
-            return Ok(PayloadBound {
+            return PayloadBound {
                 mass: f64::INFINITY,
                 cables,
                 limits,
                 residual: 0.0,
                 iterations,
                 excluded_from: None,
-            });
+            };
         }
 
         let excluded_from =
@@ -318,7 +318,7 @@ impl PayloadSearch<'_> {
         let mass = optimum.weight / g + 0.0;
         let loaded = with_weight(robot, pose, &requested.center_p, optimum.weight);
         let rest = equilibrium_of(&loaded, pose, model, cables, iterations);
-        Ok(PayloadBound { mass, cables: rest.cables, limits, residual: rest.residual, iterations, excluded_from })
+        PayloadBound { mass, cables: rest.cables, limits, residual: rest.residual, iterations, excluded_from }
     }
 
     /// Weight from which on the multipliers of the balance prove that no payload is possible: (40e).
