@@ -178,6 +178,19 @@ pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
     Ok(robot.platform.motion.check(pose)?)
 }
 
+/// Centre of mass of a payload that a request gives, platform frame [m].
+///
+/// # Errors
+/// A number that is not finite, or a centre beside a point mass.
+pub(crate) fn payload_center(robot: &Robot, center_m: Option<[f64; 3]>) -> Result<Option<Vec3>> {
+    request::check_vector("payload_center_m", center_m)?;
+    let center_p = center_m.map(Vec3::from);
+    if robot.platform.motion == PlatformMotion::PointMass && center_p.is_some_and(|center| center.norm() > 0.0) {
+        bail!("a point mass has no payload beside its origin: leave out ⟪payload_center_m⟫");
+    }
+    Ok(center_p)
+}
+
 /// Robot with the loads of a request. Loads that the request does not give come from the robot file.
 fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
     let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = *load;

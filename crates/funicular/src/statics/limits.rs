@@ -76,6 +76,16 @@ pub enum Limit {
     Maximum,
 }
 
+impl Limit {
+    /// Name in files: `minimum` or `maximum`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Minimum => "minimum",
+            Self::Maximum => "maximum",
+        }
+    }
+}
+
 /// Relative distance within which a limit counts as reached.
 const REACHED: f64 = 1e-6;
 
