@@ -3,18 +3,18 @@ Compiled half of `funicular`; import `funicular` instead.
 """
 
 from _typeshed import SupportsGetItem
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel
+from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._sweeps import Sweep
 from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
 from pathlib import Path
-from typing import Any, Final, SupportsFloat, SupportsIndex, final
+from typing import Any, Final, SupportsFloat, SupportsIndex, final, Literal, overload
 
-__all__ = ["__version__", "Analyses", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "complete_request", "complex_numbers", "imported", "merge_parts", "peaks", "plot_page", "real_numbers", "source_file", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "complete_request", "complex_numbers", "imported", "matlab_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "source_file", "text_of", "write_file"]
 
 __version__: Final[str]
 
@@ -74,7 +74,7 @@ class Analyses:
         -------
         The keys of the program's JSON; lists of numbers are arrays.
         """
-    def export(self, /, to: str, path: str | PathLike[str], *, segments: SupportsIndex = ..., modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+    def export(self, /, to: str, path: str | PathLike[str], *, segments: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
         """
         Writes the equilibrium as a file of another program; returns the caveats of the file.
 
@@ -85,7 +85,7 @@ class Analyses:
         path
             Path of the file, which is complete or absent.
         segments
-            Number of elements per cable.
+            Number of elements per cable; 20 if not given.
         modes_below_hz
             Limit of the modes in the file [Hz].
 
@@ -94,9 +94,14 @@ class Analyses:
         FileError
             The file cannot be written.
         """
-    def frf(self, /, hz: ArrayLike, input: str, output: str, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128]:
+    @overload
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128]: ...
+    @overload
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> tuple[NDArray[float64], NDArray[complex128]]: ...
+    @overload
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
         """
-        Computes the frequency response of one output to one input: complex, for e^{+iωt}, in units of output per input.
+        Computes frequency responses: complex, for e^{+iωt}, in units of output per input.
 
         Parameters
         ----------
@@ -104,20 +109,34 @@ class Analyses:
             Frequencies [Hz], a row of n.
         input
             Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
-            direction, in world axes; or a force on a cable, as in `cable:3@0.5:fz`.
+            direction, in world axes; or a force on a cable, as in `cable:3@0.5:fz`. A list names several.
         output
             Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
             (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; or a point of a cable, as in
-            `cable:3@0.5:az`.
+            `cable:3@0.5:az`. A list names several.
+        adaptive
+            Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
+            lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the
+            response has no bound, there is a gap of 5e-5 of the frequency on either side.
         input_point_m, output_point_m
-            Point where the force acts and point whose motion is measured, platform frame [m]; the origin if not given.
+            Point where the forces act and point whose motion is measured, platform frame [m]; the origin if not given.
         cable_model, assembly, in_plane_only
             Models, as in `stiffness`.
+
+        Returns
+        -------
+        (n,) for one input and one output; (outputs, inputs, n) if `input` or `output` is a list. With `adaptive` a pair:
+        the chosen frequencies [Hz] (n,), and the responses at them.
 
         Raises
         ------
         ResponseError
             One of the frequencies is an undamped natural frequency.
+
+        Warns
+        -----
+        ResponseWarning
+            At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
         """
     def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True) -> Modes:
         """
@@ -149,9 +168,11 @@ class Analyses:
 
         The parameters are those of `frf`.
         """
-    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex = ..., damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> ReducedModel:
+    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> ReducedModel:
         """
-        Computes a second-order model M x'' + C x' + K x = B f, y = L x for control design.
+        Computes a second-order model M x'' + C x' + K x = B f, y = L x, and its state space with all clamped modes.
+
+        `state_space` gives far fewer states.
 
         Parameters
         ----------
@@ -163,7 +184,7 @@ class Analyses:
         input_point_m, output_point_m
             Points of the platform, as in `frf`.
         tolerance
-            Maximum relative error of the responses by modes left out.
+            Maximum relative error of the responses by modes left out; 1e-3 if not given.
         damping_at_hz
             Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
             not given.
@@ -187,6 +208,35 @@ class Analyses:
             Points and models, as in `frf`.
         platform_share
             Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
+        """
+    def state_space(self, /, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> StateSpaceModel:
+        """
+        Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
+
+        Parameters
+        ----------
+        input, output
+            Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+            displacements and rotations.
+        below_hz
+            Highest frequency for which the model is made [Hz].
+        order
+            Maximum number of states, instead of a tolerance.
+        tolerance
+            Maximum of |G_r − G| up to the limit relative to the peak of |G|, for each response. The model has as few
+            states as it allows. 0.01 if neither is given.
+        input_point_m, output_point_m
+            Points of the platform, as in `frf`.
+        damping_at_hz
+            Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
+            not given.
+        cable_model, assembly, in_plane_only
+            Models, as in `stiffness`.
+
+        Raises
+        ------
+        funicular.NoSolutionError
+            No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
         """
     def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
         """
@@ -276,7 +326,7 @@ class Equilibrium(Analyses):
     def __reduce__(self, /) -> tuple[Any, tuple[Robot, str]]: ...
     def __repr__(self, /) -> str: ...
     def _repr_html_(self, /) -> Any: ...
-    def cable_points(self, /, points: SupportsIndex = ...) -> NDArray[float64]:
+    def cable_points(self, /, points: SupportsIndex | None = None) -> NDArray[float64]:
         """
         Returns points along the hanging cables in world axes [m]: (cables, points, 3), from the platform to the anchor.
 
@@ -453,7 +503,10 @@ class Robot(Analyses):
     def __deepcopy__(self, /, memo: Any) -> Robot: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[str]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[str]]:
+        """
+        The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
+        """
     def __repr__(self, /) -> str: ...
     def _repr_html_(self, /) -> Any: ...
     @property
@@ -901,12 +954,17 @@ def imported(request: str) -> tuple[str, list[str], list[str]]:
     Computes robot file, assumptions and losses of a request of `import`.
     """
 
+def matlab_file(matrices: SupportsGetItem[int, tuple[str, SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], texts: SupportsGetItem[int, tuple[str, SupportsGetItem[int, str]]]) -> bytes:
+    """
+    Makes the bytes of a file of MATLAB from matrices (name, number of rows, entries by columns) and columns of texts.
+    """
+
 def merge_parts(parts: SupportsGetItem[int, str | PathLike[str]], path: str | PathLike[str]) -> int:
     """
     Joins the parts of a map or sweep; returns the number of rows.
     """
 
-def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex = ...) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex | None = None) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
     """
     Finds the peaks of a response; returns their frequencies [Hz], heights above the valleys beside them [dB] and
     magnitudes.
