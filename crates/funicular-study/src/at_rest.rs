@@ -45,7 +45,7 @@ pub fn equilibrium(robot: Robot, source: &RobotText, state: &request::State, ten
         refuse_no_state(&robot)?;
         statics::solve(&robot, state.static_model, rule)
     };
-    let solution = solution.map_err(|error| with_warnings(error.into(), warnings::of_robot(&robot)))?;
+    let solution = solution.map_err(|error| with_warnings(error, &robot))?;
     let Solution { equilibrium, requested_pose, rule, held_pose } = solution;
     Ok(AtRest { robot, equilibrium, requested_pose, rule, held_pose })
 }

@@ -945,7 +945,8 @@ def source_file(path: str | PathLike[str]) -> str:
 
 def text_of(request: str, call: str) -> tuple[str, list[str]]:
     """
-    Computes text and caveats of a request of `report`, `paper` or `export`; `call` is the code that makes a page again.
+    Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that
+    makes a page again.
     """
 
 def write_file(path: str | PathLike[str], text: str) -> None:

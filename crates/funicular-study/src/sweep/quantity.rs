@@ -252,9 +252,9 @@ static TABLE: [Definition; 20] = [
         about: "distances between the poses of ideal, spring and catenary cables with the same lengths",
         documentation: "`spring_from_ideal_distance_m`, `catenary_from_ideal_distance_m`, \
                         `spring_from_catenary_distance_m`: distances between the equilibrium positions of two static \
-                        models, at the unstrained lengths of the catenaries; the first two only if there are as many \
-                        cables as degrees of freedom; empty if the other model does not hold the platform nearby, for \
-                        example if all springs are slack",
+                        models. All models get the unstrained lengths of the catenaries. The first two columns need as \
+                        many cables as degrees of freedom. A distance is empty if the other model has no equilibrium \
+                        nearby, for example if all springs are slack",
         takes: Takes::Nothing,
         needs: Needs::Catenary,
         frequencies: |_| 0,
