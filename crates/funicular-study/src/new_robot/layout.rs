@@ -125,7 +125,7 @@ impl Room {
     }
 
     /// Cable from above the middle to the top of the platform.
-    fn from_above(&self) -> (Vec3, Vec3) {
+    fn cable_from_above(&self) -> (Vec3, Vec3) {
         (Vec3::z() * self.height, Vec3::z() * (0.5 * self.sides[2]))
     }
 
@@ -153,7 +153,7 @@ impl Room {
                 (self.on_circle(angle, lower), self.on_platform(angle + turn, -top)),
             ]
         });
-        pairs.chain((count % 2 == 1).then(|| self.from_above())).collect()
+        pairs.chain((count % 2 == 1).then(|| self.cable_from_above())).collect()
     }
 
     /// Cables of a point mass.
@@ -187,7 +187,7 @@ impl Room {
             (anchor, Vec3::new(sign * 0.5 * a, 0.0, c * (0.5 - below(pair))))
         };
         let paired = (0..pairs).flat_map(|pair| [ends(pair, -1.0), ends(pair, 1.0)]);
-        paired.chain((count % 2 == 1).then(|| self.from_above())).collect()
+        paired.chain((count % 2 == 1).then(|| self.cable_from_above())).collect()
     }
 }
 
