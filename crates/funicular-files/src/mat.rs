@@ -117,7 +117,7 @@ mod tests {
         assert_eq!([152, 156, 160, 164].map(number), [5, 8, 3, 2]);
         assert_eq!((number(168), number(172), &file[176..184]), (1, 4, &b"ss_A\0\0\0\0"[..]));
         assert_eq!((number(184), number(188)), (9, 48));
-        assert_eq!(f64::from_le_bytes(file[200..208].try_into().unwrap()), -2.5);
+        assert_eq!(file[200..208], (-2.5_f64).to_le_bytes());
         assert_eq!(file.len(), 192 + 48);
     }
 

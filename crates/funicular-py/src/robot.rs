@@ -409,7 +409,7 @@ impl PyRobot {
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python\'s keywords")]
     fn map(
         &self,
         py: Python<'_>,
@@ -487,7 +487,7 @@ impl PyRobot {
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python\'s keywords")]
     fn sweep(
         &self,
         py: Python<'_>,

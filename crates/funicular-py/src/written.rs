@@ -151,11 +151,11 @@ pub(crate) fn state_space(
 
 /// Makes the bytes of a file of MATLAB from matrices (name, number of rows, entries by columns) and columns of texts.
 #[pyfunction]
-pub(crate) fn matlab_file<'py>(
-    py: Python<'py>,
+pub(crate) fn matlab_file(
+    py: Python<'_>,
     matrices: Vec<(String, usize, Vec<f64>)>,
     texts: Vec<(String, Vec<String>)>,
-) -> PyResult<Bound<'py, PyBytes>> {
+) -> PyResult<Bound<'_, PyBytes>> {
     let of_matrices =
         matrices.iter().map(|(name, rows, entries)| Variable { name, value: Value::Matrix(*rows, entries) });
     let of_texts = texts

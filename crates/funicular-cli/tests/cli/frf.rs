@@ -80,10 +80,7 @@ fn a_grid_that_misses_peaks_says_how_many_and_which_and_adaptive_frequencies_sho
     assert!(warning.starts_with(&starts), "{warning}\n{missed:?}");
     assert!(warning.ends_with("is read: give --adaptive, or more frequencies"), "{warning}");
     let told: Vec<f64> = warning.split(' ').skip(10).filter_map(|word| word.parse().ok()).collect();
-    let (height, hz, read) = match told[..] {
-        [.., height, hz, read, _] => (height, hz, read),
-        _ => panic!("{warning}"),
-    };
+    let [.., height, hz, read, _] = told[..] else { panic!("{warning}") };
     assert!(close(height / worst.1, 1.0, 1e-3) && close(read / worst.2, 1.0, 1e-3), "{warning}\n{worst:?}");
     assert!(close(hz, worst.0, 1e-5 * hz), "{warning}\n{worst:?}");
     assert!(stderr(&run(&coarse)).contains(warning), "the program says it on stderr too");
