@@ -10,8 +10,10 @@ pub(crate) mod values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use export::{ExportArgs, ExportFormat};
 use funicular::cable::CableModel;
+use funicular::compare::TOLERANCE;
 use funicular::dynamics::Assembly;
 use funicular::math::Vec3;
+use funicular::modes::PLATFORM_SHARE;
 use funicular::statics::StaticModel;
 use funicular_study::names::ModelForm;
 use funicular_study::request::Change;
@@ -84,6 +86,7 @@ pub(crate) enum Command {
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv\n  \
+        funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75\n  \
         funicular modes robots/cogiro.toml --below-hz 5 --figure-mode 3 -o shape.pdf")]
     Modes(ModesArgs),
     /// Frequency response of the platform or of points on cables, and its peaks
@@ -101,8 +104,16 @@ pub(crate) enum Command {
     Frf(FrfArgs),
     /// Comparison of all cable models, and the simplest model that is good enough
     #[command(after_help = "Examples:\n  funicular compare robots/yuan2014-4mm.toml --below-hz 5\n  \
+        funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05\n  \
         funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg")]
     Compare(CompareArgs),
+    /// Minimum and maximum payload at a pose, with the cables and ends whose tension limits bind
+    ///
+    /// The payload is held by any tensions within the limits, not only by those of a tension rule.
+    #[command(after_help = "Examples:\n  funicular payload robots/cogiro.toml --pose 1,2,1.5\n  \
+        funicular payload robots/cogiro.toml --pose 1,2,1.5 --payload-center-m 0,0,-0.5 --max-tension-n 3000\n  \
+        funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity payload-max -o cogiro.parquet")]
+    Payload(PayloadArgs),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass
     #[command(after_help = "Examples:\n  funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100\n  \
         funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv\n  \
@@ -438,6 +449,10 @@ pub(crate) struct ModesArgs {
     #[arg(long, value_name = "N", value_parser = values::stations)]
     pub(crate) stations: Option<usize>,
 
+    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
+    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
+    pub(crate) platform_share: f64,
+
     #[command(flatten)]
     pub(crate) state: StateArgs,
     #[command(flatten)]
@@ -582,6 +597,18 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: f64,
 
+    /// Compare the modes of the platform alone
+    #[arg(long)]
+    pub(crate) platform: bool,
+
+    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
+    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
+    pub(crate) platform_share: f64,
+
+    /// Maximum relative difference of frequency for a model that is good enough
+    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true, default_value_t = TOLERANCE)]
+    pub(crate) tolerance: f64,
+
     #[command(flatten)]
     pub(crate) state: StateArgs,
     #[command(flatten)]
@@ -592,6 +619,23 @@ pub(crate) struct CompareArgs {
     pub(crate) output: OutputArgs,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PayloadArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Centre of mass of the payload, platform frame [m] [default: that of the platform]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) payload_center_m: Option<Vec3>,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
 }
 
 #[derive(Debug, Args)]
@@ -675,6 +719,10 @@ pub(crate) struct ReportArgs {
     pub(crate) output: Option<Output>,
     #[command(flatten)]
     pub(crate) points: PointArgs,
+
+    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
+    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
+    pub(crate) platform_share: f64,
 
     #[command(flatten)]
     pub(crate) state: StateArgs,

@@ -8,6 +8,7 @@ mod frf;
 mod modes;
 mod page;
 mod parameters;
+mod payload;
 mod pose_error;
 mod reduce;
 mod request;
@@ -96,6 +97,9 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             let guard = robot_file::guard(Some(&args.robot.robot));
             analyse_or_draw(&request_of(&cli.command)?, &args.output, args.figure, None, guard)
         }
+        Command::Payload(args) => {
+            analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
+        }
         Command::PoseError(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
@@ -117,6 +121,7 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Modes(args) => Request::Modes(args.request(robot(&args.robot)?)),
         Command::Frf(args) => Request::Frf(args.request(robot(&args.robot)?)),
         Command::Compare(args) => Request::Compare(args.request(robot(&args.robot)?)),
+        Command::Payload(args) => Request::Payload(args.request(robot(&args.robot)?)),
         Command::PoseError(args) => Request::PoseError(args.request(robot(&args.robot)?)),
         Command::Cable(args) => Request::Cable(args.request(robot(&args.robot)?)),
         Command::Reduce(args) => Request::Reduce(args.request(robot(&args.robot)?)),
@@ -192,6 +197,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Modes(found) => sink.write(found),
         Results::Frf(found) => sink.write(found),
         Results::Compare(found) => sink.write(found),
+        Results::Payload(found) => sink.write(found),
         Results::PoseError(found) => sink.write(found),
         Results::Cable(found) => sink.write(found),
         Results::Reduce(found) => sink.write(found),

@@ -6,7 +6,7 @@ use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
 use crate::robot::PyRobot;
-use crate::vibration::{self, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
+use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
 use crate::written::{self, PageKeywords, ReduceKeywords, StateSpaceKeywords};
 use funicular_study::analyses;
 use funicular_study::request::{State, Tensions};
@@ -93,12 +93,15 @@ impl PyAnalyses {
     ///     Number of points along every cable, ends included, whose displacements are wanted.
     /// cable_model, assembly, in_plane_only
     ///     Models, as in `stiffness`.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
+    ///     platform; 0.5 if not given.
     /// damped
     ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
     ///     damping, and there are no eigenvalues.
     #[pyo3(signature = (
         below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, damped=true
+        assembly="consistent", in_plane_only=false, platform_share=None, damped=true
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn modes(
@@ -113,6 +116,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        platform_share: Option<Number>,
         damped: bool,
     ) -> PyResult<ModesObject> {
         let keywords = ModesKeywords {
@@ -125,6 +129,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            platform_share,
             damped,
         };
         Self::at(slf, |rest| vibration::modes(py, rest, keywords))
@@ -220,21 +225,34 @@ impl PyAnalyses {
     /// ----------
     /// below_hz
     ///     Limit of the frequencies [Hz].
+    /// platform
+    ///     Compare the modes of the platform alone.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
+    /// tolerance
+    ///     Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
     /// assembly, in_plane_only
     ///     Terms of the stiffness, as in `stiffness`.
     ///
     /// Returns
     /// -------
     /// The keys of the program's JSON; lists of numbers are arrays.
-    #[pyo3(signature = (below_hz, *, assembly="consistent", in_plane_only=false))]
+    #[pyo3(signature = (
+        below_hz, *, platform=false, platform_share=None, tolerance=None, assembly="consistent", in_plane_only=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn compare<'py>(
         slf: &Bound<'py, Self>,
         py: Python<'py>,
         below_hz: Number,
+        platform: bool,
+        platform_share: Option<Number>,
+        tolerance: Option<Number>,
         assembly: &str,
         in_plane_only: bool,
     ) -> PyResult<TextKeyed<'py>> {
-        Self::at(slf, |rest| vibration::compare(py, rest, below_hz, assembly, in_plane_only))
+        let keywords = CompareKeywords { below_hz, platform, platform_share, tolerance, assembly, in_plane_only };
+        Self::at(slf, |rest| vibration::compare(py, rest, keywords))
     }
 
     /// Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
@@ -423,9 +441,11 @@ impl PyAnalyses {
     ///     platform that cannot move along z.
     /// input_point_m, output_point_m, cable_model, assembly, in_plane_only
     ///     Points and models, as in `frf`.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
     #[pyo3(signature = (
         path=None, *, below_hz=None, input=None, output=None, input_point_m=None, output_point_m=None,
-        cable_model=None, assembly="consistent", in_plane_only=false
+        cable_model=None, assembly="consistent", in_plane_only=false, platform_share=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn report(
@@ -440,6 +460,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        platform_share: Option<Number>,
     ) -> PyResult<written::PageObject> {
         let keywords = PageKeywords {
             below_hz,
@@ -450,6 +471,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            platform_share,
         };
         Self::at(slf, |rest| written::report(py, rest, path, keywords))
     }

@@ -92,7 +92,8 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that makes a page again.
+/// Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that
+/// makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
     let request = self::request(request)?;

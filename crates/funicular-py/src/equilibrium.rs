@@ -63,6 +63,12 @@ impl PyEquilibrium {
         PyPose::of(&self.at_rest.equilibrium.pose)
     }
 
+    /// Pose whose unstrained lengths are held, as with `hold_lengths_of_pose=True`; else None.
+    #[getter]
+    fn held_pose(&self) -> Option<PyPose> {
+        self.at_rest.held_pose.as_ref().map(PyPose::of)
+    }
+
     /// How cables carry their static load: `ideal`, `spring` or `catenary`.
     #[getter]
     fn static_model(&self) -> &'static str {

@@ -3,6 +3,7 @@
 use crate::arrays::{Number, Numbers};
 use crate::errors;
 use crate::pose::PoseLike;
+use funicular::modes::PLATFORM_SHARE;
 use funicular_study::names::Named;
 use funicular_study::request::{Load, Model, ResponsePoints, State, Tensions, Terms};
 use pyo3::prelude::*;
@@ -79,6 +80,11 @@ pub(crate) fn model(cable_model: Option<&str>, assembly: &str, in_plane_only: bo
         cable_model: cable_model.map(|name| named("cable_model", name)).transpose()?,
         terms: terms(assembly, in_plane_only)?,
     })
+}
+
+/// Minimum fraction of the kinetic energy in the platform for a mode of the platform.
+pub(crate) fn share(platform_share: Option<Number>) -> PyResult<f64> {
+    platform_share.map_or(Ok(PLATFORM_SHARE), |share| share.value("platform_share"))
 }
 
 /// Terms of the stiffness.

@@ -8,7 +8,7 @@ use crate::dict_to_toml;
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::pose::PoseLike;
-use crate::request::{StateKeywords, TensionKeywords, model};
+use crate::request::{StateKeywords, TensionKeywords, model, share};
 use crate::sweep::{self, Axes, ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
 use crate::threads::Threads;
 use funicular::robot::{Robot, State};
@@ -27,6 +27,8 @@ use std::sync::Arc;
 fn each_point(
     quantities: Option<Vec<String>>,
     up_to_hz: Option<Number>,
+    platform_share: Option<Number>,
+    payload_center_m: Option<Numbers>,
     state: StateKeywords<'_>,
     tensions: TensionKeywords<'_>,
     model: requests::Model,
@@ -34,6 +36,8 @@ fn each_point(
     Ok(EachPoint {
         quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
         up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
+        platform_share: share(platform_share)?,
+        payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
         state: state.request()?,
         tensions: tensions.request()?,
         model,
@@ -366,6 +370,10 @@ impl PyRobot {
     ///     unstrained lengths [m]; the state of the robot file if not given.
     /// up_to_hz
     ///     Limit of the search for natural frequencies [Hz]; 1000 if not given.
+    /// platform_share
+    ///     Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`; 0.5 if not given.
+    /// payload_center_m
+    ///     Centre of mass of the payload for `payload-max`, platform frame [m]; that of the platform if not given.
     /// file
     ///     File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
     ///     holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -395,7 +403,8 @@ impl PyRobot {
     ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -414,6 +423,8 @@ impl PyRobot {
         assembly: &str,
         in_plane_only: bool,
         up_to_hz: Option<Number>,
+        platform_share: Option<Number>,
+        payload_center_m: Option<Numbers>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
@@ -448,7 +459,8 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
+        let model = model(cable_model, assembly, in_plane_only)?;
+        let point = each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
@@ -469,7 +481,8 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=None, tension_rule=None,
+        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
         discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
@@ -487,6 +500,8 @@ impl PyRobot {
         assembly: &str,
         in_plane_only: bool,
         up_to_hz: Option<Number>,
+        platform_share: Option<Number>,
+        payload_center_m: Option<Numbers>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Numbers>,
         min_tension_n: Option<Number>,
@@ -521,7 +536,8 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        let point = each_point(quantities, up_to_hz, state, tensions, model(cable_model, assembly, in_plane_only)?)?;
+        let model = model(cable_model, assembly, in_plane_only)?;
+        let point = each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
 
         let plan = PyPlan::of(py, request, part)?;
@@ -537,6 +553,74 @@ impl PyRobot {
     /// `range`, `minimum`, `maximum`, `meaning` and `given`. `Robot.with_` and `vary=` use the same paths.
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         answers::plain(py, &analyses::parameters::run(&self.source).map_err(|error| errors::study(&error))?)
+    }
+
+    /// Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
+    ///
+    /// The payload is held by any tensions within the limits, not only by those of a tension rule. The pose need not be
+    /// held without a payload.
+    ///
+    /// Parameters
+    /// ----------
+    /// payload_center_m
+    ///     Centre of mass of the payload, platform frame [m]; that of the platform if not given.
+    ///
+    /// The other parameters are those of `equilibrium`.
+    ///
+    /// Returns
+    /// -------
+    /// The keys of the program's JSON: `minimum` and `maximum` with `payload_kg` and `cables`; without `maximum` if no
+    /// maximum tension limits the payload.
+    ///
+    /// Raises
+    /// ------
+    /// StaticsError
+    ///     No payload is held at this pose.
+    #[pyo3(signature = (
+        pose=None, lengths_m=None, static_model="catenary", tension_rule=None, *, target_tension_n=None,
+        min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
+        wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, payload_center_m=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn payload<'py>(
+        &self,
+        py: Python<'py>,
+        pose: Option<PoseLike>,
+        lengths_m: Option<Numbers>,
+        static_model: &str,
+        tension_rule: Option<&str>,
+        target_tension_n: Option<Numbers>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
+        mass_kg: Option<Number>,
+        force_n: Option<Numbers>,
+        moment_n_m: Option<Numbers>,
+        load_point_m: Option<Numbers>,
+        wind_m_s: Option<Numbers>,
+        cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
+        payload_center_m: Option<Numbers>,
+    ) -> PyResult<TextKeyed<'py>> {
+        let state = StateKeywords {
+            pose,
+            lengths_m,
+            hold_lengths_of_pose,
+            mass_kg,
+            static_model,
+            force_n,
+            moment_n_m,
+            load_point_m,
+            wind_m_s,
+            cable_load_n_per_m,
+        };
+        let request = requests::PayloadRequest {
+            robot: self.source.clone(),
+            payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
+            state: state.request()?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
+        };
+        let found = py.detach(|| analyses::payload::run((*self.robot).clone(), &request));
+        answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
     }
 
     /// Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
@@ -637,7 +721,7 @@ impl PyRobot {
         slf.py().import("funicular._show")?.call_method1("html", (slf,))
     }
 
-    /// The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
+    // The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (String,)>> {
         let rebuild = slf.py().import("funicular._funicular")?.getattr("robot_of_source")?;
         let source = serde_json::to_string(&slf.get().source).map_err(|error| errors::input(error.to_string()))?;

@@ -5,7 +5,8 @@ use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, OwnedArray, 
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
-use crate::request::{model, named, points, terms};
+use crate::request::{model, named, points, share, terms};
+use funicular::compare::TOLERANCE;
 use funicular::math::CMat6;
 use funicular::response;
 use funicular_study::analyses::{self, cable, frf};
@@ -109,7 +110,18 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) platform_share: Option<Number>,
     pub(crate) damped: bool,
+}
+
+/// Keywords of `compare`.
+pub(crate) struct CompareKeywords<'a> {
+    pub(crate) below_hz: Number,
+    pub(crate) platform: bool,
+    pub(crate) platform_share: Option<Number>,
+    pub(crate) tolerance: Option<Number>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
 }
 
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
@@ -124,6 +136,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
         stations: keywords.stations.map(stations).transpose()?,
+        platform_share: share(keywords.platform_share)?,
         damped: keywords.damped,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
@@ -140,16 +153,17 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
 pub(crate) fn compare<'py>(
     py: Python<'py>,
     of: &PyEquilibrium,
-    below_hz: Number,
-    assembly: &str,
-    in_plane_only: bool,
+    keywords: CompareKeywords<'_>,
 ) -> PyResult<TextKeyed<'py>> {
     let request = request::CompareRequest {
         robot: of.of.get().source.clone(),
-        below_hz: below_hz.value("below_hz")?,
+        below_hz: keywords.below_hz.value("below_hz")?,
+        platform: keywords.platform,
+        platform_share: share(keywords.platform_share)?,
+        tolerance: keywords.tolerance.map_or(Ok(TOLERANCE), |tolerance| tolerance.value("tolerance"))?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        terms: terms(assembly, in_plane_only)?,
+        terms: terms(keywords.assembly, keywords.in_plane_only)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;
@@ -258,7 +272,7 @@ pub(crate) struct PairKeywords<'a> {
 
 pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
     let (frequencies, _) = hz.frequencies()?;
-    let PairKeywords { input, output, adaptive, .. } = keywords;
+    let (input, output, adaptive) = (&keywords.input, &keywords.output, keywords.adaptive);
     let one = input.is_one() && output.is_one();
     let pairs = frf::Pairs {
         inputs: input.names(),

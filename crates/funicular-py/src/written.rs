@@ -5,7 +5,7 @@ use crate::arrays::{Count, Matrix, Number, Numbers};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::interruptible;
-use crate::request::{model, named, points};
+use crate::request::{model, named, points, share};
 use funicular::math::DMat;
 use funicular_files::mat::{self, Value, Variable};
 use funicular_study::analyses;
@@ -206,6 +206,7 @@ pub(crate) struct PageKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) platform_share: Option<Number>,
 }
 
 pub(crate) fn report(
@@ -220,6 +221,7 @@ pub(crate) fn report(
         input: keywords.input,
         output: keywords.output,
         points: points(keywords.input_point_m, keywords.output_point_m)?,
+        platform_share: share(keywords.platform_share)?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,

@@ -11,7 +11,10 @@ import funicular
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
 OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode"}
 # Options without a value.
-SWITCHES = {"--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"}
+SWITCHES = {
+    *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
+    *("--platform", "--hold-lengths-of-pose"),
+}
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}}
 

@@ -31,29 +31,24 @@ def frequencies(rest: funicular.Equilibrium) -> np.ndarray:
     return hz[(hz > 0) & (hz <= 5)]
 
 
-def test_the_responses_in_scipy_and_control_have_the_stated_error(
+def test_the_responses_in_control_have_the_stated_error(
     rest: funicular.Equilibrium, model: funicular.StateSpaceModel
 ) -> None:
     assert model.error <= 0.02 and model.order == len(model.A) < 60
     hz = frequencies(rest)
     control = pytest.importorskip("control")
-    signal = pytest.importorskip("scipy.signal")
     by_control = control.frequency_response(model.to_control(), 2 * np.pi * hz).complex
     for j, name in enumerate(model.inputs):
-        _, by_scipy = signal.freqresp(
-            signal.StateSpace(model.A, model.B[:, [j]], model.C[[0]], model.D[[0]][:, [j]]), 2 * np.pi * hz
-        )
         for i, output in enumerate(model.outputs):
             full = rest.frf(hz, name, output)
             assert abs(full).max() <= model.peaks[i, j] * (1 + 1e-4)
             # The maxima are searched for to 1e-4 of themselves.
             assert abs(by_control[i, j] - full).max() <= model.errors[i, j] * model.peaks[i, j] * (1 + 1e-3)
-            if i == 0:
-                assert np.allclose(by_scipy, by_control[i, j], rtol=1e-6, atol=1e-9 * model.peaks[i, j])
     assert np.isclose(model.errors.max(), model.error)
 
 
 def test_scipy_bode_runs_on_one_input_and_one_output(rest: funicular.Equilibrium) -> None:
+    # SciPy goes through polynomials, which is accurate for few states only.
     signal = pytest.importorskip("scipy.signal")
     small = rest.state_space(["fz"], ["az"], below_hz=5, order=8)
     hz = np.linspace(0.1, 5, 200)
@@ -128,7 +123,7 @@ def test_wrong_arguments_are_refused(rest: funicular.Equilibrium) -> None:
     with pytest.raises(funicular.InputError, match="from 2 to 400"):
         rest.state_space(["fz"], ["z"], below_hz=2, order=1)
     with pytest.raises(funicular.NoSolutionError, match="no state space has an error of at most"):
-        rest.state_space(["fz"], ["z"], below_hz=2, tolerance=1e-13)
+        rest.state_space(["fz"], ["z"], below_hz=2, tolerance=1e-11)
     with pytest.raises(funicular.NoSolutionError, match="has no damping"):
         rest.state_space(["fz"], ["z"], below_hz=20, cable_model="spring")
 

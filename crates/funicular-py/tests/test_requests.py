@@ -32,6 +32,23 @@ MORE = [
     f"funicular frf {ROBOT} {RANGE} {MODEL} --input fz --output rx --input-point-m 0.1,0,0",
     f"funicular frf {ROBOT} --from-hz 0.5 --to-hz 2 --adaptive --input fz --input fx --output z --output rx",
     f"funicular compare {ROBOT} --below-hz 2",
+    f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
+    f"funicular payload robots/cogiro.toml {TENSIONS} {STATE} --payload-center-m 0,0,-0.2",
+    "funicular payload robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
+    f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
+    f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
+    f"funicular modes robots/cogiro.toml --below-hz 5 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",
+    f"funicular frf robots/cogiro.toml {RANGE} --input fz --output z {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
+    f"funicular compare robots/cogiro.toml --below-hz 4 {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
+    f"funicular cable robots/cogiro.toml --name 3 {RANGE} {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
+    f"funicular reduce robots/cogiro.toml --below-hz 4 --input fz --output z {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
+    f"funicular pose-error robots/cogiro.toml --mass-kg 100:200:3 {TENSIONS}",
+    f"funicular report robots/cogiro.toml --below-hz 3 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",
+    f"funicular export robots/cogiro.toml --to vtk {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
+    "funicular map robots/cogiro.toml --grid x=0:1:2 --grid y=1 --grid z=1.5 --hold-lengths-of-pose --mass-kg 150 "
+    "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity payload-max,first-platform-frequency,tension-max-cable",
+    "funicular sweep robots/cogiro.toml --pose 1,2,1.5 --vary platform.mass_kg=100,150 --hold-lengths-of-pose "
+    "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity pose,payload-max",
     f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness --in-plane-only",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic --in-plane-only",
@@ -128,7 +145,10 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
-COMPUTED = ("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "pose-error", "cable", "reduce")
+COMPUTED = (
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "payload", "pose-error", "cable"),
+    "reduce",
+)
 
 
 def plain(found: Any) -> Any:
@@ -142,7 +162,7 @@ def plain(found: Any) -> Any:
     return [plain(value) for value in found] if isinstance(found, (list, tuple)) else found
 
 
-STATE_KEYS = {"pose", "lengths_m", "mass_kg", "static_model", "force_n", "moment_n_m", "load_point_m", "wind_m_s"} | {
+STATE_KEYS = {"hold_lengths_of_pose", "pose", "lengths_m", "mass_kg", "static_model", "force_n", "moment_n_m", "load_point_m", "wind_m_s"} | {
     *("cable_load_n_per_m", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n")
 }
 
@@ -158,6 +178,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     robot = commands.robot_of(files, changes)
     if command == "pose-error":
         assert plain(robot.pose_error(**keywords)) == theirs
+        return
+    if command == "payload":
+        assert plain(robot.payload(**keywords)) == theirs
         return
     rest = robot.equilibrium(**{key: value for key, value in keywords.items() if key in STATE_KEYS})
     # Python takes frequencies instead of a range, and finds peaks by another function.

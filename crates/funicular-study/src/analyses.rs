@@ -10,6 +10,7 @@ pub mod control_model;
 pub mod frf;
 pub mod modes;
 pub mod parameters;
+pub mod payload;
 pub mod pose_error;
 pub mod reduce;
 pub mod shared;

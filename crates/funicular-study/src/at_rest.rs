@@ -45,7 +45,7 @@ pub fn equilibrium(robot: Robot, source: &RobotText, state: &request::State, ten
         refuse_no_state(&robot)?;
         statics::solve(&robot, state.static_model, rule)
     };
-    let solution = solution.map_err(|error| with_warnings(error.into(), warnings::of_robot(&robot)))?;
+    let solution = solution.map_err(|error| with_warnings(error, &robot))?;
     let Solution { equilibrium, requested_pose, rule, held_pose } = solution;
     Ok(AtRest { robot, equilibrium, requested_pose, rule, held_pose })
 }
@@ -176,6 +176,19 @@ pub fn check_pose(robot: &Robot, pose: &Pose) -> Result<()> {
         bail!("a point mass has no orientation: give ⟪pose⟫ as x,y,z");
     }
     Ok(robot.platform.motion.check(pose)?)
+}
+
+/// Centre of mass of a payload that a request gives, platform frame [m].
+///
+/// # Errors
+/// A number that is not finite, or a centre beside a point mass.
+pub(crate) fn payload_center(robot: &Robot, center_m: Option<[f64; 3]>) -> Result<Option<Vec3>> {
+    request::check_vector("payload_center_m", center_m)?;
+    let center_p = center_m.map(Vec3::from);
+    if robot.platform.motion == PlatformMotion::PointMass && center_p.is_some_and(|center| center.norm() > 0.0) {
+        bail!("a point mass has no payload beside its origin: leave out ⟪payload_center_m⟫");
+    }
+    Ok(center_p)
 }
 
 /// Robot with the loads of a request. Loads that the request does not give come from the robot file.

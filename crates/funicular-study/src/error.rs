@@ -4,8 +4,9 @@ use crate::wording::{Words, message};
 use funicular::dynamics::DynamicsError;
 use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
+use funicular::robot::Robot;
 use funicular::statics::StaticsError;
-use funicular::warnings::Warning;
+use funicular::warnings;
 use std::fmt;
 
 /// Kind of an error. Every front end maps it to an exit code or an exception.
@@ -49,8 +50,11 @@ impl fmt::Display for Warned {
     }
 }
 
-/// Error together with warnings about the robot; without warnings the error itself. Its type stays known.
-pub(crate) fn with_warnings(error: anyhow::Error, warnings: Vec<Warning>) -> anyhow::Error {
+/// Error of statics together with the warnings about the robot, which may be its cause; without warnings, and for a
+/// request that is wrong itself, the error alone. Its type stays known.
+pub(crate) fn with_warnings(error: StaticsError, robot: &Robot) -> anyhow::Error {
+    let warnings = if error.is_no_solution() { warnings::of_robot(robot) } else { Vec::new() };
+    let error = anyhow::Error::from(error);
     if warnings.is_empty() {
         return error;
     }

@@ -29,9 +29,9 @@ const MIN_DIAMETER_MM: f64 = 0.3;
 /// Maximum number of cables of a layout that the program makes.
 pub const MAX_CABLES: usize = 64;
 
-/// Breaking load of the default rope at least, as a multiple of the platform's weight: 6 mm for 100 kg. With half of that
-/// the second payload or a shallow cable comes near the usual factor of five; with twice that the ropes of a small robot
-/// outweigh its platform.
+/// Breaking load of the default rope at least, as a multiple of the platform's weight: 6 mm for 100 kg. With 5, the usual
+/// factor between breaking load and working load, one cable could just carry the platform; 20 leaves room for a payload
+/// and for shallow cables. With 80 the ropes of a small robot would be heavy beside its platform.
 const STRENGTH: f64 = 20.0;
 
 /// Acceleration of gravity for weights [m/s²].
@@ -146,21 +146,18 @@ pub fn run(request: &NewRequest, words: Words) -> Result<NewRobot> {
     let rope = rope(request, mass)?;
 
     let mut warnings = Vec::new();
-    let layout = match &request.from_csv {
-        Some(csv) => {
-            if request.cables.is_some() {
-                bail!("⟪cables⟫ and ⟪from_csv⟫ both give the number of cables: leave ⟪cables⟫ out");
-            }
-            let cables = points::read(csv, request.csv_unit, request.motion)?;
-            warnings.extend(unlikely_unit(&cables));
-            Layout::of_points(cables, request.motion)
+    let layout = if let Some(csv) = &request.from_csv {
+        if request.cables.is_some() {
+            bail!("⟪cables⟫ and ⟪from_csv⟫ both give the number of cables: leave ⟪cables⟫ out");
         }
-        None => {
-            if request.csv_unit.is_some() {
-                bail!("⟪csv_unit⟫ is the unit of the table of ⟪from_csv⟫: give the table, or leave the unit out");
-            }
-            Layout::of_count(request.cables, request.motion, request.box_m)?
+        let cables = points::read(csv, request.csv_unit, request.motion)?;
+        warnings.extend(unlikely_unit(&cables));
+        Layout::of_points(cables, request.motion)
+    } else {
+        if request.csv_unit.is_some() {
+            bail!("⟪csv_unit⟫ is the unit of the table of ⟪from_csv⟫: give the table, or leave the unit out");
         }
+        Layout::of_count(request.cables, request.motion, request.box_m)?
     };
 
     let poses = match request.pose {
@@ -368,13 +365,12 @@ mod tests {
             ("d", [-4.0, 4.0, 6.0, -0.5, 0.5, 0.25]),
         ];
         let table = |named: bool, scale: f64| -> String {
-            rows.iter()
-                .map(|(name, numbers)| {
-                    let numbers: Vec<String> = numbers.iter().map(|number| format!("{}", number * scale)).collect();
-                    let name = if named { format!("{name}, ") } else { String::new() };
-                    format!("{name}{}\n", numbers.join(", "))
-                })
-                .collect()
+            let line = |(name, numbers): &(&str, [f64; 6])| {
+                let numbers: Vec<String> = numbers.iter().map(|number| format!("{}", number * scale)).collect();
+                let name = if named { format!("{name}, ") } else { String::new() };
+                format!("{name}{}", numbers.join(", "))
+            };
+            rows.iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
         };
         let header = |unit: &str| {
             let column = |of: &str| ["x", "y", "z"].map(|axis| format!("{of}_{axis}{unit}")).join(",");
@@ -393,10 +389,7 @@ mod tests {
             header("_mm") + &table(true, 1e3),
             // Columns in another order, found by their names.
             "attachment_z,name,anchor_x,anchor_y,anchor_z,attachment_x,attachment_y\n".to_owned()
-                + &rows
-                    .iter()
-                    .map(|(name, [x, y, z, u, v, w])| format!("{w},{name},{x},{y},{z},{u},{v}\n"))
-                    .collect::<String>(),
+                + &rows.map(|(name, [x, y, z, u, v, w])| format!("{w},{name},{x},{y},{z},{u},{v}")).join("\n"),
         ] {
             assert_eq!(made(&csv(&text)).0, robot, "{text}");
         }

@@ -94,6 +94,7 @@ mod tests {
         let equilibrium = rest(&robot, model);
         let u = response::along(&Vec3::z(), &Vec3::zeros(), &equilibrium.pose);
         report(&ReportInput {
+            platform_share: funicular::modes::PLATFORM_SHARE,
             at_rest: &AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None },
             file_label: "robot.toml",
             robot_text: text,

@@ -8,18 +8,18 @@ mod keys;
 mod parts;
 
 pub use keys::KEYS;
-pub(crate) use parts::check;
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
     ResponsePoints, RobotText, State, Tensions, Terms,
 };
+pub(crate) use parts::{check, check_vector};
 
 use crate::error::Error;
 use crate::import::SourceFile;
 use crate::names::{ModelForm, suggestion};
 use crate::new_robot::{LengthUnit, NewMotion, WireRope};
 use crate::signals::{Input, Output};
-use crate::values::{not_negative, positive};
+use crate::values::{fraction, not_negative, positive};
 use anyhow::{anyhow, bail};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -46,6 +46,8 @@ pub enum Request {
     Frf(FrfRequest),
     /// Comparison of all cable models.
     Compare(CompareRequest),
+    /// Minimum and maximum payload at a pose.
+    Payload(PayloadRequest),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass.
     PoseError(PoseErrorRequest),
     /// Dynamic stiffness of one cable over frequency.
@@ -144,6 +146,9 @@ pub struct ModesRequest {
     /// Number of points along every cable whose displacements in each mode are listed, ends included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations: Option<usize>,
+    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+    #[serde(default = "platform_share")]
+    pub platform_share: f64,
     /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
     #[serde(default = "yes")]
     pub damped: bool,
@@ -197,6 +202,15 @@ pub struct CompareRequest {
     pub robot: RobotText,
     /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
+    /// Compare the modes of the platform alone.
+    #[serde(default)]
+    pub platform: bool,
+    /// Minimum fraction of the kinetic energy in the platform for a mode of the platform.
+    #[serde(default = "platform_share")]
+    pub platform_share: f64,
+    /// Maximum relative difference of frequency for a model that is good enough.
+    #[serde(default = "one_per_cent")]
+    pub tolerance: f64,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
@@ -206,6 +220,23 @@ pub struct CompareRequest {
     /// Terms of the stiffness.
     #[serde(flatten)]
     pub terms: Terms,
+}
+
+/// Request of `payload`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PayloadRequest {
+    /// Robot file.
+    pub robot: RobotText,
+    /// Centre of mass of the payload, platform frame [m]. Default: that of the platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload_center_m: Option<[f64; 3]>,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Rule and limits of tensions. The rule only chooses the lengths of a pose that are held; the payload is the
+    /// extreme one of all tensions within the limits.
+    #[serde(flatten)]
+    pub tensions: Tensions,
 }
 
 /// Request of `pose-error`.
@@ -329,6 +360,9 @@ pub struct ReportRequest {
     /// Upper limit of the frequencies [Hz].
     #[serde(default = "twenty")]
     pub below_hz: f64,
+    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+    #[serde(default = "platform_share")]
+    pub platform_share: f64,
     /// Force or moment of the response. Default: `fz`, or `fx` if the platform cannot move along z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input: Option<String>,
@@ -462,6 +496,14 @@ fn yes() -> bool {
     true
 }
 
+fn one_per_cent() -> f64 {
+    funicular::compare::TOLERANCE
+}
+
+pub(crate) fn platform_share() -> f64 {
+    funicular::modes::PLATFORM_SHARE
+}
+
 fn twenty() -> f64 {
     20.0
 }
@@ -481,6 +523,7 @@ impl Request {
             Self::Modes(_) => "modes",
             Self::Frf(_) => "frf",
             Self::Compare(_) => "compare",
+            Self::Payload(_) => "payload",
             Self::PoseError(_) => "pose-error",
             Self::Cable(_) => "cable",
             Self::Reduce(_) => "reduce",
@@ -508,6 +551,7 @@ impl Request {
             Self::Modes(request) => Some(&request.robot),
             Self::Frf(request) => Some(&request.robot),
             Self::Compare(request) => Some(&request.robot),
+            Self::Payload(request) => Some(&request.robot),
             Self::PoseError(request) => Some(&request.robot),
             Self::Cable(request) => Some(&request.robot),
             Self::Reduce(request) => Some(&request.robot),
@@ -604,6 +648,11 @@ pub(crate) fn output(name: &str) -> anyhow::Result<Output> {
 /// Checks that the number of a key is positive.
 pub(crate) fn check_positive(key: &str, value: f64) -> anyhow::Result<()> {
     parts::check(key, Some(value), positive)
+}
+
+/// Checks that the number of a key is a fraction: above 0, at most 1.
+pub(crate) fn check_fraction(key: &str, value: f64) -> anyhow::Result<()> {
+    parts::check(key, Some(value), fraction)
 }
 
 /// Checks that the number of a key is not negative.

@@ -28,7 +28,7 @@ pub use steps::{Steps, digits};
 
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
-use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest};
+use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest, check_fraction};
 use crate::robot_file::RobotFile;
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
@@ -293,7 +293,13 @@ fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Optio
     let static_model = point.state.static_model;
     let linearisation = at_rest::linearisation(&point.model, static_model);
     point.model.cable_model = Some(linearisation.cable_model);
-    Ok((quantities, Options { static_model, tension_rule, linearisation, highest_hz: point.up_to_hz }))
+    check_fraction("platform_share", point.platform_share)?;
+    let payload_center_p = at_rest::payload_center(robot, point.payload_center_m)?;
+    let (highest_hz, platform_share) = (point.up_to_hz, point.platform_share);
+    Ok((
+        quantities,
+        Options { static_model, tension_rule, linearisation, highest_hz, platform_share, payload_center_p },
+    ))
 }
 
 /// Names and values of axes.

@@ -52,6 +52,15 @@ pub fn finite(value: f64) -> Result<f64, String> {
     number(&format!("{value:?}")).map_err(|error| error.to_string())
 }
 
+/// Checks that a number is a fraction of something: above 0, at most 1.
+///
+/// # Errors
+/// A message that says what is wrong with the value.
+pub fn fraction(value: f64) -> Result<f64, String> {
+    let value = positive(value)?;
+    if value <= 1.0 { Ok(value) } else { Err(format!("{value} is above 1: give a fraction, as 0.5 for 50 %")) }
+}
+
 /// Checks that a number is at least [`MIN_POSITIVE`].
 ///
 /// # Errors

@@ -31,9 +31,12 @@ fn requests() -> Vec<Value> {
         "mass_kg": 0.1, "static_model": "spring", "force_n": [1.0, -0.0, 1e-300], "moment_n_m": [0.1, 0.2, 0.3],
         "load_point_m": [0.0, 0.0, 0.1], "wind_m_s": [5.0, 0.0, 0.0], "cable_load_n_per_m": [0.0, 0.0, -0.1],
     });
-    let state = joined(&[&loads, &json!({ "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 1.0 / 3.0] })]);
-    let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8] })]);
-    let turned = json!({ "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] } });
+    let state =
+        joined(&[&loads, &json!({ "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 1.0 / 3.0], "hold_lengths_of_pose": true })]);
+    let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8], "hold_lengths_of_pose": false })]);
+    let share = json!({ "platform_share": 0.7 });
+    let center = json!({ "payload_center_m": [0.0, 0.1, -0.2] });
+    let turned = json!({ "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true });
     let tensions = json!({
         "tension_rule": "closest", "target_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
     });
@@ -42,8 +45,14 @@ fn requests() -> Vec<Value> {
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
-    let point =
-        joined(&[&state, &tensions, &model, &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 })]);
+    let point = joined(&[
+        &state,
+        &tensions,
+        &model,
+        &share,
+        &center,
+        &json!({ "quantities": ["frequencies:2", "pose"], "up_to_hz": 50.0 }),
+    ]);
     let files = json!({ "files": [{ "path": "a.xml", "text": "<a/>", "guessed_encoding": "windows-1252" }] });
     let ropes = json!({
         "mass_kg_per_m": 0.05, "axial_stiffness_n": 1e6, "youngs_modulus_pa": 1e11, "diameter_m": 0.005,
@@ -58,20 +67,57 @@ fn requests() -> Vec<Value> {
         of("statics", &[&robot, &state, &tensions, &json!({ "all": false })]),
         of("statics", &[&robot, &lengths, &json!({ "all": true })]),
         of("statics", &[&robot, &loads, &turned, &json!({ "all": false })]),
-        of("stiffness", &[&robot, &state, &model, &json!({ "at_hz": 3.5 })]),
+        of("stiffness", &[&robot, &state, &tensions, &model, &json!({ "at_hz": 3.5 })]),
         of(
             "modes",
-            &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0, "stations": 21, "damped": false })],
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &points,
+                &signals,
+                &share,
+                &json!({ "below_hz": 20.0, "stations": 21, "damped": false }),
+            ],
+        ),
+        of("frf", &[&robot, &state, &tensions, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0 })]),
+        of(
+            "compare",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &share,
+                &json!({
+                    "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false, "platform": true, "tolerance": 0.1,
+                }),
+            ],
+        ),
+        of("payload", &[&robot, &state, &tensions, &center]),
+        of(
+            "pose-error",
+            &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })],
         ),
         of(
             "frf",
-            &[&robot, &state, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0, "adaptive": false })],
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &points,
+                &signals,
+                &range,
+                &json!({ "prominence_db": 3.0, "adaptive": false }),
+            ],
         ),
         of(
             "frf",
             &[
                 &robot,
                 &lengths,
+                &tensions,
                 &model,
                 &json!({
                     "from_hz": 0.1, "to_hz": 10.0, "log": false, "adaptive": true, "prominence_db": 1.0,
@@ -79,7 +125,6 @@ fn requests() -> Vec<Value> {
                 }),
             ],
         ),
-        of("compare", &[&robot, &state, &json!({ "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false })]),
         of(
             "pose-error",
             &[&robot, &json!({ "mass_kg": [10.55, 86.35, 100], "lengths_m": [6.9, 6.6], "tolerance_mm": 5.0 })],
@@ -89,6 +134,7 @@ fn requests() -> Vec<Value> {
             &[
                 &robot,
                 &lengths,
+                &tensions,
                 &range,
                 &json!({ "name": "3", "cable_model": "catenary-dynamic", "in_plane_only": true }),
             ],
@@ -98,6 +144,7 @@ fn requests() -> Vec<Value> {
             &[
                 &robot,
                 &state,
+                &tensions,
                 &model,
                 &points,
                 &json!({
@@ -121,7 +168,7 @@ fn requests() -> Vec<Value> {
         of("sweep", &[&robot, &point, &json!({ "vary": grid })]),
         of("merge", &[&json!({ "parts": ["1.parquet", "2.parquet"] })]),
         of("plot", &[&json!({ "file": "map.parquet" })]),
-        of("report", &[&robot, &state, &model, &points, &signals, &json!({ "below_hz": 20.0 })]),
+        of("report", &[&robot, &state, &tensions, &model, &points, &signals, &share, &json!({ "below_hz": 20.0 })]),
         of("paper", &[]),
         of("import", &[&files, &ropes]),
         of(

@@ -6,7 +6,10 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Stability, StaticModel};
-use funicular_study::sweep::{CODES, Chunk, ColumnKind, Options, Plan, Poses, Quantity, Steps, SweepError, Values};
+use funicular_study::request::Request;
+use funicular_study::sweep::{
+    CODES, Chunk, ColumnKind, Options, Plan, Poses, PreparedSweep, Quantity, Steps, SweepError, Values,
+};
 
 fn yuan() -> Robot {
     Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
@@ -225,4 +228,73 @@ fn columns_have_units_in_their_names() {
             "{column:?}"
         );
     }
+}
+
+/// Lengths of the file are held while its changes act. The file of a sweep therefore keeps both robots.
+#[test]
+fn a_sweep_at_held_lengths_is_restored_from_its_record() {
+    let set = serde_json::json!([{ "path": "platform.mass_kg", "value": 250.0 }]);
+    let robot = serde_json::json!({ "text": funicular_robots::COGIRO, "set": set });
+    let both = serde_json::json!({
+        "robot": robot, "pose": [1.0, 2.0, 1.5], "hold_lengths_of_pose": true, "quantities": ["pose", "lengths"],
+    });
+    for own in [
+        serde_json::json!({ "command": "map", "grid": [{ "axis": "x", "values": [0.0, 1.0] }] }),
+        serde_json::json!({ "command": "sweep", "vary": [{ "axis": "cables.1.anchor_m.z", "values": [5.3, 5.4] }] }),
+    ] {
+        let mut request = both.clone();
+        request.as_object_mut().unwrap().extend(own.as_object().unwrap().clone());
+        let prepared = PreparedSweep::new(&Request::from_value(request.clone()).unwrap()).unwrap();
+        let plan = prepared.plan().unwrap();
+        let record = prepared.record(&plan, None);
+        let again = PreparedSweep::of_record(&record).unwrap();
+        assert_eq!(chunks(&again.plan().unwrap()), chunks(&plan));
+
+        // The lengths are those of the file, with the mass that the file gives.
+        request["robot"]["set"] = serde_json::json!([]);
+        request["vary"] = serde_json::json!([{ "axis": "platform.mass_kg", "values": [91.058, 250.0] }]);
+        request["command"] = "sweep".into();
+        request.as_object_mut().unwrap().remove("grid");
+        let unchanged = PreparedSweep::new(&Request::from_value(request).unwrap()).unwrap();
+        let of_file = unchanged.plan().unwrap();
+        let column = |plan: &Plan, row: usize| reals(plan, &chunks(plan), "unstrained_length_1_m")[row];
+        assert_eq!(column(&of_file, 0), column(&of_file, 1));
+        assert_eq!(column(&plan, 1), column(&of_file, 0));
+        let z = |plan: &Plan, row: usize| reals(plan, &chunks(plan), "pose_z_m")[row].unwrap();
+        assert!(z(&plan, 1) < 1.49 && (z(&of_file, 0) - 1.5).abs() < 1e-9, "{} {}", z(&plan, 1), z(&of_file, 0));
+    }
+}
+
+/// The columns of the payload and of the first platform mode equal the functions of the core.
+#[test]
+fn payload_and_first_platform_mode_of_a_row_are_those_of_the_core() {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let options = Options::default();
+    let poses = Poses::list(robot.clone(), vec![[1.0, 2.0, 1.5, 0.0, 0.0, 0.0], [-4.0, 1.0, 3.0, 0.0, 0.0, 5.0]]);
+    let requested = quantities("payload-max,first-platform-frequency,tension-max-cable");
+    let plan = Plan::new(&poses, &robot, &requested, &options).unwrap();
+    let rows = chunks(&plan);
+    for (row, pose) in
+        [Pose::new([1.0, 2.0, 1.5], [0.0; 3]), Pose::new([-4.0, 1.0, 3.0], [0.0, 0.0, 5.0])].iter().enumerate()
+    {
+        let rest = statics::inverse(&robot, pose, StaticModel::Catenary).unwrap();
+        let center_p = robot.platform.center_of_mass_p;
+        let wanted = statics::RequestedPayload { center_p, side: statics::PayloadSide::Maximum, prove: false };
+        // From low tensions instead of those of the row.
+        let bound = statics::payload_bound(&robot, pose, StaticModel::Catenary, wanted, None).unwrap();
+        let found = reals(&plan, &rows, "payload_max_kg")[row].unwrap();
+        assert!((found - bound.mass).abs() < 1e-8 * bound.mass, "{found} {}", bound.mass);
+
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 60.0).unwrap();
+        let list = modes::below(&dynamics, 60.0);
+        let first = list.modes.iter().find(|mode| mode.platform_energy_fraction >= 0.5).unwrap();
+        let found = reals(&plan, &rows, "first_platform_frequency_hz")[row].unwrap();
+        assert!((found - first.frequency_hz).abs() < 1e-9 * found, "{found} {}", first.frequency_hz);
+    }
+
+    // Fewer cables than degrees of freedom do not hold a pose.
+    let mut few = robot.clone();
+    few.cables.truncate(5);
+    let poses = Poses::list(few.clone(), vec![[1.0, 2.0, 1.5, 0.0, 0.0, 0.0]]);
+    assert!(matches!(Plan::new(&poses, &few, &requested, &options), Err(SweepError::TooFewCables { .. })));
 }

@@ -12,6 +12,33 @@ use std::f64::consts::TAU;
 /// Maximum relative difference of frequency for a model that is good enough.
 pub const TOLERANCE: f64 = 0.01;
 
+/// Modes of the reference that are compared, and the accuracy required of their frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Criterion {
+    /// Maximum relative difference of frequency for a model that is good enough.
+    pub tolerance: f64,
+    /// Minimum fraction of the kinetic energy in the platform for a mode that is compared; `None` compares all modes.
+    pub platform_share: Option<f64>,
+}
+
+impl Default for Criterion {
+    fn default() -> Self {
+        Self { tolerance: TOLERANCE, platform_share: None }
+    }
+}
+
+impl Criterion {
+    /// Tolerance in per cent, without the rounding of the product.
+    pub fn percent(&self) -> f64 {
+        (1e10 * self.tolerance).round() * 1e-8
+    }
+
+    /// True if a mode of the reference is compared.
+    pub fn includes(&self, mode: &Mode) -> bool {
+        self.platform_share.is_none_or(|share| mode.platform_energy_fraction >= share)
+    }
+}
+
 /// Minimum MAC of the platform shapes of two modes that count as the same motion.
 pub const SAME_MOTION: f64 = 0.5;
 
@@ -27,12 +54,57 @@ const SAME_FREQUENCY: f64 = 0.2;
 pub struct Comparison {
     /// Upper limit of the frequencies [Hz].
     pub below_hz: f64,
+    /// Modes that are compared, and the required accuracy.
+    pub criterion: Criterion,
+    /// Indices of the compared modes in the list of the reference, ascending.
+    pub compared: Vec<usize>,
     /// Reference model, with which the others are compared.
     pub reference: CableModel,
     /// One result per model, in the order of [`CableModel::ALL`].
     pub models: Vec<ModelResult>,
     /// Recommended model.
     pub advice: Advice,
+    /// Modes for which a static sag model is worse than a spring, if there are any.
+    pub frozen_sag: Option<FrozenSag>,
+}
+
+/// Modes above the first cable resonance for which a model with static sag is too soft and farther off than a spring.
+///
+/// Static sag follows every motion of the platform. Above the resonance of a cable its inertia keeps the sag from
+/// following, so that the cable answers like a spring along its chord.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrozenSag {
+    /// Model with static sag, `catenary-static` or `shallow-static`.
+    pub model: CableModel,
+    /// Number of such modes.
+    pub modes: usize,
+    /// Frequency of the first one in the reference [Hz].
+    pub frequency_hz: f64,
+    /// Relative difference of its frequency with static sag.
+    pub static_difference: f64,
+    /// Relative difference of its frequency with springs.
+    pub spring_difference: f64,
+    /// First clamped frequency of a cable [Hz].
+    pub clamped_hz: f64,
+}
+
+impl FrozenSag {
+    /// Explanation in two sentences.
+    pub fn text(&self) -> String {
+        let Self { model, modes, frequency_hz, static_difference, spring_difference, clamped_hz } = self;
+        let others = match modes - 1 {
+            0 => String::new(),
+            more => format!(" (and at {})", crate::counted(more, "further mode")),
+        };
+        format!(
+            "At {frequency_hz:.4} Hz{others} `{model}` ({:+.1} %) is worse than `spring` ({:+.1} %). This mode lies above \
+             the first resonance of a cable with fixed ends, {clamped_hz:.3} Hz: there the inertia of the cables keeps their sag from \
+             following the platform, so that a cable answers like a spring, while a static model lets the sag follow at \
+             every frequency and is too soft.",
+            100.0 * static_difference,
+            100.0 * spring_difference
+        )
+    }
 }
 
 /// Results of one model.
@@ -46,11 +118,16 @@ pub struct ModelResult {
     ///
     /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
     /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
-    /// move the platform, it is the nearest in frequency.
+    /// move the platform, it is the nearest in frequency. If only modes of the platform are compared, the motion decides
+    /// for every model.
     pub matches: Vec<Match>,
-    /// Number of modes of the reference without a counterpart.
+    /// Number of compared modes of the reference without a counterpart.
     pub missed: usize,
-    /// First frequency of the reference that is missing or wrong by more than [`TOLERANCE`] [Hz].
+    /// Number of compared modes of the reference that the model has within the tolerance.
+    pub within: usize,
+    /// Largest relative difference, with its sign, of the compared modes that have a counterpart.
+    pub largest_difference: Option<f64>,
+    /// First compared frequency of the reference that is missing or wrong by more than the tolerance [Hz].
     pub first_wrong_hz: Option<f64>,
 }
 
@@ -80,7 +157,7 @@ pub struct Advice {
 
 /// Finds the modes below `below_hz` [Hz] with every cable model and compares them with the catenary-dynamic model. If a
 /// catenary-dynamic cable would need too many unknowns, the reference is the shallow-dynamic model. The cable model in
-/// `linearisation` is ignored; its other options apply to all models.
+/// `linearisation` is ignored; its other options apply to all models. The criterion selects the modes that count.
 ///
 /// # Errors
 /// [`DynamicsError`] if the reference does not exist at this equilibrium (a cable without tension).
@@ -89,6 +166,7 @@ pub fn compare(
     equilibrium: &Equilibrium,
     below_hz: f64,
     linearisation: Linearisation,
+    criterion: Criterion,
 ) -> Result<Comparison, DynamicsError> {
     let with =
         |cable_model| Dynamics::about(robot, equilibrium, Linearisation { cable_model, ..linearisation }, below_hz);
@@ -101,39 +179,85 @@ pub fn compare(
     };
 
     let truth = modes::below(&dynamics, below_hz);
+    let compared: Vec<usize> = (0..truth.modes.len()).filter(|&i| criterion.includes(&truth.modes[i])).collect();
     let models: Vec<ModelResult> = CableModel::ALL
         .into_iter()
         .map(|model| {
             if model == reference {
                 let modes = Ok(truth.clone());
-                return ModelResult { model, modes, matches: Vec::new(), missed: 0, first_wrong_hz: None };
+                let (matches, within) = (Vec::new(), compared.len());
+                let largest_difference = None;
+                return ModelResult {
+                    model,
+                    modes,
+                    matches,
+                    missed: 0,
+                    within,
+                    largest_difference,
+                    first_wrong_hz: None,
+                };
             }
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
             let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
-            let matches = match_modes(found, &truth.modes, &dynamics.mass(), model.is_dynamic());
+            let matches = match_modes(found, &truth.modes, &compared, &dynamics.mass(), model, criterion);
 
             // How many modes of the reference are hit, and which within the tolerance.
             let mut hit = vec![false; truth.modes.len()];
             let mut right = hit.clone();
             for m in &matches {
                 hit[m.reference_index] = true;
-                right[m.reference_index] |= m.relative_difference.abs() <= TOLERANCE;
+                right[m.reference_index] |= m.relative_difference.abs() <= criterion.tolerance;
             }
-            let mut missed = hit.iter().filter(|h| !**h).count();
+            let mut missed = compared.iter().filter(|&&i| !hit[i]).count();
 
-            if model.is_dynamic() {
+            if model.is_dynamic() && criterion.platform_share.is_none() {
                 // A dynamic model also has the cables' resonances. Among dozens of them the platform shapes distinguish
                 // little; each frequency counts as right if the model has it.
-                right = frequencies_within(TOLERANCE, found, &truth.modes);
+                right = frequencies_within(criterion.tolerance, found, &truth.modes);
                 missed = truth.modes.len().saturating_sub(found.len());
             }
 
-            let first_wrong_hz = right.iter().position(|r| !r).map(|i| truth.modes[i].frequency_hz);
-            ModelResult { model, modes, matches, missed, first_wrong_hz }
+            let within = compared.iter().filter(|&&i| right[i]).count();
+            let differences = matches.iter().map(|m| m.relative_difference);
+            let largest_difference = differences.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+            let first_wrong_hz = compared.iter().find(|&&i| !right[i]).map(|&i| truth.modes[i].frequency_hz);
+            ModelResult { model, modes, matches, missed, within, largest_difference, first_wrong_hz }
         })
         .collect();
-    let advice = advise(robot, equilibrium, &dynamics, below_hz, &truth, &models);
-    Ok(Comparison { below_hz, reference, models, advice })
+    let advice =
+        Advisor { robot, equilibrium, dynamics: &dynamics, below_hz, truth: &truth, models: &models, criterion };
+    let advice = advice.advise(compared.len());
+    let clamped = dynamics.clamped_frequencies_below(below_hz * TAU);
+    let frozen_sag = clamped.first().and_then(|(omega, _)| frozen_sag(&models, omega / TAU, criterion));
+    Ok(Comparison { below_hz, criterion, compared, reference, models, advice, frozen_sag })
+}
+
+/// Modes for which the sag that a static model lets follow is frozen in the reference.
+fn frozen_sag(models: &[ModelResult], clamped_hz: f64, criterion: Criterion) -> Option<FrozenSag> {
+    let of = |model: CableModel| models.iter().find(|result| result.model == model);
+    let springs = &of(CableModel::Spring)?.matches;
+    [CableModel::CatenaryStatic, CableModel::ShallowStatic].into_iter().find_map(|model| {
+        let mut worse: Vec<(&Match, &Match)> = Vec::new();
+        for with_sag in &of(model)?.matches {
+            let spring = springs.iter().find(|m| m.reference_index == with_sag.reference_index);
+            let Some(spring) = spring else { continue };
+            let too_soft = -with_sag.relative_difference;
+            if with_sag.reference_hz > clamped_hz
+                && too_soft > spring.relative_difference.abs().max(criterion.tolerance)
+            {
+                worse.push((with_sag, spring));
+            }
+        }
+        let (first, spring) = worse.iter().min_by(|a, b| a.0.reference_hz.total_cmp(&b.0.reference_hz))?;
+        Some(FrozenSag {
+            model,
+            modes: worse.len(),
+            frequency_hz: first.reference_hz,
+            static_difference: first.relative_difference,
+            spring_difference: spring.relative_difference,
+            clamped_hz,
+        })
+    })
 }
 
 /// True for each mode of the ascending list `truth` that has its own partner in the ascending list `found`, within a
@@ -149,9 +273,23 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
         .collect()
 }
 
-/// Pairs every mode with the reference mode of the most similar platform motion, weighted by the platform's energy
-/// fraction in that mode; with `by_frequency`, with the nearest in frequency. Each reference mode is used once.
-fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) -> Vec<Match> {
+/// Pairs every mode with the compared reference mode of the most similar platform motion, weighted by the platform's
+/// energy fraction in that mode; for all modes of a dynamic model, with the nearest in frequency. Each reference mode is
+/// used once.
+///
+/// If modes of the platform are compared, the platform's energy fraction in the model's own mode has the same weight: a
+/// dynamic model has cable modes with the same platform motion. Of modes that share it the nearest in frequency counts.
+fn match_modes(
+    found: &[Mode],
+    truth: &[Mode],
+    compared: &[usize],
+    mass: &Mat6,
+    model: CableModel,
+    criterion: Criterion,
+) -> Vec<Match> {
+    let of_platform = criterion.platform_share.is_some();
+    let by_frequency = model.is_dynamic() && !of_platform;
+    let closeness = if model.is_dynamic() { 1.0 } else { 1e-6 };
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
 
@@ -159,7 +297,8 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
     let mut candidates = Vec::new();
     for (i, ours) in found.iter().enumerate() {
         let x = vector(ours);
-        for (j, theirs) in truth.iter().enumerate() {
+        for &j in compared {
+            let theirs = &truth[j];
             let y = vector(theirs);
             let (own, other) = (inner(&x, &x), inner(&y, &y));
             // Two vibrations of cables with the platform at rest are the same motion if their frequencies agree.
@@ -182,7 +321,8 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
                 if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
                     continue;
                 }
-                correlation * theirs.platform_energy_fraction - 1e-6 * distance
+                let own_share = if of_platform { ours.platform_energy_fraction } else { 1.0 };
+                correlation * theirs.platform_energy_fraction * own_share - closeness * distance
             };
             candidates.push((score, correlation, i, j));
         }
@@ -208,79 +348,139 @@ fn match_modes(found: &[Mode], truth: &[Mode], mass: &Mat6, by_frequency: bool) 
     done.into_iter().flatten().collect()
 }
 
-/// Recommends the simplest model that has all frequencies of the reference.
-fn advise(
-    robot: &Robot,
-    equilibrium: &Equilibrium,
-    dynamics: &Dynamics,
+/// Results from which a model is recommended.
+struct Advisor<'a> {
+    robot: &'a Robot,
+    equilibrium: &'a Equilibrium,
+    dynamics: &'a Dynamics,
     below_hz: f64,
-    truth: &Modes,
-    models: &[ModelResult],
-) -> Advice {
-    let sags: Vec<Sag> = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect();
-    let deepest = (0..sags.len()).max_by(|&i, &j| sags[i].ratio().total_cmp(&sags[j].ratio())).unwrap_or(0);
-    let ratio = sags[deepest].ratio();
-    let lambda2 = sags.iter().map(|s| s.lambda2).fold(0.0, f64::max);
+    truth: &'a Modes,
+    models: &'a [ModelResult],
+    criterion: Criterion,
+}
 
-    // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the moving
-    // platform there are modes of the cables below it.
-    let mut of_cables = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
-    let first_of_cables = of_cables.next();
-    let cable_modes = usize::from(first_of_cables.is_some()) + of_cables.count();
-    let clamped = dynamics.clamped_frequencies_below(below_hz * TAU);
-    let string = match clamped.first() {
-        Some((omega, cable)) => format!(
-            "with fixed ends the cables resonate from {:.3} Hz on (cable \"{}\"), below the limit of {below_hz} Hz",
-            omega / TAU,
-            robot.cables[*cable].name
-        ),
-        None => format!("with fixed ends no cable resonates below the limit of {below_hz} Hz"),
-    };
+impl Advisor<'_> {
+    /// Recommends the simplest model that has all compared frequencies of the reference, of which there are `total`.
+    fn advise(&self, total: usize) -> Advice {
+        let cables = self.equilibrium.cables.iter().enumerate();
+        let sags: Vec<Sag> = cables.map(|(i, state)| Sag::of(self.robot, i, state)).collect();
+        let deepest = (0..sags.len()).max_by(|&i, &j| sags[i].ratio().total_cmp(&sags[j].ratio())).unwrap_or(0);
+        let ratio = sags[deepest].ratio();
+        let lambda2 = sags.iter().map(|s| s.lambda2).fold(0.0, f64::max);
 
-    // The simplest model that has all frequencies.
-    let reference = dynamics.linearisation.cable_model;
-    let simplest = models.iter().find(|m| m.modes.is_ok() && m.first_wrong_hz.is_none()).map_or(reference, |m| m.model);
-    let percent = 100.0 * TOLERANCE;
-    let result = |model: CableModel| models.iter().find(|m| m.model == model);
-    let lost = result(CableModel::CatenaryStatic).map_or(0, |m| m.missed);
-    let total = truth.modes.len();
+        // The simplest model that has all frequencies.
+        let reference = self.dynamics.linearisation.cable_model;
+        let enough = |m: &&ModelResult| m.modes.is_ok() && m.first_wrong_hz.is_none();
+        let simplest = self.models.iter().find(enough).map_or(reference, |m| m.model);
+        let choice = match self.criterion.platform_share {
+            None => self.for_all_modes(simplest, reference),
+            Some(share) => self.for_the_platform(simplest, reference, total, share),
+        };
 
-    let first = first_of_cables.map_or(String::new(), |hz| format!(" (the first at {hz:.3} Hz)"));
-    let constant = format!(
-        "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in the \
-         cables{first}, and a constant cable stiffness misses {lost} of them"
-    );
+        let range = if ratio > SHALLOW_SAG_LIMIT {
+            " The maximum sag is beyond d/l = 1/20, the range of `shallow-dynamic`: its cable resonances are approximate."
+        } else {
+            ""
+        };
+        let cable = &self.robot.cables[deepest].name;
+        let text =
+            format!("{choice} (maximum sag d/l = {ratio:.4} at cable \"{cable}\", maximum λ² = {lambda2:.1}).{range}");
+        Advice { model: simplest, text }
+    }
 
-    let choice = match simplest {
-        _ if truth.modes.is_empty() => {
-            format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
+    fn result(&self, model: CableModel) -> Option<&ModelResult> {
+        self.models.iter().find(|m| m.model == model)
+    }
+
+    /// Choice for all modes.
+    fn for_all_modes(&self, simplest: CableModel, reference: CableModel) -> String {
+        let Self { truth, below_hz, .. } = self;
+
+        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the moving
+        // platform there are modes of the cables below it.
+        let mut of_cables = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
+        let first_of_cables = of_cables.next();
+        let cable_modes = usize::from(first_of_cables.is_some()) + of_cables.count();
+        let clamped = self.dynamics.clamped_frequencies_below(below_hz * TAU);
+        let string = match clamped.first() {
+            Some((omega, cable)) => format!(
+                "with fixed ends the cables resonate from {:.3} Hz on (cable \"{}\"), below the limit of {below_hz} Hz",
+                omega / TAU,
+                self.robot.cables[*cable].name
+            ),
+            None => format!("with fixed ends no cable resonates below the limit of {below_hz} Hz"),
+        };
+
+        let percent = self.criterion.percent();
+        let lost = self.result(CableModel::CatenaryStatic).map_or(0, |m| m.missed);
+        let total = truth.modes.len();
+        let first = first_of_cables.map_or(String::new(), |hz| format!(" (the first at {hz:.3} Hz)"));
+        let constant = format!(
+            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in the \
+             cables{first}, and a constant cable stiffness misses {lost} of them"
+        );
+
+        match simplest {
+            _ if truth.modes.is_empty() => {
+                format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
+            }
+            model if model == reference => {
+                let wrong = self.result(CableModel::ShallowDynamic).and_then(|m| m.first_wrong_hz);
+                let closed = wrong.map_or(String::new(), |hz| {
+                    format!("; `shallow-dynamic` lacks the mode at {hz:.3} Hz or has it wrong by more than {percent} %")
+                });
+                format!("Use `{model}`: {constant}{closed}")
+            }
+            CableModel::ShallowDynamic => {
+                format!(
+                    "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
+                     `{reference}`; {constant}"
+                )
+            }
+            _ => format!(
+                "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
+                 `{reference}`; {string}"
+            ),
         }
-        model if model == reference => {
-            let wrong = result(CableModel::ShallowDynamic).and_then(|m| m.first_wrong_hz);
-            let closed = wrong.map_or(String::new(), |hz| {
-                format!("; `shallow-dynamic` lacks the mode at {hz:.3} Hz or has it wrong by more than {percent} %")
-            });
-            format!("Use `{model}`: {constant}{closed}")
-        }
-        CableModel::ShallowDynamic => {
-            format!(
-                "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
-                 `{reference}`; {constant}"
-            )
-        }
-        _ => format!(
-            "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
-             `{reference}`; {string}"
-        ),
-    };
+    }
 
-    let range = if ratio > SHALLOW_SAG_LIMIT {
-        " The maximum sag is beyond d/l = 1/20, the range of `shallow-dynamic`: its cable resonances are approximate."
-    } else {
-        ""
-    };
-    let cable = &robot.cables[deepest].name;
-    let text =
-        format!("{choice} (maximum sag d/l = {ratio:.4} at cable \"{cable}\", maximum λ² = {lambda2:.1}).{range}");
-    Advice { model: simplest, text }
+    /// Choice for the modes of the platform alone.
+    fn for_the_platform(&self, simplest: CableModel, reference: CableModel, total: usize, share: f64) -> String {
+        let (below_hz, percent) = (self.below_hz, self.criterion.percent());
+        let modes = crate::counted(total, "platform mode");
+        if total == 0 {
+            return format!(
+                "No mode below {below_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit, or \
+                 require a smaller share",
+                100.0 * share
+            );
+        }
+        if simplest != reference {
+            let difference = self.result(simplest).and_then(|m| m.largest_difference).unwrap_or(0.0);
+            return format!(
+                "Use `{simplest}` for the platform: it has {} below {below_hz} Hz within {percent} % of `{reference}`, the \
+                 largest difference is {:+.2} %",
+                if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") },
+                100.0 * difference
+            );
+        }
+
+        // How far the simplest models come.
+        let reached: Vec<String> = [CableModel::Spring, CableModel::CatenaryStatic, CableModel::ShallowDynamic]
+            .into_iter()
+            .filter_map(|model| {
+                let result = self.result(model).filter(|result| result.modes.is_ok() && model != reference)?;
+                let farthest = result.largest_difference.map_or_else(
+                    || "it has none of them".to_owned(),
+                    |difference| format!("its largest difference is {:+.1} %", 100.0 * difference),
+                );
+                Some(format!("`{model}` has {} ({farthest})", result.within))
+            })
+            .collect();
+        format!(
+            "Use `{reference}` for the platform: no simpler model has {} below {below_hz} Hz within {percent} %: {}",
+            if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") },
+            reached.join(", ")
+        )
+    }
 }

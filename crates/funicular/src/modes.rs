@@ -13,7 +13,7 @@ mod mac;
 pub mod tracking;
 
 pub use fundamental::{First, FirstError, first, lowest_by_count};
-pub use lowest::{LowestError, lowest};
+pub use lowest::{LowestError, PlatformModeError, lowest, lowest_with_platform};
 pub use mac::mac;
 
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
@@ -57,6 +57,10 @@ impl Kind {
     }
 }
 
+/// Default of the minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the
+/// platform: most of the energy. [`Kind`] is stricter, because it leaves room for mixed modes.
+pub const PLATFORM_SHARE: f64 = 0.5;
+
 /// Natural mode. A frequency of multiplicity m appears m times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
@@ -99,6 +103,13 @@ pub struct Modes {
     /// True if list and count agree, every residual is at most 1e-8, and catenary-dynamic cables are resolved up to the
     /// limit.
     pub certified: bool,
+}
+
+impl Modes {
+    /// Index of the lowest mode that has at least the fraction `share` of its kinetic energy in the platform.
+    pub fn first_platform(&self, share: f64) -> Option<usize> {
+        self.modes.iter().position(|mode| mode.platform_energy_fraction >= share)
+    }
 }
 
 /// Relative half width of the neighbourhood of a pole that counts as the pole. Modes inside are listed at the pole, so

@@ -152,7 +152,7 @@ pub enum ReductionError {
     Order(usize),
     /// No choice of modes keeps the tolerance.
     #[error(
-        "no state space has an error of at most {requested} of the peaks: {order} states reach {reached:.2e}, because a \
+        "no state space has an error of at most {requested:e} of the peaks: {order} states reach {reached:.2e}, because a \
          constant damping ratio has no exact state space or because of modes that are left out; choose a larger tolerance"
     )]
     Tolerance {

@@ -194,8 +194,8 @@ pub fn measured(
 
     let row = |(k, (receptance, frequency_hz)): (usize, (&CMat6, &f64))| {
         let omega = frequency_hz * TAU;
-        let magnitudes = |port: &Port| port.vector(dynamics, omega).map(|v| v.norm());
-        let size = receptance.map(|entry| entry.norm());
+        let magnitudes = |port: &Port| port.vector(dynamics, omega).map(Complex::norm);
+        let size = receptance.map(Complex::norm);
         let from: Vec<Vec6> = inputs.iter().map(|input| size * magnitudes(input)).collect();
         let sums = outputs.iter().flat_map(|(output, quantity)| {
             let to = magnitudes(output);

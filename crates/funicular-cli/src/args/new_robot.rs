@@ -28,8 +28,8 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "UNIT", value_enum)]
     pub(crate) csv_unit: Option<LengthUnitName>,
 
-    /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll) [default: a stable pose that
-    /// the program finds]
+    /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll) [default: a stable pose
+    /// that the program finds]
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) pose: Option<PoseNumbers>,
 

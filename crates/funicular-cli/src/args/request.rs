@@ -2,9 +2,9 @@
 
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
-    ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs, PlotArgs,
-    PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs,
-    TensionArgs, TensionRuleName, TermArgs, WireRopeName,
+    ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs,
+    PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs,
+    SweepArgs, TensionArgs, TensionRuleName, TermArgs, WireRopeName,
 };
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
@@ -124,6 +124,7 @@ impl ModesArgs {
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
             stations: self.stations,
+            platform_share: self.platform_share,
             damped: true,
             state: self.state.request(),
             tensions: self.tensions.request(),
@@ -159,9 +160,23 @@ impl CompareArgs {
         request::CompareRequest {
             robot,
             below_hz: self.below_hz,
+            platform: self.platform,
+            platform_share: self.platform_share,
+            tolerance: self.tolerance,
             state: self.state.request(),
             tensions: self.tensions.request(),
             terms: self.terms.request(),
+        }
+    }
+}
+
+impl PayloadArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::PayloadRequest {
+        request::PayloadRequest {
+            robot,
+            payload_center_m: self.payload_center_m.map(Into::into),
+            state: self.state.request(),
+            tensions: self.tensions.request(),
         }
     }
 }
@@ -218,6 +233,8 @@ impl EachArgs {
         EachPoint {
             quantities: self.what.quantity.iter().map(funicular_study::sweep::Quantity::name).collect(),
             up_to_hz: self.what.up_to_hz,
+            platform_share: self.what.platform_share,
+            payload_center_m: self.what.payload_center_m.map(Into::into),
             state: self.state.request(),
             tensions: self.tensions.request(),
             model: self.model.request(),
@@ -245,6 +262,7 @@ impl ReportArgs {
         request::ReportRequest {
             robot,
             below_hz: self.below_hz,
+            platform_share: self.platform_share,
             input: self.input.as_ref().map(|input| input.name.clone()),
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),

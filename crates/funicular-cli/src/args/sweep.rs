@@ -65,6 +65,14 @@ pub(crate) struct WhatArgs {
     /// Upper limit of the search for natural frequencies [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular_study::sweep::MAX_HZ)]
     pub(crate) up_to_hz: f64,
+
+    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
+    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = funicular::modes::PLATFORM_SHARE)]
+    pub(crate) platform_share: f64,
+
+    /// Centre of mass of the payload, platform frame [m] [default: that of the platform]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) payload_center_m: Option<funicular::math::Vec3>,
 }
 
 /// Help of the option for quantities.

@@ -23,6 +23,11 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     values::not_negative(finite(text)?)
 }
 
+/// Reads a fraction: above 0, at most 1.
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
+    values::fraction(finite(text)?)
+}
+
 /// Reads numbers separated by commas.
 fn list(text: &str) -> Result<Vec<f64>, String> {
     text.split(',').map(finite).collect()

@@ -21,12 +21,11 @@ impl Printed for Frf {
             );
         }
 
-        let several: String = (self.responses.iter())
-            .map(|pair| {
-                let (largest, peaks) = (largest(&self.frequency_hz, pair), peaks(pair, self.prominence_db));
-                format!("{}; {largest}\n\n{peaks}\n\n", heading(pair))
-            })
-            .collect();
+        let mut several = String::new();
+        for pair in &self.responses {
+            let (largest, peaks) = (largest(&self.frequency_hz, pair), peaks(pair, self.prominence_db));
+            several += &[&heading(pair), "; ", &largest, "\n\n", &peaks, "\n\n"].concat();
+        }
         let count = counted(self.responses.len(), "response");
         format!("{robot}: {count}\n{models}\n\n{range}\n\n{several}The whole curves: --format csv or --format json.\n")
     }

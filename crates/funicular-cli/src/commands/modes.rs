@@ -1,7 +1,7 @@
 //! `modes`: text and CSV.
 
 use crate::output::Printed;
-use crate::table::{self, Table, counted, decimals, significant};
+use crate::table::{self, Table, counted, decimals, short, significant};
 use funicular_study::analyses::modes::{ModeRow, Modes, Participation, strongest};
 
 impl Printed for Modes {
@@ -33,12 +33,13 @@ impl Printed for Modes {
         };
 
         format!(
-            "{}: natural frequencies below {} Hz\n{}\n{pair}\n{}{}\n",
+            "{}: natural frequencies below {} Hz\n{}\n{pair}\n{}{}\n{}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
             if self.modes.is_empty() { String::new() } else { format!("{table}\n") },
-            certificate(self)
+            certificate(self),
+            first_platform(self)
         )
     }
 
@@ -94,6 +95,24 @@ fn certificate(found: &Modes) -> String {
             "NOT certified: the Wittrick–Williams count below {below_hz} Hz is {count_below}, the list has {listed}\
              {unstable}."
         )
+    }
+}
+
+/// Sentence on the first mode of the platform.
+fn first_platform(found: &Modes) -> String {
+    let percent = short(100.0 * found.platform_share, 4);
+    match &found.first_platform_mode {
+        Some(first) => format!(
+            "First mode with at least {percent} % of its kinetic energy in the platform: {} Hz (no. {}, {} %).",
+            decimals(first.frequency_hz, 4),
+            first.index + 1,
+            decimals(100.0 * first.platform_energy_fraction, 1)
+        ),
+        None => format!(
+            "No mode below {} Hz has at least {percent} % of its kinetic energy in the platform: raise --below-hz or lower \
+             --platform-share.",
+            found.below_hz
+        ),
     }
 }
 

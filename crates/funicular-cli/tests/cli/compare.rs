@@ -1,6 +1,6 @@
 //! `compare`: all models and advice.
 
-use super::{json, succeed};
+use super::{json, number, robot, run, stderr, succeed};
 
 #[test]
 fn compare_has_all_models_and_advice() {
@@ -11,4 +11,51 @@ fn compare_has_all_models_and_advice() {
     assert_eq!(value["reference"], "catenary-dynamic");
     assert_eq!(value["advice"]["cable_model"], "shallow-dynamic");
     assert!(succeed(&["compare", "ROBOT", "--below-hz", "3"]).contains("Use `shallow-dynamic`"));
+}
+
+#[test]
+fn the_platform_alone_is_compared_with_its_own_tolerance() {
+    let cogiro = robot("cogiro.toml");
+    let with = |more: &[&str]| json(&[&["compare", &cogiro, "--below-hz", "15", "--platform"], more].concat());
+    let strict = with(&[]);
+    let reference = strict["models"].as_array().unwrap().last().unwrap();
+    let modes = reference["modes"].as_array().unwrap();
+    let compared: Vec<usize> =
+        strict["compared"].as_array().unwrap().iter().map(|i| i.as_u64().unwrap() as usize).collect();
+    let of_platform: Vec<usize> =
+        (0..modes.len()).filter(|&i| number(&modes[i]["platform_energy_fraction"]) >= 0.5).collect();
+    assert_eq!(compared, of_platform);
+    assert!(compared.len() >= 3 && compared.len() < modes.len() / 4, "{compared:?} of {}", modes.len());
+
+    let spring = |found: &serde_json::Value| {
+        let of = found["models"].as_array().unwrap()[0].clone();
+        assert_eq!(of["cable_model"], "spring");
+        of
+    };
+    let largest = number(&spring(&strict)["largest_difference"]).abs();
+    assert_eq!(number(&spring(&strict)["missed"]), 0.0);
+    // A tolerance above its largest difference makes the spring good enough, one below does not.
+    let tolerance = |factor: f64| with(&["--tolerance", &format!("{}", factor * largest)]);
+    assert_eq!(tolerance(1.001)["advice"]["cable_model"], "spring");
+    assert_ne!(tolerance(0.999)["advice"]["cable_model"], "spring");
+    let none = succeed(&["compare", &cogiro, "--below-hz", "3", "--platform"]);
+    assert!(none.contains("No mode below 3 Hz has at least 50 % of its kinetic energy in the platform"), "{none}");
+    let output = run(&["compare", &cogiro, "--below-hz", "3", "--platform", "--platform-share", "50"]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("0.5 for 50 %"), "{}", stderr(&output));
+}
+
+/// The sentence stands exactly where static sag is worse than springs above the first cable resonance.
+#[test]
+fn frozen_sag_is_explained_where_it_happens() {
+    let cogiro = robot("cogiro.toml");
+    let found = json(&["compare", &cogiro, "--below-hz", "4.9"]);
+    let frozen = &found["frozen_sag"];
+    assert!(number(&frozen["relative_difference"]) < -0.01, "{frozen}");
+    assert!(number(&frozen["relative_difference"]).abs() > number(&frozen["spring_relative_difference"]).abs());
+    assert!(number(&frozen["frequency_hz"]) > number(&frozen["first_cable_resonance_hz"]));
+    let text = succeed(&["compare", &cogiro, "--below-hz", "4.9"]);
+    assert!(text.contains("keeps their sag from following the platform"), "{text}");
+    // With a tolerance above the difference, and where no spring finds the mode, there is nothing to explain.
+    assert!(json(&["compare", &cogiro, "--below-hz", "4.9", "--tolerance", "0.05"])["frozen_sag"].is_null());
+    assert!(json(&["compare", "ROBOT", "--below-hz", "2"])["frozen_sag"].is_null());
 }

@@ -13,6 +13,7 @@ mod modes;
 mod motion;
 mod new_robot;
 mod pages;
+mod payload;
 mod plots;
 mod pose_error;
 mod readme;

@@ -65,3 +65,30 @@ fn modes_take_part_in_a_response_and_move_their_cables() {
     // One mode stands out, and is most of the peak.
     assert!(close(largest, peak, 0.1 * peak), "{largest} {peak}");
 }
+
+/// Oracle: the complete list below a high limit.
+#[test]
+fn the_first_platform_mode_is_the_first_of_the_list_with_the_share() {
+    let cogiro = super::robot("cogiro.toml");
+    let all = json(&["modes", &cogiro, "--below-hz", "12"]);
+    let modes = all["modes"].as_array().unwrap();
+    for share in ["0.5", "0.75", "0.97"] {
+        let first = modes.iter().position(|mode| number(&mode["platform_energy_fraction"]) >= share.parse().unwrap());
+        let found = json(&["modes", &cogiro, "--below-hz", "12", "--platform-share", share]);
+        assert_eq!(found["first_platform_mode"]["index"].as_u64().map(|index| index as usize), first, "{share}");
+        let Some(first) = first else { continue };
+        let expected = number(&modes[first]["frequency_hz"]);
+        let text = succeed(&["modes", &cogiro, "--below-hz", "12", "--platform-share", share]);
+        assert!(text.contains(&format!("in the platform: {expected:.4} Hz (no. {}", first + 1)), "{text}");
+
+        // A map finds it without a limit.
+        let line = ["sweep", &cogiro, "--vary", "platform.mass_kg=160", "--quantity", "first-platform-frequency"];
+        let (header, rows) = csv(&[&line[..], &["--platform-share", share]].concat());
+        let at = header.iter().position(|column| column == "first_platform_frequency_hz").unwrap();
+        let mass = json(&["modes", &cogiro, "--below-hz", "30", "--platform-share", share, "--mass-kg", "160"]);
+        let expected = number(&mass["first_platform_mode"]["frequency_hz"]);
+        assert!(close(rows[0][at].parse().unwrap(), expected, 1e-9 * expected), "{rows:?} {expected}");
+    }
+    let text = succeed(&["modes", &cogiro, "--below-hz", "3"]);
+    assert!(text.contains("No mode below 3 Hz has at least 50 %") && text.contains("raise --below-hz"), "{text}");
+}

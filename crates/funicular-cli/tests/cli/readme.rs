@@ -54,6 +54,37 @@ fn the_pages_for_new_readers_show_what_the_program_prints() {
     assert!(blocks_are_printed("docs/measuring.md") >= 4);
 }
 
+/// Commands with the robot of the quick start that a document shows without their output, in its order.
+fn commands_without_output(text: &str) -> Vec<String> {
+    let mut commands = Vec::new();
+    for line in text.lines() {
+        let line_of_shell = line.starts_with("funicular ").then(|| line.split(" #").next().unwrap_or_default());
+        let between_backticks = line.split('`').skip(1).step_by(2).filter(|code| code.starts_with("funicular "));
+        let found = line_of_shell.into_iter().chain(between_backticks);
+        commands.extend(found.filter(|code| code.contains("hall.") && !code.contains('…')).map(str::to_owned));
+    }
+    commands
+}
+
+#[test]
+fn commands_that_the_pages_show_without_output_run() {
+    let hall = root().join("docs/quick-start/hall.toml").canonicalize().unwrap();
+    let mut count = 0;
+    for page in ["quick-start", "workspace", "matlab"] {
+        let folder = tempfile::tempdir().unwrap();
+        let text = fs::read_to_string(root().join(format!("docs/{page}.md"))).unwrap();
+        for line in commands_without_output(&text) {
+            let words = line.split_whitespace().skip(1);
+            let arguments: Vec<&str> =
+                words.map(|word| if word.ends_with("hall.toml") { hall.to_str().unwrap() } else { word }).collect();
+            let output = command(&arguments).current_dir(folder.path()).output().unwrap();
+            assert_eq!(output.status.code(), Some(0), "{page}: {line}: {}", stderr(&output));
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "{count} commands");
+}
+
 /// Keys and options that the glossary names exist: a word of the program that changes has to change there.
 #[test]
 fn the_glossary_names_options_and_keys_that_exist() {

@@ -52,7 +52,7 @@ class Analyses:
         normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
         the natural frequencies of the cable with both ends fixed.
         """
-    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
         """
         Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
         recommended model.
@@ -61,6 +61,12 @@ class Analyses:
         ----------
         below_hz
             Limit of the frequencies [Hz].
+        platform
+            Compare the modes of the platform alone.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
+        tolerance
+            Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
         assembly, in_plane_only
             Terms of the stiffness, as in `stiffness`.
 
@@ -132,7 +138,7 @@ class Analyses:
         ResponseWarning
             At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, damped: bool = True) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
@@ -148,6 +154,9 @@ class Analyses:
             Number of points along every cable, ends included, whose displacements are wanted.
         cable_model, assembly, in_plane_only
             Models, as in `stiffness`.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
+            platform; 0.5 if not given.
         damped
             Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
             damping, and there are no eigenvalues.
@@ -182,7 +191,7 @@ class Analyses:
         cable_model, assembly, in_plane_only
             Models, as in `stiffness`.
         """
-    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> Page:
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex = ..., input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
         """
         Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
 
@@ -197,6 +206,8 @@ class Analyses:
             platform that cannot move along z.
         input_point_m, output_point_m, cable_model, assembly, in_plane_only
             Points and models, as in `frf`.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
         """
     def state_space(self, /, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> StateSpaceModel:
         """
@@ -335,6 +346,11 @@ class Equilibrium(Analyses):
     def force_on_platform_n(self, /) -> NDArray[float64]:
         """
         Forces of the cables on the platform in world axes [N], one row per cable.
+        """
+    @property
+    def held_pose(self, /) -> Pose | None:
+        """
+        Pose whose unstrained lengths are held, as with `hold_lengths_of_pose=True`; else None.
         """
     @property
     def iterations(self, /) -> int:
@@ -614,7 +630,7 @@ class Robot(Analyses):
         """
         Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -636,6 +652,10 @@ class Robot(Analyses):
             unstrained lengths [m]; the state of the robot file if not given.
         up_to_hz
             Limit of the search for natural frequencies [Hz]; 1000 if not given.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`; 0.5 if not given.
+        payload_center_m
+            Centre of mass of the payload for `payload-max`, platform frame [m]; that of the platform if not given.
         file
             File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
             holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -684,6 +704,30 @@ class Robot(Analyses):
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
         `range`, `minimum`, `maximum`, `meaning` and `given`. `Robot.with_` and `vary=` use the same paths.
         """
+    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> dict[str, Any]:
+        """
+        Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
+
+        The payload is held by any tensions within the limits, not only by those of a tension rule. The pose need not be
+        held without a payload.
+
+        Parameters
+        ----------
+        payload_center_m
+            Centre of mass of the payload, platform frame [m]; that of the platform if not given.
+
+        The other parameters are those of `equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `minimum` and `maximum` with `payload_kg` and `cables`; without `maximum` if no
+        maximum tension limits the payload.
+
+        Raises
+        ------
+        StaticsError
+            No payload is held at this pose.
+        """
     def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> dict[str, Any]:
         """
         Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
@@ -726,7 +770,7 @@ class Robot(Analyses):
         """
         Source of the robot's numbers.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex = ..., platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
@@ -959,7 +1003,8 @@ def source_file(path: str | PathLike[str]) -> str:
 
 def text_of(request: str, call: str) -> tuple[str, list[str]]:
     """
-    Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that makes a page again.
+    Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that
+    makes a page again.
     """
 
 def write_file(path: str | PathLike[str], text: str) -> None:

@@ -89,6 +89,10 @@ class Modes(_ArrayFields):
     """True if the list has as many modes as the count and every mode is accurate."""
     unstable_directions: int
     """Number of directions in which the equilibrium is unstable; they have no frequency, but are in the count."""
+    platform_share: float
+    """Minimum fraction of the kinetic energy in the platform for `first_platform_index`."""
+    first_platform_index: int | None
+    """Index of the first mode of the platform; None if none lies below the limit."""
     damped_certified: bool | None
     """True if every mode has its damped partner, by a count; None with `damped=False`."""
     cable_names: tuple[str, ...]
@@ -180,6 +184,7 @@ def modes(found: dict[str, Any]) -> Modes:
         shape=table("shape", 6),
         modal_mass_kg=column("modal_mass_kg"),
         residual=column("residual"),
+        first_platform_index=found.get("first_platform_mode", {}).get("index"),
         damped_certified=found.get("damped_certified"),
         cable_names=tuple(cables),
         input=found.get("input"),
@@ -199,7 +204,7 @@ def modes(found: dict[str, Any]) -> Modes:
 
 # Keys of the results that become attributes of `Modes` without conversion.
 _COMMON_KEYS = (
-    *("below_hz", "count_below", "certified", "unstable_directions"),
+    *("below_hz", "count_below", "certified", "unstable_directions", "platform_share"),
     *("robot", "static_model", "cable_model", "assembly", "in_plane_only"),
 )
 

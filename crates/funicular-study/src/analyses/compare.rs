@@ -7,7 +7,7 @@ use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::CableModel;
-use funicular::compare::{self, Comparison, ModelResult, TOLERANCE};
+use funicular::compare::{self, Comparison, Criterion, FrozenSag, ModelResult};
 use funicular::dynamics::Linearisation;
 use funicular::modes;
 use funicular::robot::Robot;
@@ -26,8 +26,16 @@ pub struct Compared {
     pub origin: Origin,
     pub reference: &'static str,
     pub tolerance: f64,
+    /// Minimum fraction of the kinetic energy in the platform for a compared mode; absent if all modes are compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub platform_share: Option<f64>,
+    /// Indices of the compared modes in the list of the reference, from 0.
+    pub compared: Vec<usize>,
     pub models: Vec<ModelRow>,
     pub advice: AdviceRow,
+    /// Reason why a model with static sag is worse than a spring; absent if it is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frozen_sag: Option<FrozenSagRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -44,6 +52,11 @@ pub struct ModelRow {
     pub certified: bool,
     pub matches: Vec<MatchRow>,
     pub missed: usize,
+    /// Number of compared modes within the tolerance.
+    pub within: usize,
+    /// Largest relative difference of the compared modes that have a counterpart.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_difference: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_wrong_hz: Option<f64>,
 }
@@ -65,6 +78,32 @@ pub struct AdviceRow {
     pub text: String,
 }
 
+/// Modes for which a static sag model is worse than a spring.
+#[derive(Serialize)]
+pub struct FrozenSagRow {
+    pub cable_model: &'static str,
+    pub modes: usize,
+    pub frequency_hz: f64,
+    pub relative_difference: f64,
+    pub spring_relative_difference: f64,
+    pub first_cable_resonance_hz: f64,
+    pub text: String,
+}
+
+impl From<FrozenSag> for FrozenSagRow {
+    fn from(frozen: FrozenSag) -> Self {
+        Self {
+            text: frozen.text(),
+            cable_model: frozen.model.name(),
+            modes: frozen.modes,
+            frequency_hz: frozen.frequency_hz,
+            relative_difference: frozen.static_difference,
+            spring_relative_difference: frozen.spring_difference,
+            first_cable_resonance_hz: frozen.clamped_hz,
+        }
+    }
+}
+
 /// Computes the modes with every cable model and compares them with the reference.
 ///
 /// # Errors
@@ -80,6 +119,10 @@ pub fn run(robot: Robot, request: &request::CompareRequest) -> Result<Compared> 
 /// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Compared> {
     request::check_positive("below_hz", request.below_hz)?;
+    request::check_fraction("platform_share", request.platform_share)?;
+    request::check_not_negative("tolerance", request.tolerance)?;
+    let platform_share = request.platform.then_some(request.platform_share);
+    let criterion = Criterion { tolerance: request.tolerance, platform_share };
     let linearisation = Linearisation {
         // The number of modes is checked before any work. Warnings of the models follow.
         cable_model: CableModel::ShallowDynamic,
@@ -88,9 +131,9 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     };
     let (reference, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&reference, request.below_hz, modes::MAX_MODES)?;
-    let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation)?;
+    let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation, criterion)?;
 
-    let Comparison { below_hz, reference, models, advice } = found;
+    let Comparison { below_hz, compared, reference, models, advice, frozen_sag, .. } = found;
     for model in &models {
         if let Some(warning) = model.modes.as_ref().ok().and_then(modes::Modes::caveat) {
             warnings.push(format!("{}: {warning}", model.model));
@@ -105,9 +148,12 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
         in_plane_only: linearisation.in_plane_only,
         origin: Origin::of(at_rest),
         reference: reference.name(),
-        tolerance: TOLERANCE,
+        tolerance: request.tolerance,
+        platform_share,
+        compared,
         models: models.into_iter().map(ModelRow::from).collect(),
         advice: AdviceRow { cable_model: advice.model.name(), text: advice.text },
+        frozen_sag: frozen_sag.map(FrozenSagRow::from),
         warnings,
     })
 }
@@ -131,9 +177,18 @@ impl From<ModelResult> for ModelRow {
                 correlation: m.correlation,
             })
             .collect();
-        let (missed, first_wrong_hz) = (result.missed, result.first_wrong_hz);
-
-        Self { cable_model: result.model.name(), error, modes, count_below, certified, matches, missed, first_wrong_hz }
+        Self {
+            cable_model: result.model.name(),
+            error,
+            modes,
+            count_below,
+            certified,
+            matches,
+            missed: result.missed,
+            within: result.within,
+            largest_difference: result.largest_difference,
+            first_wrong_hz: result.first_wrong_hz,
+        }
     }
 }
 

@@ -297,7 +297,9 @@ impl Response {
 
         // The rows of the first chunk grow, so that a single chunk is not copied.
         let mut values = compute(first)?;
-        values.iter_mut().for_each(|row| row.reserve_exact(rest.len()));
+        for row in &mut values {
+            row.reserve_exact(rest.len());
+        }
         count(first)?;
         for chunk in rest.chunks(CHUNK) {
             for (row, new) in values.iter_mut().zip(compute(chunk)?) {

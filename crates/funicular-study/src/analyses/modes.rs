@@ -29,6 +29,11 @@ pub struct Modes {
     /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damped_certified: Option<bool>,
+    /// Minimum fraction of the kinetic energy in the platform for `first_platform_mode`.
+    pub platform_share: f64,
+    /// First mode of the platform; absent if none lies below the limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_platform_mode: Option<FirstPlatformMode>,
     pub cable_names: Vec<String>,
     #[serde(flatten)]
     pub participation: Option<Participation>,
@@ -37,6 +42,24 @@ pub struct Modes {
     pub modes: Vec<ModeRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// First mode with enough of its kinetic energy in the platform.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct FirstPlatformMode {
+    /// Index in the list of modes, from 0.
+    pub index: usize,
+    pub frequency_hz: f64,
+    pub platform_energy_fraction: f64,
+}
+
+impl FirstPlatformMode {
+    /// First mode of the platform in a list.
+    pub fn of(found: &modes::Modes, share: f64) -> Option<Self> {
+        let index = found.first_platform(share)?;
+        let modes::Mode { frequency_hz, platform_energy_fraction, .. } = found.modes[index];
+        Some(Self { index, frequency_hz, platform_energy_fraction })
+    }
 }
 
 /// Input and output of the response to which the modes contribute.
@@ -120,6 +143,7 @@ pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
 /// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
+    request::check_fraction("platform_share", request.platform_share)?;
     let pair = pair(request)?;
     let signals = signals(&at_rest.robot, pair.as_ref(), request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
@@ -169,6 +193,8 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
         certified: found.certified,
         unstable_directions: found.unstable_directions,
         damped_certified: damped.map(|damped| damped.certified),
+        platform_share: request.platform_share,
+        first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
         participation,
         stations: stations.iter().map(|of| StationsRow::of(robot, of)).collect(),

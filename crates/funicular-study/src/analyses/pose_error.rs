@@ -162,8 +162,8 @@ fn lengths(robot: &Robot, request: &request::PoseErrorRequest) -> Result<(Vec<f6
     if holder.state == State::Unknown {
         bail!("the robot file gives neither unstrained lengths nor a pose: give ⟪lengths_m⟫ or ⟪pose⟫");
     }
-    let Solution { equilibrium, rule, .. } = statics::solve(&holder, StaticModel::Catenary, rule)
-        .map_err(|error| with_warnings(error.into(), funicular::warnings::of_robot(&holder)))?;
+    let Solution { equilibrium, rule, .. } =
+        statics::solve(&holder, StaticModel::Catenary, rule).map_err(|error| with_warnings(error, &holder))?;
     let row = HeldPoseRow {
         pose: PoseRow::of(&equilibrium.pose),
         mass_kg: holder.platform.mass,

@@ -181,17 +181,14 @@ pub struct LimitNumbers {
 }
 
 impl LimitNumbers {
-    fn of(margin: &TensionMargin) -> Self {
+    pub(super) fn of(margin: &TensionMargin) -> Self {
         let TensionRange { minimum, maximum } = margin.range;
         Self {
             minimum_tension_n: minimum,
             maximum_tension_n: maximum.is_finite().then_some(maximum),
             tension_margin_n: margin.distance(),
             tension_margin: margin.relative(),
-            limit_reached: margin.reached().map(|limit| match limit {
-                Limit::Minimum => "minimum",
-                Limit::Maximum => "maximum",
-            }),
+            limit_reached: margin.reached().map(Limit::name),
         }
     }
 }

@@ -13,8 +13,8 @@ use funicular::robot::Pose;
 use funicular::robot::spec::key::{Absent, Key, KeyValue};
 use funicular::robot::spec::{TABLES, top_of_file};
 
-/// Modulus of a wire rope on its metal area [Pa]: a starting value within 60 to 110 GPa (Feyrer, Wire Ropes, 2nd edition
-/// 2015).
+/// Modulus of a wire rope on its metal area [Pa]: a starting value within 60 to 110 GPa (Feyrer, Wire Ropes, 2nd
+/// edition 2015).
 const MODULUS: f64 = 100e9;
 
 /// Strength class of the wires [N/mm²], the usual one of EN 12385-4.
@@ -235,7 +235,8 @@ struct Section<'o> {
 impl<'o> Section<'o> {
     /// Begins a table.
     fn new(out: &'o mut String, header: &'static str) -> Self {
-        out.push_str(&format!("\n{}\n", header.replace("NAME", ROPE)));
+        add_line(out, "");
+        add_line(out, &header.replace("NAME", ROPE));
         Self { out, header }
     }
 
@@ -257,7 +258,7 @@ impl<'o> Section<'o> {
 
     /// Writes a value without a comment.
     fn plain(&mut self, key: &str, value: &str) {
-        self.out.push_str(&format!("{key} = {value}\n"));
+        add_line(self.out, &format!("{key} = {value}"));
     }
 
     /// Writes the examples of the keys that are left out, as comments.
@@ -274,12 +275,18 @@ impl<'o> Section<'o> {
     /// Writes a line with its comment beside it, or above it if there is no room.
     fn line(&mut self, line: &str, about: &str) {
         if line.chars().count() + about.chars().count() + 4 <= WIDTH {
-            self.out.push_str(&format!("{line}  # {about}\n"));
+            add_line(self.out, &format!("{line}  # {about}"));
         } else {
             comment(self.out, "", about);
-            self.out.push_str(&format!("{line}\n"));
+            add_line(self.out, line);
         }
     }
+}
+
+/// Adds a line of the file.
+fn add_line(out: &mut String, line: &str) {
+    out.push_str(line);
+    out.push('\n');
 }
 
 /// Meaning and unit of a key.

@@ -125,12 +125,12 @@ impl Room {
     }
 
     /// Cable from above the middle to the top of the platform.
-    fn from_above(&self) -> (Vec3, Vec3) {
+    fn cable_from_above(&self) -> (Vec3, Vec3) {
         (Vec3::z() * self.height, Vec3::z() * (0.5 * self.sides[2]))
     }
 
-    /// Cables of a rigid platform. From six cables on they come in pairs: the upper and the lower cable of a corner go to
-    /// different sides of the platform, which fixes the rotation about the vertical.
+    /// Cables of a rigid platform. From six cables on they come in pairs: the upper and the lower cable of a corner go
+    /// to different sides of the platform, which fixes the rotation about the vertical.
     fn around(&self, count: usize) -> Vec<(Vec3, Vec3)> {
         let top = 0.5 * self.sides[2];
         if count == 2 {
@@ -153,7 +153,7 @@ impl Room {
                 (self.on_circle(angle, lower), self.on_platform(angle + turn, -top)),
             ]
         });
-        pairs.chain((count % 2 == 1).then(|| self.from_above())).collect()
+        pairs.chain((count % 2 == 1).then(|| self.cable_from_above())).collect()
     }
 
     /// Cables of a point mass.
@@ -168,8 +168,8 @@ impl Room {
     fn in_plane(&self, count: usize) -> Vec<(Vec3, Vec3)> {
         let [a, _, c] = self.sides;
         if count == 3 {
-            // The lines of three mirrored cables meet in one point, about which nothing resists a rotation. So the right
-            // cable is a lower one, and the third cable balances it above the left corner.
+            // The lines of three mirrored cables meet in one point, about which nothing resists a rotation. So the
+            // right cable is a lower one, and the third cable balances it above the left corner.
             let corner = |sign: f64| Vec3::new(sign * 0.5 * a, 0.0, -sign * 0.5 * c);
             let right = Vec3::new(self.half, 0.0, self.height * (1.0 - PAIR_OVER_HEIGHT));
             let above = Vec3::new(-0.5 * a, 0.0, self.height);
@@ -187,7 +187,7 @@ impl Room {
             (anchor, Vec3::new(sign * 0.5 * a, 0.0, c * (0.5 - below(pair))))
         };
         let paired = (0..pairs).flat_map(|pair| [ends(pair, -1.0), ends(pair, 1.0)]);
-        paired.chain((count % 2 == 1).then(|| self.from_above())).collect()
+        paired.chain((count % 2 == 1).then(|| self.cable_from_above())).collect()
     }
 }
 

@@ -45,17 +45,16 @@ pub(super) fn read(csv: &SourceFile, unit: Option<LengthUnit>, motion: NewMotion
         }
 
         // The first line decides about the columns.
-        let (columns, count) = match &layout {
-            Some(layout) => layout,
-            None => {
-                let (columns, is_header) = Columns::of_first_line(&cells, unit, motion)
-                    .map_err(|reason| anyhow!("{shown}, line {line}: {reason}"))?;
-                let layout = layout.insert((columns, cells.len()));
-                if is_header {
-                    continue;
-                }
-                layout
+        let (columns, count) = if let Some(layout) = &layout {
+            layout
+        } else {
+            let (columns, is_header) = Columns::of_first_line(&cells, unit, motion)
+                .map_err(|reason| anyhow!("{shown}, line {line}: {reason}"))?;
+            let layout = layout.insert((columns, cells.len()));
+            if is_header {
+                continue;
             }
+            layout
         };
         if cells.len() != *count {
             bail!(

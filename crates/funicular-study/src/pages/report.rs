@@ -11,7 +11,9 @@ use super::figure::shapes::{self, Shapes};
 use super::figure::{Figure, model_style, response, robot as drawing};
 use super::table::{PageTable, fixed, significant};
 use crate::analyses::check::{LoadRow, WindRow};
+use crate::analyses::modes::FirstPlatformMode;
 use crate::at_rest::AtRest;
+use crate::text::short;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::cable::CableModel;
@@ -42,6 +44,8 @@ pub(crate) struct ReportInput<'a> {
     pub(crate) linearisation: Linearisation,
     /// Upper limit of the frequencies [Hz].
     pub(crate) below_hz: f64,
+    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+    pub(crate) platform_share: f64,
     /// Name and 6-vector of the exciting force or moment.
     pub(crate) frf_input: (String, Vec6),
     /// Name, 6-vector and quantity of the measured motion.
@@ -114,7 +118,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
         source: robot.source.trim_end_matches('.'),
-        key: key_numbers(at_rest, &found),
+        key: key_numbers(at_rest, &found, input.platform_share),
         state: state_text(equilibrium),
         robot_figure: drawing::complete(robot, equilibrium),
         platform_figure: drawing::close_up(robot, equilibrium),
@@ -161,7 +165,7 @@ fn sentence(text: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
-fn key_numbers(at_rest: &AtRest, found: &Modes) -> Vec<(&'static str, String)> {
+fn key_numbers(at_rest: &AtRest, found: &Modes, platform_share: f64) -> Vec<(&'static str, String)> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let p = equilibrium.pose.position_w;
     let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
@@ -191,6 +195,20 @@ fn key_numbers(at_rest: &AtRest, found: &Modes) -> Vec<(&'static str, String)> {
     if let Some(first) = found.modes.first() {
         key.push(("first natural frequency", format!("{} Hz", significant(first.frequency_hz, 4))));
     }
+    let of_platform = match FirstPlatformMode::of(found, platform_share) {
+        Some(first) => format!(
+            "{} Hz (no. {}, {} % of its energy in the platform)",
+            significant(first.frequency_hz, 4),
+            first.index + 1,
+            fixed(100.0 * first.platform_energy_fraction, 0)
+        ),
+        None => format!(
+            "none below {} Hz with {} % of its energy in the platform",
+            found.below_hz,
+            short(100.0 * platform_share, 4)
+        ),
+    };
+    key.push(("first platform mode", of_platform));
     let count = found.modes.len();
     let certified = if found.certified { "certified complete" } else { "not certified" };
     key.push(("natural frequencies", format!("{count} below {} Hz, {certified}", found.below_hz)));

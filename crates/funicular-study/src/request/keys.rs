@@ -46,12 +46,15 @@ pub const KEYS: &[(&str, &str)] = &[
         "damped",
         "compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping",
     ),
+    ("platform", "compare the modes of the platform alone"),
+    ("platform_share", "minimum fraction of the kinetic energy in the platform for a mode of the platform"),
+    ("payload_center_m", "centre of mass of the payload, platform frame [m]"),
     ("form", "form of the model: `state-space` or `second-order`"),
     ("order", "maximum number of states of a state space"),
     (
         "tolerance",
         "maximum error of a response relative to its peak; for the second-order form maximum relative error of the \
-         responses due to omitted modes",
+         responses due to omitted modes; for `compare` the maximum relative difference of frequency",
     ),
     ("tolerance_mm", "maximum distance between spring pose and catenary pose at which springs are good enough [mm]"),
     ("damping_at_hz", "frequency at which viscous damping reproduces constant damping ratios [Hz]"),

@@ -312,6 +312,12 @@ pub struct EachPoint {
     /// Upper limit of the search for natural frequencies [Hz].
     #[serde(default = "default_up_to_hz")]
     pub up_to_hz: f64,
+    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+    #[serde(default = "super::platform_share")]
+    pub platform_share: f64,
+    /// Centre of mass of the payload, platform frame [m]. Default: that of the platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload_center_m: Option<[f64; 3]>,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,

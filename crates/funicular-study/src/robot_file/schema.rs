@@ -98,8 +98,7 @@ fn description(key: &Key) -> String {
         _ => String::new(),
     };
     let absent = match key.absent {
-        Absent::Depends(text) => format!(". Without it: {text}"),
-        Absent::Means(text) => format!(". Without it: {text}"),
+        Absent::Depends(text) | Absent::Means(text) => format!(". Without it: {text}"),
         Absent::Refused | Absent::Default(_) | Absent::DefaultWord(_) => String::new(),
     };
     format!("{}{unit}{words}{absent}", key.about)

@@ -65,6 +65,23 @@ pub(super) fn lowest(
     Ok(Lowest { modes: modes.iter().map(|mode| (mode.frequency_hz, mode.kind)).collect(), certified })
 }
 
+/// Lowest natural frequency of a mode with at least the fraction `share` of its kinetic energy in the platform, and true
+/// if the list up to it is certified.
+pub(super) fn first_platform(
+    robot: &Robot,
+    rest: &Equilibrium,
+    linearisation: Linearisation,
+    share: f64,
+    highest_hz: f64,
+) -> Result<(f64, bool), Status> {
+    refuse_unstable(rest)?;
+    let found = modes::lowest_with_platform(robot, rest, linearisation, share, highest_hz);
+    let (_, found) = found.map_err(|error| Status::new("no-frequency", &error))?;
+    let first = found.first_platform(share).map(|first| found.modes[first].frequency_hz);
+    let first = first.ok_or_else(|| Status::new("no-frequency", "no mode of the platform was found"))?;
+    Ok((first, found.certified))
+}
+
 /// Lowest `count` modes, the linearised robot, and true if the modes are certified.
 fn search(
     robot: &Robot,

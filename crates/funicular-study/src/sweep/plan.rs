@@ -12,6 +12,8 @@ use super::quantity::Quantity;
 use super::row;
 use super::status::Status;
 use funicular::dynamics::Linearisation;
+use funicular::math::Vec3;
+use funicular::modes::PLATFORM_SHARE;
 use funicular::robot::Robot;
 use funicular::statics::{StaticModel, StaticsError, TensionRule};
 use thiserror::Error;
@@ -27,6 +29,10 @@ pub struct Options {
     pub linearisation: Linearisation,
     /// Upper limit of the search for natural frequencies [Hz].
     pub highest_hz: f64,
+    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
+    pub platform_share: f64,
+    /// Centre of mass of the payload, platform frame [m]; `None` for that of the platform.
+    pub payload_center_p: Option<Vec3>,
 }
 
 impl Default for Options {
@@ -36,6 +42,8 @@ impl Default for Options {
             tension_rule: TensionRule::default(),
             linearisation: Linearisation::default(),
             highest_hz: MAX_HZ,
+            platform_share: PLATFORM_SHARE,
+            payload_center_p: None,
         }
     }
 }
@@ -121,6 +129,19 @@ pub enum SweepError {
         /// Static model.
         model: StaticModel,
     },
+    /// Quantity that does not exist for a robot with fewer cables than degrees of freedom.
+    #[error(
+        "`{quantity}` does not exist for {cables} cables with {dof} degrees of freedom, which cannot hold a given pose: \
+         leave it out"
+    )]
+    TooFewCables {
+        /// Name of the quantity.
+        quantity: String,
+        /// Number of cables.
+        cables: usize,
+        /// Number of degrees of freedom.
+        dof: usize,
+    },
     /// Options that are wrong for every point.
     #[error(transparent)]
     Statics(#[from] StaticsError),
@@ -186,6 +207,11 @@ impl<'a> Plan<'a> {
         }
         if let Some(quantity) = quantities.iter().find(|quantity| quantity.excludes(options.static_model)) {
             return Err(SweepError::NotWithModel { quantity: quantity.name(), model: options.static_model });
+        }
+
+        if let Some(quantity) = quantities.iter().find(|quantity| quantity.needs_more_cables(robot)) {
+            let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+            return Err(SweepError::TooFewCables { quantity: quantity.name(), cables, dof });
         }
 
         let with_distance = robot.cables.len() < robot.platform.motion.count();

@@ -47,6 +47,8 @@ enum Needs {
     /// Models whose cables stretch.
     Elastic,
     Catenary,
+    /// Any model, with at least as many cables as degrees of freedom.
+    HeldPose,
 }
 
 /// Value of the parameter in a name.
@@ -61,7 +63,7 @@ enum Parameter {
 pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
-static TABLE: [Definition; 17] = [
+static TABLE: [Definition; 20] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -71,6 +73,23 @@ static TABLE: [Definition; 17] = [
         frequencies: |_| 1,
         columns: |_, _| one("first_frequency_hz", "Hz", "lowest natural frequency, undamped"),
         values: |row, _, out| row.frequencies(1, out),
+    },
+    Definition {
+        name: "first-platform-frequency",
+        about: "lowest natural frequency of a mode of the platform",
+        documentation: "`first_platform_frequency_hz`: lowest natural frequency of a mode with at least \
+                        `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the requested \
+                        cable model; the modes below it are all found, however many they are",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| {
+            one("first_platform_frequency_hz", "Hz", "lowest natural frequency of a mode of the platform, undamped")
+        },
+        values: |row, _, out| {
+            let first = row.first_platform_frequency();
+            row.push(Some(first), out);
+        },
     },
     Definition {
         name: "first-kind",
@@ -110,6 +129,25 @@ static TABLE: [Definition; 17] = [
         frequencies: |_| 0,
         columns: |_, _| one("tension_max_n", "N", "maximum tension anywhere in a cable"),
         values: |row, _, out| out.push(Value::real(row.tensions().map(|(_, max)| max).reduce(f64::max))),
+    },
+    Definition {
+        name: "tension-max-cable",
+        about: "name of the cable with the maximum tension",
+        documentation: "`tension_max_cable`: name of the cable with the maximum tension; text",
+        takes: Takes::Nothing,
+        needs: Needs::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| {
+            let about = "name of the cable with the maximum tension anywhere";
+            vec![Column { kind: ColumnKind::Text, ..column("tension_max_cable".to_owned(), "", about) }]
+        },
+        values: |row, _, out| {
+            let mut tensions = row.tensions().map(|(_, max)| max).enumerate();
+            let first = tensions.next();
+            let tightest = first.map(|first| tensions.fold(first, |most, of| if of.1 > most.1 { of } else { most }));
+            let name = tightest.map(|(i, _)| Value::Text(row.robot.cables[i].name.clone().into()));
+            out.push(name.unwrap_or(Value::Nothing));
+        },
     },
     Definition {
         name: "tension-min",
@@ -160,6 +198,24 @@ static TABLE: [Definition; 17] = [
         },
     },
     Definition {
+        name: "payload-max",
+        about: "maximum payload with tensions within their limits, and the limits that bind",
+        documentation: "`payload_max_kg`: maximum mass in addition to the platform, with its centre at \
+                        `--payload-center-m`, over all tensions within their limits, whatever the rule; `payload_limits`: \
+                        cables at their limits then, as `1 maximum at anchor`",
+        takes: Takes::Nothing,
+        needs: Needs::HeldPose,
+        frequencies: |_| 0,
+        columns: |_, _| {
+            let about = "cables at their limits with the maximum payload";
+            vec![
+                column("payload_max_kg".to_owned(), "kg", "maximum mass in addition to the platform"),
+                Column { kind: ColumnKind::Text, ..column("payload_limits".to_owned(), "", about) },
+            ]
+        },
+        values: |row, _, out| row.payload(out),
+    },
+    Definition {
         name: "stiffness-min",
         about: "minimum eigenvalue of the static stiffness, rotations scaled by the platform's size",
         documentation: "`stiffness_min_n_per_m`: minimum eigenvalue of the static stiffness, rotations scaled by the \
@@ -196,9 +252,9 @@ static TABLE: [Definition; 17] = [
         about: "distances between the poses of ideal, spring and catenary cables with the same lengths",
         documentation: "`spring_from_ideal_distance_m`, `catenary_from_ideal_distance_m`, \
                         `spring_from_catenary_distance_m`: distances between the equilibrium positions of two static \
-                        models, at the unstrained lengths of the catenaries; the first two only if there are as many \
-                        cables as degrees of freedom; empty if the other model does not hold the platform nearby, for \
-                        example if all springs are slack",
+                        models. All models get the unstrained lengths of the catenaries. The first two columns need as \
+                        many cables as degrees of freedom. A distance is empty if the other model has no equilibrium \
+                        nearby, for example if all springs are slack",
         takes: Takes::Nothing,
         needs: Needs::Catenary,
         frequencies: |_| 0,
@@ -374,10 +430,15 @@ impl Quantity {
     /// True if it does not exist for a static model.
     pub(super) fn excludes(&self, model: StaticModel) -> bool {
         match self.definition.needs {
-            Needs::Anything => false,
+            Needs::Anything | Needs::HeldPose => false,
             Needs::Elastic => model == StaticModel::Ideal,
             Needs::Catenary => model != StaticModel::Catenary,
         }
+    }
+
+    /// True if it does not exist for a robot with so few cables.
+    pub(super) fn needs_more_cables(&self, robot: &Robot) -> bool {
+        matches!(self.definition.needs, Needs::HeldPose) && robot.cables.len() < robot.platform.motion.count()
     }
 
     /// Adds the values of the quantity at a point.

@@ -11,7 +11,9 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::Kind;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::Robot;
-use funicular::statics::{self, Equilibrium, Solution, Stability, StaticModel};
+use funicular::statics::{
+    self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Solution, Stability, StaticModel,
+};
 use std::cell::OnceCell;
 
 /// Robot at the equilibrium of a point, with results that several quantities share.
@@ -177,6 +179,41 @@ impl PointEvaluation<'_> {
         self.push(Some(of_spring), out);
     }
 
+    /// Lowest natural frequency of a mode with enough of its kinetic energy in the platform.
+    pub(super) fn first_platform_frequency(&mut self) -> Result<f64, Status> {
+        let Options { linearisation, highest_hz, platform_share, .. } = *self.options;
+        let (first, certified) =
+            frequency::first_platform(self.robot, self.rest, linearisation, platform_share, highest_hz)?;
+        if !certified {
+            self.missing.get_or_insert_with(not_certified);
+        }
+        Ok(first)
+    }
+
+    /// Adds the maximum payload and the limits that bind.
+    pub(super) fn payload(&mut self, out: &mut Vec<Value>) {
+        let Options { static_model, payload_center_p, .. } = *self.options;
+        let center_p = payload_center_p.unwrap_or(self.robot.platform.center_of_mass_p);
+        let requested = RequestedPayload { center_p, side: PayloadSide::Maximum, prove: false };
+        let found = statics::payload_bound(self.robot, &self.rest.pose, static_model, requested, Some(self.rest));
+        let found = match found {
+            Ok(found) if found.mass.is_finite() => Ok(found),
+            Ok(_) => Err(Status::new("unlimited", "no maximum tension limits the payload")),
+            Err(error) => Err(Status::new("no-payload", &error)),
+        };
+        match found {
+            Ok(found) => {
+                out.push(Value::real(Some(found.mass)));
+                let limits: Vec<String> = found.limits.iter().map(|of| limit_text(self.robot, of)).collect();
+                out.push(Value::Text(limits.join(", ").into()));
+            }
+            Err(status) => {
+                out.extend([Value::Nothing, Value::Nothing]);
+                self.missing.get_or_insert(status);
+            }
+        }
+    }
+
     /// First frequency with another cable model divided by the one with `catenary-dynamic`, minus one.
     pub(super) fn model_error(&mut self, model: CableModel) -> Result<f64, Status> {
         let Options { linearisation, highest_hz, .. } = *self.options;
@@ -228,6 +265,12 @@ impl PointEvaluation<'_> {
         }
         Ok(min_stiffness(model)? / exact - 1.0)
     }
+}
+
+/// Limit that a tension has reached, as in `1 maximum at anchor`.
+fn limit_text(robot: &Robot, of: &LimitAtCable) -> String {
+    let LimitAtCable { cable, limit, place } = of;
+    format!("{} {} at {}", robot.cables[*cable].name, limit.name(), place.name())
 }
 
 fn not_certified() -> Status {

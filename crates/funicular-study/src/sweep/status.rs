@@ -13,7 +13,7 @@ pub(super) struct Status {
 }
 
 /// Every code that a row can have, with its meaning.
-pub const CODES: [(&str, &str); 15] = [
+pub const CODES: [(&str, &str); 17] = [
     ("ok", "all requested quantities are there"),
     ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends"),
@@ -35,6 +35,8 @@ pub const CODES: [(&str, &str); 15] = [
     ("no-frequency", "there is no natural frequency: the model does not exist here, or none is below the limit"),
     ("not-certified", "the frequencies are not certified"),
     ("no-comparison", "another model that was requested has no result here"),
+    ("unlimited", "no maximum tension limits the payload"),
+    ("no-payload", "no payload with tensions within the limits was found"),
 ];
 
 impl Status {

@@ -1,6 +1,6 @@
 //! Requested number of lowest natural frequencies, without a limit that has to be known beforehand.
 
-use super::{Modes, below};
+use super::{MAX_MODES, Modes, TooMany, below, check_count};
 use crate::cable::{CableModel, Sag};
 use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
 use crate::robot::Robot;
@@ -26,6 +26,29 @@ pub enum LowestError {
         /// Number of unstable directions of the linearised robot; they are counted, but have no frequency.
         unstable_directions: usize,
     },
+}
+
+/// Reason for which there is no first mode of the platform.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlatformModeError {
+    /// The robot cannot be linearised.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+    /// No mode below the highest frequency moves the platform enough.
+    #[error(
+        "no mode below {highest_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit of the \
+         search, or require a smaller share",
+        100.0 * .share
+    )]
+    NoPlatformMode {
+        /// Required fraction of the kinetic energy.
+        share: f64,
+        /// Limit of the search [Hz].
+        highest_hz: f64,
+    },
+    /// Too many modes below the limit that the search has reached.
+    #[error(transparent)]
+    TooMany(#[from] TooMany),
 }
 
 /// All natural modes below a limit that the search chooses: as low as possible, with at least `count` modes below it,
@@ -70,6 +93,48 @@ pub fn lowest(
                 let found = list.modes.len();
                 return Err(LowestError::TooFew { requested: count, found, highest_hz, unstable_directions });
             }
+        }
+        limit = (2.0 * limit).min(highest_hz);
+    }
+}
+
+/// All natural modes below a limit that the search chooses, at most `highest_hz`, with at least one mode that has the
+/// fraction `share` of its kinetic energy in the platform: [`Modes::first_platform`] gives its index.
+///
+/// The limit is doubled until the list, which the count confirms, has such a mode. So no mode of the platform is missed,
+/// however many cable modes lie below it.
+///
+/// # Errors
+/// [`PlatformModeError`]: a cable has no stiffness in the model, no such mode is below `highest_hz`, or more modes than a list
+/// may have are below it.
+///
+/// # Example
+/// ```
+/// # use funicular::{dynamics::Linearisation, modes, robot::{Pose, Robot}, statics::{self, StaticModel}};
+/// # let robot = Robot::from_toml(funicular_robots::COGIRO)?;
+/// let rest = statics::inverse(&robot, &Pose::new([0.0, 0.0, 1.5], [0.0; 3]), StaticModel::Catenary)?;
+/// let (_, found) = modes::lowest_with_platform(&robot, &rest, Linearisation::default(), 0.5, 1000.0)?;
+/// let first = found.first_platform(0.5).expect("the search has found it");
+/// assert!(found.certified && first > 0); // modes of the cables come first
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn lowest_with_platform(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    linearisation: Linearisation,
+    share: f64,
+    highest_hz: f64,
+) -> Result<(Dynamics, Modes), PlatformModeError> {
+    let mut limit = first_limit(robot, equilibrium, linearisation.cable_model).min(highest_hz);
+    loop {
+        let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
+        check_count(&dynamics, limit, MAX_MODES)?;
+        let list = below(&dynamics, limit);
+        if list.first_platform(share).is_some() {
+            return Ok((dynamics, list));
+        }
+        if limit >= highest_hz {
+            return Err(PlatformModeError::NoPlatformMode { share, highest_hz });
         }
         limit = (2.0 * limit).min(highest_hz);
     }

@@ -125,7 +125,7 @@ impl ModalModel {
                 let amplification = 1.0 / ((omega * omega - at * at).hypot(at * loss)).max(f64::MIN_POSITIVE);
                 let height = |pair: usize| {
                     let product = self.output[(pair % outputs, k)] * self.input[(k, pair / outputs)];
-                    let derivatives = super::reference::derivatives(reference.quantity(pair)) as i32;
+                    let derivatives = super::reference::derivatives(reference.quantity(pair)).cast_signed();
                     product.abs() * amplification * at.powi(derivatives) / reference.sizes[pair]
                 };
                 ((0..reference.pairs()).map(height).fold(0.0, f64::max), k)

@@ -310,6 +310,7 @@ struct Chosen {
 }
 
 /// Numbers of a model that do not follow from its terms.
+#[derive(Clone, Copy)]
 struct Made {
     error: f64,
     damping_error: f64,

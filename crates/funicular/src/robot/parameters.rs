@@ -226,8 +226,8 @@ impl Parameters {
         &self.list
     }
 
-    /// Index in the list of the parameter at a path. A component is named, as in `anchor_m`, `z`, or numbered from 0, as
-    /// in `anchor_m`, `2` and `inertia_kg_m2`, `0`, `1`.
+    /// Index in the list of the parameter at a path. A component is named, as in `anchor_m`, `z`, or numbered from 0,
+    /// as in `anchor_m`, `2` and `inertia_kg_m2`, `0`, `1`.
     pub fn find<K: AsRef<str>>(&self, path: &[K]) -> Option<usize> {
         let path: Vec<&str> = path.iter().map(AsRef::as_ref).collect();
         let (key, of_key) = key_of(&path)?;
@@ -381,8 +381,8 @@ impl Parameters {
     }
 }
 
-/// Key of the table at the beginning of a path, and the number of the path's keys up to it. The rest of the path names a
-/// component.
+/// Key of the table at the beginning of a path, and the number of the path's keys up to it. The rest of the path names
+/// a component.
 fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
     (1..=path.len()).rev().find_map(|count| {
         let (header, key) = match path[..count] {
@@ -433,8 +433,8 @@ pub fn component<K: AsRef<str>>(path: &[K]) -> Option<ComponentOfKey> {
 pub struct ComponentOfKey {
     /// Element of the vector, or row of the tensor.
     pub row: usize,
-    /// Column of the tensor; the mirrored entry has the same value. `None` for an element of a vector and for a principal
-    /// moment.
+    /// Column of the tensor; the mirrored entry has the same value. `None` for an element of a vector and for a
+    /// principal moment.
     pub column: Option<usize>,
     /// Number of keys of the path after the key of the array: one, or two for row and column.
     pub beyond_key: usize,
@@ -444,8 +444,8 @@ pub struct ComponentOfKey {
     pub example: &'static str,
 }
 
-/// Array at the beginning of a path that goes on to no number of it: the number of keys up to the array, and the names and
-/// indices of its numbers for a message.
+/// Array at the beginning of a path that goes on to no number of it: the number of keys up to the array, and the names
+/// and indices of its numbers for a message.
 ///
 /// # Example
 /// ```

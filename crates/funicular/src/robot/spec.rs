@@ -218,7 +218,7 @@ fn has_decimal_comma(text: &str, span: Option<std::ops::Range<usize>>) -> bool {
     let bytes = text.as_bytes();
     // The parser points at the comma or, for some values, at the number before it.
     let first = at.saturating_sub(1).max(1);
-    let line_end = text.get(at..).and_then(|rest| rest.find('\n')).map_or(bytes.len(), |length| at + length);
+    let line_end = text.get(at..).and_then(|rest| rest.find(['\n', '#'])).map_or(bytes.len(), |length| at + length);
     let end = line_end.min(at + 40);
     let comma = (first..end).find(|i| bytes[*i] == b',');
     comma.is_some_and(|i| is_digit(bytes.get(i - 1)) && is_digit(bytes.get(i + 1)))

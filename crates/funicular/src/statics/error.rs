@@ -91,7 +91,7 @@ pub enum StaticsError {
     #[error(
         "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose{}; choose \
          another pose, mass or centre of mass",
-        because(obstacle)
+        because(obstacle.as_deref())
     )]
     NegativeTension {
         /// Name of the cable with the most negative tension.
@@ -106,7 +106,7 @@ pub enum StaticsError {
     #[error(
         "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N{}; sagging, \
          {}; choose another pose, mass or centre of mass",
-        because(obstacle),
+        because(obstacle.as_deref()),
         searched(*starts, *residual, *max_tension)
     )]
     NotFound {
@@ -150,7 +150,7 @@ pub enum StaticsError {
         "no tensions within their limits that hold this pose were found in a search from {starts} starts: the best \
          tensions violate the limits {miss}{}; choose another pose, mass or centre of mass, or widen the limits \
          (`minimum_tension_n`, `maximum_tension_n`)",
-        because(&miss.obstacle)
+        because(miss.obstacle.as_deref())
     )]
     NotFoundWithinLimits {
         /// Violation of the limits by the best tensions found.
@@ -379,8 +379,8 @@ impl StaticsError {
 }
 
 /// Reason of an error in brackets; empty if it is not known.
-fn because(obstacle: &Option<Box<Obstacle>>) -> String {
-    obstacle.as_ref().map_or_else(String::new, |obstacle| match **obstacle {
+fn because(obstacle: Option<&Obstacle>) -> String {
+    obstacle.map_or_else(String::new, |obstacle| match obstacle {
         Obstacle::OneSided { .. } => format!(" ({obstacle}; {})", obstacle.advice()),
         Obstacle::NotSpanned { .. } => format!(" ({obstacle})"),
     })

@@ -1,7 +1,7 @@
 //! Cable models side by side.
 
 use funicular::cable::CableModel;
-use funicular::compare;
+use funicular::compare::{self, Criterion};
 use funicular::dynamics::Linearisation;
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
@@ -12,7 +12,7 @@ fn the_reference_is_shallow_dynamic_if_catenary_dynamic_cables_need_too_many_unk
     let State::Lengths(mut lengths) = robot.state.clone() else { panic!("given by lengths") };
     let reference = |lengths: &[f64], below_hz: f64| {
         let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
-        compare::compare(&robot, &rest, below_hz, Linearisation::default()).unwrap()
+        compare::compare(&robot, &rest, below_hz, Linearisation::default(), Criterion::default()).unwrap()
     };
     let usual = reference(&lengths, 5.0);
     assert_eq!((usual.reference, usual.advice.model), (CableModel::CatenaryDynamic, CableModel::ShallowDynamic));

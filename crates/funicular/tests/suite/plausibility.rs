@@ -49,7 +49,7 @@ fn hall() -> String {
     for (x, y) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)] {
         for (z, corner) in [(8.0, -0.25), (7.0, 0.25)] {
             number += 1;
-            text += &format!(
+            let cable = format!(
                 "\n[[cables]]\nname = \"{number}\"\nmaterial = \"rope\"\nanchor_m = [{:.1}, {:.1}, {z:.1}]\n\
                  attachment_m = [{:.1}, {:.1}, {corner}]\n",
                 10.0 * x,
@@ -57,6 +57,7 @@ fn hall() -> String {
                 0.5 * x * if z > 7.5 { 1.0 } else { -1.0 },
                 0.4 * y * if z > 7.5 { -1.0 } else { 1.0 },
             );
+            text.push_str(&cable);
         }
     }
     text
@@ -133,6 +134,7 @@ fn check(slip: &str, text: &str, expected: &[&str], misses: &mut Vec<String>) {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of slips")]
 fn slips_of_units_and_signs_are_named() {
     let hall = hall();
     let mut misses = Vec::new();
@@ -362,4 +364,14 @@ fn slings_from_one_hook_are_plausible() {
     }
     robot.state = State::Pose(Pose::new([0.0, 0.0, 3.0], [0.0; 3]));
     assert_eq!(warnings::of_robot(&robot), []);
+}
+
+/// A request may give lengths of any number; statics refuses them, and the warnings come with the error.
+#[test]
+fn lengths_of_another_number_than_the_cables_are_no_panic() {
+    let robot = Robot::from_toml(&hall()).unwrap();
+    for lengths in [vec![], vec![12.0; 3], vec![12.0; 20]] {
+        let robot = Robot { state: State::Lengths(lengths), ..robot.clone() };
+        assert!(said(&robot).contains("unstrained lengths given for 8 cables"));
+    }
 }

@@ -86,6 +86,8 @@ fn colour_of(code: u8) -> &'static str {
         "no-frequency" => "#f5d9a0",
         "not-certified" => "#faecc9",
         "no-comparison" => "#e3d9ee",
+        "unlimited" => "#d3efd0",
+        "no-payload" => "#efd3dc",
         "negative-tension" => colour::VERMILION,
         "tension-limits" => colour::PURPLE,
         "not-found" => "#8b2f6b",

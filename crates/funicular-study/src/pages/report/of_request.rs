@@ -18,6 +18,7 @@ use funicular::robot::Robot;
 /// A request that contradicts itself or the robot, a robot without this equilibrium, or no finite response there.
 pub fn of_request(request: &request::ReportRequest, file: RobotFile, command_line: String) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
+    request::check_fraction("platform_share", request.platform_share)?;
     let RobotFile { robot, name, text } = file;
     // Invalid signals are refused before the computation.
     let (from, to) = response(request, &robot)?;
@@ -39,6 +40,7 @@ pub fn about(
     command_line: String,
 ) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
+    request::check_fraction("platform_share", request.platform_share)?;
     let (from, to) = response(request, &at_rest.robot)?;
     let [input, output] = at_rest::signals(&at_rest.robot, &from, &to, &request.points)?;
     let vector = |signal: Signal, name: &str| {
@@ -47,6 +49,7 @@ pub fn about(
         })
     };
     report(&ReportInput {
+        platform_share: request.platform_share,
         at_rest,
         file_label: name,
         robot_text: text,

@@ -6,7 +6,7 @@ use crate::pages::figure::{self, Figure, axis, colour, plain, rounded};
 use crate::pages::table::{PageTable, fixed, listed, significant};
 use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
-use funicular::compare::{self, Comparison};
+use funicular::compare::{self, Comparison, Criterion};
 use funicular::dynamics::Linearisation;
 use funicular::modes::{Kind, Mode, Modes};
 use funicular::robot::Robot;
@@ -218,11 +218,12 @@ pub(crate) fn comparison(
     below_hz: f64,
     linearisation: Linearisation,
 ) -> Result<ComparisonPart, String> {
-    let comparison = compare::compare(robot, equilibrium, below_hz, linearisation)
+    let comparison = compare::compare(robot, equilibrium, below_hz, linearisation, Criterion::default())
         .map_err(|error| prose(&format!("The models cannot be compared at this state: {error}.")))?;
     let (models, modes) = (models_table(&comparison), side_by_side(&comparison));
     let figure = figure::models::figure(&comparison);
-    Ok(ComparisonPart { advice: prose(&comparison.advice.text), figure, models, modes })
+    let frozen = comparison.frozen_sag.as_ref().map_or_else(String::new, |frozen| format!(" {}", frozen.text()));
+    Ok(ComparisonPart { advice: prose(&format!("{}{frozen}", comparison.advice.text)), figure, models, modes })
 }
 
 fn models_table(comparison: &Comparison) -> PageTable {

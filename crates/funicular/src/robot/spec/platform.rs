@@ -247,8 +247,8 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
     })
 }
 
-/// Remedy for a missing tensor: the moments of a homogeneous box with the size of the attachments. `None` if the file has
-/// no attachments that span at least a rectangle.
+/// Remedy for a missing tensor: the moments of a homogeneous box with the size of the attachments. `None` if the file
+/// has no attachments that span at least a rectangle.
 fn box_example(root: &Section, mass: f64) -> Option<String> {
     let DeValue::Array(cables) = root.get("cables")?.get_ref() else { return None };
     let attachments: Vec<[f64; 3]> = cables.iter().filter_map(|cable| attachment(cable.get_ref())).collect();

@@ -113,7 +113,8 @@ impl Solutions {
 
     /// Participation of cable `i` in each of the directions: a row of N.
     pub(super) fn part(&self, i: usize) -> impl Iterator<Item = &f64> {
-        self.basis[self.dof * self.cables + i..].iter().step_by(self.cables)
+        // Without a direction nothing is left to skip.
+        self.basis[self.dof * self.cables..].iter().skip(i).step_by(self.cables)
     }
 
     /// Direction `k`, a column of N.

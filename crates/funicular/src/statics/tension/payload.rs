@@ -32,8 +32,9 @@ const STILL: f64 = 1e-10;
 const AT_LIMIT: f64 = 1e-6;
 
 /// Payload weights beyond the extreme one, over the size of the tensions, for which the proof is attempted, nearest
-/// first. The shares of sagging cables are not quite concave in the tension. For taut cables this costs up to some 1e-5.
-const BEYOND: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+/// first. The shares of sagging cables are not quite concave in the tension. This costs some 1e-5 for taut
+/// cables, and up to 1e-3 for robots whose lower cables are nearly slack.
+const BEYOND: [f64; 7] = [1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3];
 
 /// Payload that the cables hold at a pose: the minimum or the maximum.
 #[derive(Debug, Clone, PartialEq)]
@@ -153,7 +154,7 @@ pub fn payload_bound(
     let search = TensionSearch::new(robot, pose, model, cables);
     let mut payload = PayloadSearch { robot, pose, search, unit, requested, iterations: 0 };
     let optimum = payload.extreme()?;
-    payload.collect(model, &optimum)
+    Ok(payload.collect(model, &optimum))
 }
 
 /// Search for the extreme payload.
@@ -292,19 +293,19 @@ impl PayloadSearch<'_> {
     }
 
     /// Result with the cables as they hang with the extreme payload.
-    fn collect(self, model: StaticModel, optimum: &Optimum) -> Result<PayloadBound, StaticsError> {
+    fn collect(self, model: StaticModel, optimum: &Optimum) -> PayloadBound {
         let g = self.robot.gravity_w.norm();
         let iterations = self.iterations;
         if optimum.unlimited && self.requested.side == PayloadSide::Maximum {
             let (cables, limits) = (Vec::new(), Vec::new());
-            return Ok(PayloadBound {
+            return PayloadBound {
                 mass: f64::INFINITY,
                 cables,
                 limits,
                 residual: 0.0,
                 iterations,
                 excluded_from: None,
-            });
+            };
         }
 
         let excluded_from =
@@ -317,7 +318,7 @@ impl PayloadSearch<'_> {
         let mass = optimum.weight / g + 0.0;
         let loaded = with_weight(robot, pose, &requested.center_p, optimum.weight);
         let rest = equilibrium_of(&loaded, pose, model, cables, iterations);
-        Ok(PayloadBound { mass, cables: rest.cables, limits, residual: rest.residual, iterations, excluded_from })
+        PayloadBound { mass, cables: rest.cables, limits, residual: rest.residual, iterations, excluded_from }
     }
 
     /// Weight from which on the multipliers of the balance prove that no payload is possible: (40e).

@@ -82,7 +82,8 @@ fn cable_mass(robot: &Robot) -> Option<Implausible> {
     let count = robot.cables.len() as f64;
     let middle: Vec3 = robot.cables.iter().map(|cable| cable.anchor.reference_w()).sum::<Vec3>() / count;
     let length = |i: usize| match &robot.state {
-        State::Lengths(lengths) => lengths[i],
+        // Lengths of another number are refused by statics, with these warnings.
+        State::Lengths(lengths) => lengths.get(i).copied().unwrap_or_default(),
         State::Pose(pose) => robot.cables[i].chord_w(pose).norm(),
         State::Unknown => (robot.cables[i].anchor.reference_w() - middle).norm(),
     };

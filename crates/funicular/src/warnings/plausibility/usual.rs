@@ -8,8 +8,8 @@
 /// given as Pa.
 pub const YOUNGS_MODULUS: [f64; 2] = [3e8, 3e11];
 
-/// Diameter of a rope, or of a circle with its area [m]. Library: 0.8 mm (KNTU, metal) to 46 mm (FAST). Outside:
-/// millimetres and centimetres given as m, and ropes thinner than a fishing line.
+/// Diameter of a rope, or of a circle with its area [m]. Library: 0.8 mm (KNTU, metal) to 35 mm (FAST, metal).
+/// Outside: millimetres and centimetres given as m, and ropes thinner than a fishing line.
 pub const DIAMETER: [f64; 2] = [1e-4, 0.2];
 
 /// Density that mass and cross-section of a rope imply [kg/m³].
@@ -51,13 +51,13 @@ pub const VISCOUS_DAMPING: [f64; 2] = [0.0, 6.3];
 /// (IPAnema 2). Outside: kN given as N, and kgf of wire rope (0.0012).
 pub const STRAIN_AT_BREAK: [f64; 2] = [2e-3, 0.5];
 
-/// Maximum tension over axial stiffness. Library: up to 0.011. Outside: mN given as N, kN for the stiffness.
+/// Maximum tension over axial stiffness. Library: up to 0.012. Outside: mN given as N, kN for the stiffness.
 pub const STRAIN_AT_MAXIMUM: [f64; 2] = [0.0, 0.1];
 
 /// Minimum tension over axial stiffness. Library: up to 0.0012 (FAST). Outside: mN given as N.
 pub const STRAIN_AT_MINIMUM: [f64; 2] = [0.0, 0.02];
 
-/// Strain of a cable at equilibrium. Library: up to 0.003. Steel wire breaks at 0.015 to 0.02, Dyneema at 0.035, and
+/// Strain of a cable at equilibrium. Library: up to 0.0024. Steel wire breaks at 0.015 to 0.02, Dyneema at 0.035, and
 /// both work well below.
 pub const STRAIN: [f64; 2] = [0.0, 0.02];
 
@@ -74,8 +74,8 @@ pub const CABLE_LOAD: [f64; 2] = [0.0, 100.0];
 /// of more than 1 m.
 pub const ANCHORS: [f64; 2] = [0.0, 1000.0];
 
-/// Size of the attachments over that of the anchors, each the maximum distance from the mean. Library: 0.018 (FAST) to
-/// 0.25 (NIST `RoboCrane`). Outside: swapped ends, attachments in mm or cm, anchors in mm or cm.
+/// Size of the attachments over that of the anchors, each the maximum distance from the mean. Library: 0.020 (Yuan
+/// 2014) to 0.25 (NIST `RoboCrane`). Outside: swapped ends, attachments in mm or cm, anchors in mm or cm.
 pub const ATTACHMENTS_OVER_ANCHORS: [f64; 2] = [2e-3, 1.5];
 
 /// Size of the attachments over that of the anchors from which on the anchors may be one hook, from which slings lead
@@ -83,37 +83,37 @@ pub const ATTACHMENTS_OVER_ANCHORS: [f64; 2] = [2e-3, 1.5];
 pub const SLINGS: f64 = 50.0;
 
 /// Distance of the platform from the mean of the anchors, and length of a cable, over the size of anchors and
-/// attachments. Library: below 2; hoists with ropes side by side have 20. Outside: millimetres given as m.
+/// attachments. Library: up to 1.3; hoists with ropes side by side have 20. Outside: millimetres given as m.
 pub const DISTANCE: [f64; 2] = [0.0, 30.0];
 
 /// Twice the longest cable and the size of the attachments, over the size of the anchors. Shorter cables cannot reach a
-/// platform from anchors on both sides. Library: from 1.6.
+/// platform from anchors on both sides. Library: from 1.9.
 pub const MIN_LENGTH: [f64; 2] = [0.5, f64::INFINITY];
 
-/// Density of the platform in the ball around its attachments [kg/m³]. Library: 9 (IPAnema 2) to 830 (Yuan 2014; 6800
-/// with its heaviest load). Outside: mass in t or g.
+/// Density of the platform in the ball around its attachments [kg/m³]. Library: 12 (IPAnema 2) to 1850 (CAROCA); Yuan
+/// 2014 has 6800 with its heaviest load. Outside: mass in t or g.
 pub const PLATFORM_DENSITY: [f64; 2] = [0.1, 2e4];
 
-/// Largest radius of gyration of the platform over the size of its attachments. Library: 0.3 to 1.1; loads on a hook
-/// have 2. Outside: an inertia wrong by a thousand (a factor of 32), in kg mm² or kg cm², a mass in g or t.
+/// Largest radius of gyration of the platform over the size of its attachments. Library: 0.41 to 1.44 (CAROCA); loads on a
+/// hook have 2. Outside: an inertia wrong by a thousand (a factor of 32), in kg mm² or kg cm², a mass in g or t.
 pub const GYRATION: [f64; 2] = [0.1, 3.0];
 
 /// Distance of the centre of mass, or of the point of a force, from the mean of the attachments over their size.
-/// Library: up to 0.6; loads far below their hook have some. Outside: mm and cm.
+/// Library: up to 0.27; loads far below their hook have some. Outside: mm and cm.
 pub const OFFSET: [f64; 2] = [0.0, 10.0];
 
 /// Magnitude of gravity [m/s²], if there is any: Moon 1.62, Earth 9.81. Outside: 1 (in units of g), 32.2 (ft/s²), 981
 /// and 9810.
 pub const GRAVITY: [f64; 2] = [1.5, 12.0];
 
-/// Weight over the sum of the axial stiffnesses: strain of cables that all pull straight up. Library: 3e-5 to 6e-4.
+/// Weight over the sum of the axial stiffnesses: strain of cables that all pull straight up. Library: 1.7e-5 to 5.9e-4.
 /// Outside: mass in g, axial stiffness in kN.
 pub const WEIGHT_OVER_STIFFNESS: [f64; 2] = [0.0, 0.01];
 
 /// Mass of all cables over that of the platform. Library: 0.005 to 0.9. Outside: kg per 100 m, g/m, platform in t.
 pub const CABLES_OVER_PLATFORM: [f64; 2] = [0.0, 5.0];
 
-/// Sum of all maximum tensions over the load: less cannot carry it. Library: from 4.
+/// Sum of all maximum tensions over the load: less cannot carry it. Library: from 4.5.
 pub const MAXIMA_OVER_LOAD: [f64; 2] = [1.0, f64::INFINITY];
 
 /// Minimum tension over the load. Library: from 0.1; the default is at least 1e-3. Outside: kN given as N.
@@ -137,5 +137,5 @@ pub const AIR_DENSITY: [f64; 2] = [0.5, 2.0];
 /// Density of water [kg/m³], for robots in water.
 pub const WATER_DENSITY: [f64; 2] = [900.0, 1100.0];
 
-/// Weight of all cables over the sum of their tensions. Library: up to 0.2. Outside: kg per 100 m, g/m.
+/// Weight of all cables over the sum of their tensions. Library: up to 0.34. Outside: kg per 100 m, g/m.
 pub const WEIGHT_OVER_TENSION: [f64; 2] = [0.0, 1.0];

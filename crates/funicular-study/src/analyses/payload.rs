@@ -1,0 +1,165 @@
+//! `payload`: minimum and maximum payload at a pose.
+
+use super::found;
+use super::statics::{LimitNumbers, PoseRow};
+use crate::at_rest::{self, AtRest};
+use crate::error::NoSolution;
+use crate::request;
+use crate::text::significant;
+use anyhow::Result;
+use funicular::math::Vec3;
+use funicular::robot::{Pose, Robot, State};
+use funicular::statics::{
+    self, Equilibrium, PayloadBound, PayloadSide, RequestedPayload, StaticModel, StaticsError, TensionRange,
+};
+use serde::Serialize;
+
+/// Results of `payload`: the payloads that the cables hold at a pose.
+#[derive(Serialize)]
+pub struct Payload {
+    #[serde(skip)]
+    pub robot: String,
+    pub static_model: &'static str,
+    /// Mass of the platform, without payload.
+    pub mass_kg: f64,
+    pub pose: PoseRow,
+    pub payload_center_m: [f64; 3],
+    /// Minimum payload; zero if the tensions without payload are within their limits.
+    pub minimum: BoundRow,
+    /// Maximum payload; absent if no maximum tension limits it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub maximum: Option<BoundRow>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Minimum or maximum payload.
+#[derive(Serialize)]
+pub struct BoundRow {
+    pub payload_kg: f64,
+    /// Payload from which on it is proved that none is possible; absent without a proof.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub excluded_from_kg: Option<f64>,
+    /// Tensions with this payload; empty without a payload.
+    pub cables: Vec<LoadedRow>,
+}
+
+/// Cable with the payload.
+#[derive(Serialize)]
+pub struct LoadedRow {
+    pub name: String,
+    pub tension_platform_n: f64,
+    pub tension_anchor_n: f64,
+    #[serde(flatten)]
+    pub limits: LimitNumbers,
+    /// Place where the limit is reached: `platform`, `anchor`, `lowest point` or `anywhere`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_place: Option<&'static str>,
+}
+
+/// Finds the minimum and the maximum payload.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, or a pose that the cables hold with no payload.
+pub fn run(robot: Robot, request: &request::PayloadRequest) -> Result<Payload> {
+    let request::PayloadRequest { payload_center_m, state, tensions, .. } = request;
+    let center_p = at_rest::payload_center(&robot, *payload_center_m)?;
+    let model = state.static_model;
+
+    // The equilibrium without payload need not exist: a payload may be needed to keep the cables taut.
+    match at_rest::equilibrium(robot.clone(), &request.robot, state, tensions) {
+        Ok(rest) => about(&rest, center_p),
+        Err(error) => {
+            let no_solution = error.downcast_ref().is_some_and(StaticsError::is_no_solution);
+            let robot = at_rest::with_limits(&at_rest::with_state(robot, state)?, tensions)?;
+            let (true, false, State::Pose(pose)) = (no_solution, state.hold_lengths_of_pose, robot.state.clone())
+            else {
+                return Err(error);
+            };
+            let center_p = center_p.unwrap_or(robot.platform.center_of_mass_p);
+            match bounds(&robot, &pose, model, center_p, None) {
+                // Without any payload that helps, the reason of the equilibrium says more.
+                Err(other) if matches!(other.downcast_ref(), Some(StaticsError::NoPayload)) => Err(error),
+                found => found,
+            }
+        }
+    }
+}
+
+/// Finds the payloads at the pose of an equilibrium. Without a centre the payload has that of the platform.
+///
+/// # Errors
+/// The errors of [`run`].
+pub fn about(at_rest: &AtRest, center_p: Option<Vec3>) -> Result<Payload> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    let center_p = center_p.unwrap_or(robot.platform.center_of_mass_p);
+    let mut found = bounds(robot, &equilibrium.pose, equilibrium.model, center_p, Some(equilibrium))?;
+    found.warnings = at_rest.warnings(None);
+    Ok(found)
+}
+
+fn bounds(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    center_p: Vec3,
+    start: Option<&Equilibrium>,
+) -> Result<Payload> {
+    let bound = |side| {
+        let requested = RequestedPayload { center_p, side, prove: true };
+        statics::payload_bound(robot, pose, model, requested, start)
+    };
+    let maximum = bound(PayloadSide::Maximum)?;
+    if maximum.mass < 0.0 {
+        let limits: Vec<String> = (maximum.limits.iter())
+            .map(|of| format!("the {} of cable \"{}\"", of.limit.name(), robot.cables[of.cable].name))
+            .collect();
+        return Err(NoSolution(format!(
+            "the platform of {} kg is too heavy for this pose by {} kg, because of {}; choose another pose or mass, or \
+             widen the limits (`minimum_tension_n`, `maximum_tension_n`)",
+            robot.platform.mass,
+            significant(-maximum.mass, 5),
+            limits.join(", ")
+        ))
+        .into());
+    }
+
+    let minimum = if start.is_some_and(|start| is_within_limits(robot, start)) {
+        BoundRow { payload_kg: 0.0, excluded_from_kg: None, cables: Vec::new() }
+    } else {
+        BoundRow::of(robot, &bound(PayloadSide::Minimum)?)
+    };
+    Ok(Payload {
+        robot: robot.name.clone(),
+        static_model: model.name(),
+        mass_kg: robot.platform.mass,
+        pose: PoseRow::of(pose),
+        payload_center_m: center_p.into(),
+        minimum,
+        maximum: maximum.mass.is_finite().then(|| BoundRow::of(robot, &maximum)),
+        warnings: Vec::new(),
+    })
+}
+
+/// True if all tensions are within their limits, to the accuracy of tension distributions.
+fn is_within_limits(robot: &Robot, rest: &Equilibrium) -> bool {
+    rest.cables.iter().enumerate().all(|(i, cable)| {
+        let margin = TensionRange::of(robot, i, &cable.chord_w()).margin(cable);
+        margin.distance() >= -1e-6 * margin.max.max(margin.range.minimum)
+    })
+}
+
+impl BoundRow {
+    fn of(robot: &Robot, bound: &PayloadBound) -> Self {
+        let cables = bound.cables.iter().enumerate().map(|(i, cable)| LoadedRow {
+            name: robot.cables[i].name.clone(),
+            tension_platform_n: cable.tension_platform,
+            tension_anchor_n: cable.tension_anchor,
+            limits: LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable)),
+            limit_place: bound.limits.iter().find(|of| of.cable == i).map(|of| of.place.name()),
+        });
+        Self { payload_kg: bound.mass, excluded_from_kg: bound.excluded_from, cables: cables.collect() }
+    }
+}
+
+found!(Payload, "payload");
