@@ -12,7 +12,7 @@ OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--mat
 OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode"}
 # Options without a value.
 SWITCHES = {
-    *("--log", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
+    *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
     *("--platform", "--hold-lengths-of-pose"),
 }
 # Options that may be given several times.
@@ -98,6 +98,9 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords["poses"] = read_poses(next(rest))
         elif word in LISTS.get(command, ()):
             keywords.setdefault(key, []).append(next(rest))
+        elif command == "frf" and key in ("input", "output") and key in keywords:
+            before = keywords[key]
+            keywords[key] = [*([before] if isinstance(before, str) else before), next(rest)]
         else:
             keywords[key] = value(command, word, next(rest))
     return command, files, keywords, changes

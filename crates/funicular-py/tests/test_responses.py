@@ -18,7 +18,10 @@ def test_several_signals_make_an_array_of_outputs_and_inputs(rest: funicular.Equ
     assert several.shape == (3, 2, 3) and several.dtype == np.complex128
     for i, output in enumerate(outputs):
         for j, signal in enumerate(inputs):
-            assert np.array_equal(several[i, j], rest.frf(hz, signal, output)), (output, signal)
+            one = rest.frf(hz, signal, output)
+            # All points of one cable share its discretisation, which differs from that of a single point.
+            on_cable = "cable" in signal + output
+            assert np.allclose(several[i, j], one, rtol=1e-7 if on_cable else 0, atol=0), (output, signal)
     # A list of one keeps its axis; text has none.
     assert rest.frf(hz, ["fz"], "az").shape == rest.frf(hz, "fz", ("az",)).shape == (1, 1, 3)
     assert rest.frf(hz, "fz", "az").shape == (3,)
