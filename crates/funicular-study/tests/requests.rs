@@ -81,7 +81,31 @@ fn requests() -> Vec<Value> {
                 &json!({ "below_hz": 20.0, "stations": 21, "damped": false }),
             ],
         ),
-        of("frf", &[&robot, &state, &tensions, &model, &points, &signals, &range, &json!({ "prominence_db": 3.0 })]),
+        of(
+            "frf",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &points,
+                &signals,
+                &range,
+                &json!({ "prominence_db": 3.0, "adaptive": false }),
+            ],
+        ),
+        of(
+            "frf",
+            &[
+                &robot,
+                &lengths,
+                &model,
+                &json!({
+                    "from_hz": 0.1, "to_hz": 10.0, "log": false, "adaptive": true, "prominence_db": 1.0,
+                    "input": ["fx", "mz"], "output": ["x", "cable:3@0.5:az"],
+                }),
+            ],
+        ),
         of(
             "compare",
             &[

@@ -108,17 +108,32 @@ fn back_substituted(triangular: &DMat, blocks: &[(usize, usize)], value: Complex
         } else {
             let (right, below) = (triangular[(row, row + 1)], triangular[(row + 1, row)]);
             let (first, second) = (triangular[(row, row)] - value, triangular[(row + 1, row + 1)] - value);
-            let (upper, lower) = (known(row), known(row + 1));
-            let size = first.norm() + second.norm() + right.abs() + below.abs();
-            let mut determinant = first * second - right * below;
-            if determinant.norm() < smallest * size {
-                determinant = (smallest * size).into();
-            }
-            vector[(row, 0)] = (upper * second - lower * right) / determinant;
-            vector[(row + 1, 0)] = (lower * first - upper * below) / determinant;
+            let matrix = [[first, right.into()], [below.into(), second]];
+            let block = solved(matrix, [known(row), known(row + 1)], pivot);
+            (vector[(row, 0)], vector[(row + 1, 0)]) = (block[0], block[1]);
         }
     }
     vector
+}
+
+/// Solution of two equations by elimination with complete pivoting, with `pivot` applied to both pivots. At a multiple
+/// eigenvalue the equations are singular but consistent: the solution then satisfies them, with any multiple of the null
+/// vector, which Cramer's rule would not do.
+fn solved(matrix: [[Complex; 2]; 2], right: [Complex; 2], pivot: impl Fn(Complex) -> Complex) -> [Complex; 2] {
+    // Row and column of the largest entry.
+    let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
+    let larger = |a: (usize, usize), b: (usize, usize)| matrix[b.0][b.1].norm() > matrix[a.0][a.1].norm();
+    let (i, j) = places.into_iter().fold((0, 0), |most, place| if larger(most, place) { place } else { most });
+
+    // Elimination of the unknown `j` from the other equation.
+    let first = pivot(matrix[i][j]);
+    let factor = matrix[1 - i][j] / first;
+    let second = pivot(matrix[1 - i][1 - j] - factor * matrix[i][1 - j]);
+
+    let mut found = [Complex::from(0.0); 2];
+    found[1 - j] = (right[1 - i] - factor * right[i]) / second;
+    found[j] = (right[i] - matrix[i][1 - j] * found[1 - j]) / first;
+    found
 }
 
 #[cfg(test)]
@@ -158,7 +173,7 @@ mod tests {
             (matrix[(k, 4 + k)], matrix[(4 + k, k)], matrix[(4 + k, 4 + k)]) = (omega, -omega, -2.0 * zeta * omega);
         }
         let found = upper_eigen(&matrix).unwrap();
-        assert!(residual(&matrix, &found) < 1e-13);
+        assert!(residual(&matrix, &found) < 1e-13, "{:e}", residual(&matrix, &found));
         let mut sizes: Vec<f64> = found.values.iter().map(|z| z.norm()).collect();
         sizes.sort_by(f64::total_cmp);
         for (size, expected) in sizes.iter().zip([1.0, 2.0, 2.0, 4.0, 5.0]) {

@@ -106,8 +106,9 @@ const PHASE: f64 = 0.1;
 const LEFT_OUT: f64 = 0.6;
 /// Range of the minimum relative width of an interval; a fiftieth of the smallest damping ratio lies in it.
 const WIDTHS: (f64, f64) = (1e-10, 1e-5);
-/// Maximum number of parabolas through which a maximum is approached. Three reach 1e-6 of the height.
-const MAX_PARABOLAS: usize = 6;
+/// Maximum number of parabolas through which a maximum is approached. Three reach 1e-6 of the height of a resonance; the
+/// top of a flat ripple between two resonances is not a parabola, and six leave 1e-7 there.
+const MAX_PARABOLAS: usize = 12;
 
 /// Resonance of the response: a natural frequency with its half width.
 #[derive(Debug, Clone, Copy)]
