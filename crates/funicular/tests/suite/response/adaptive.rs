@@ -359,7 +359,13 @@ proptest! {
         let output = Vec6::new(0.2, 1.0 - seed, 1.0, 0.0, 0.1, 0.2);
         let pair = Pair { dynamics: &dynamics, input, output };
         let resolved = pair.resolved(&even(0.05, to, 60), &modes);
-        prop_assert!(resolved.unresolved == 0 && resolved.frequencies_hz.len() < 200 + 60 * modes.len());
+        let points = resolved.frequencies_hz.len();
+        prop_assert!(
+            resolved.unresolved == 0 && points < 200 + 60 * modes.len(),
+            "{points} points for {} modes, {} intervals left",
+            modes.len(),
+            resolved.unresolved
+        );
         check_curve(&pair, &resolved, (0.05, to), 2_001);
 
         // The warning of a coarse grid is that of the peaks of the resolved curve.
