@@ -16,7 +16,10 @@ EXCEPTIONS: dict[str, dict[str, str]] = {
         "cable_names": "the key `cable_names` of `modes`; `check` has the key `name` of each cable",
         "lengths_m": "the key of requests and the keyword of `Robot.equilibrium`; `check` has `unstrained_length_m`",
     },
-    "Equilibrium": {"robot": "the robot as an object; its name stands in the key `robot`"},
+    "Equilibrium": {
+        "robot": "the robot as an object; its name stands in the key `robot`",
+        "held_pose": "the key `pose` of `held`",
+    },
     "Equilibria": {
         "status": "the key of rows of `map` and `sweep`",
         "reason": "the key of rows of `map` and `sweep`",
@@ -24,6 +27,7 @@ EXCEPTIONS: dict[str, dict[str, str]] = {
     },
     "Modes": {
         "robot": "the name of the robot, which `statics` has as the key `robot`",
+        "first_platform_index": "the key `index` of `first_platform_mode`",
         "cable_axes": "`axes` of `stations`, as one array",
         "station_arc_length_m": "`arc_length_m` of `stations`, as one array",
         "station_position_m": "`position_m` of `stations`, as one array",

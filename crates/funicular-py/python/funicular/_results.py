@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from funicular import _show
 from funicular._errors import InputError
+from funicular._funicular import matlab_file
 
 
 def with_arrays(found: Any) -> Any:
@@ -240,8 +241,6 @@ def _save(
     if ending == ".npz":
         np.savez(path, **matrices)  # type: ignore[arg-type]
     elif ending == ".mat":
-        from funicular._funicular import matlab_file
-
         columns = [(name, len(matrix), matrix.T.ravel().tolist()) for name, matrix in matrices.items()]
         texts = [("inputs", list(inputs)), ("outputs", list(outputs)), ("description", [json.dumps(found)])]
         Path(path).write_bytes(matlab_file(columns, texts))
