@@ -25,6 +25,7 @@ fn joined(parts: &[&Value]) -> Value {
 }
 
 /// Requests of every command, each with all of its keys.
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn requests() -> Vec<Value> {
     let robot = json!({ "robot": robot() });
     let loads = json!({
