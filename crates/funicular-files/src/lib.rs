@@ -6,7 +6,7 @@
 //! complete. Parquet, CSV and VTK files hold the same rows.
 //!
 //! The feature `parquet`, on by default, adds Parquet files. Without it the crate writes CSV and VTK and refuses Parquet
-//! files with a message. The feature `arrow` adds rows in memory in the format of Apache Arrow, [`Table`](table::Table).
+//! files with a message. The feature `arrow` adds rows in memory in the format of Apache Arrow, `Table`.
 
 #[cfg(feature = "arrow")]
 pub mod arrow;

@@ -76,7 +76,7 @@ pub fn frf(
 ///
 /// # Errors
 /// [`ResponseError`]; a force and a motion on the same cable must be stations of one
-/// [`CableStations`](crate::cable_motion::CableStations), made for forces (`loaded`).
+/// [`CableStations`], made for forces (`loaded`).
 ///
 /// # References
 /// docs/theory.md, section 11.

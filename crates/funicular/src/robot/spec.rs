@@ -155,7 +155,7 @@ pub fn top_of_file() -> &'static Table {
 }
 
 impl Robot {
-    /// Reads a robot file (TOML; [`TABLES`](crate::robot::spec::TABLES) lists the keys).
+    /// Reads a robot file (TOML; [`TABLES`] lists the keys).
     ///
     /// `text` may begin with a byte-order mark and may have either kind of line end.
     ///
