@@ -61,7 +61,9 @@ function compare(found, expected, path = "", scale = 0, limit = ROUNDING) {
       compare(found[key], expected[key], `${path}.${key}`, 0, frequency ? ROUNDING : limit);
     }
   } else {
-    assert.equal(found, expected, path);
+    // A message names an option of the program by its key.
+    const inKeys = (text) => text.replace(/--([a-z-]+)/g, (_, option) => `\`${option.replaceAll("-", "_")}\``);
+    assert.equal(found, typeof expected === "string" ? inKeys(expected) : expected, path);
   }
 }
 
