@@ -287,7 +287,7 @@ impl Search {
 
         all.retain(|(hz, _)| (first..=last).contains(hz) && !self.in_gap(*hz));
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-        // Of two frequencies that differ by rounding the one that is kept stays.
+        // Two frequencies may differ by rounding alone: the one that is kept stays.
         all.dedup_by(|b, a| {
             let same = b.0 - a.0 <= 1e-14 * a.0;
             if same && b.1 && !a.1 {

@@ -236,7 +236,7 @@ fn plane(rows: &Rows, choice: &Choice) -> Result<(usize, usize)> {
     let Some([h, v]) = &choice.plane else {
         let n = rows.axes.len();
         let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-        // Of equal pairs the first counts; `max_by_key` returns the last.
+        // The first of equal pairs counts; `max_by_key` returns the last.
         let cells = |(i, j): &(usize, usize)| rows.axes[*i].kept() * rows.axes[*j].kept();
         return pairs.rev().max_by_key(cells).ok_or_else(|| anyhow!("a slice needs two axes"));
     };

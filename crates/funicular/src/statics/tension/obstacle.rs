@@ -123,7 +123,7 @@ pub(crate) fn spread(points: impl Iterator<Item = Vec3> + Clone) -> f64 {
 
 /// Obstacle of a load outside the cone of the unit wrenches; all of them reduced, the load of length 1.
 fn not_spanned(coordinates: &Coordinates, wrenches: &[Vec6], load: &Vec6) -> Option<Obstacle> {
-    // Of all y with y·w_i ≤ 0 and y·e ≤ −1 the shortest one is along the unbalanced part of the load, and its length is
+    // The shortest y with y·w_i ≤ 0 and y·e ≤ −1 is along the unbalanced part of the load, and its length is
     // the inverse of that part.
     let n = coordinates.count();
     let mut sides = Polyhedron::new(n);
