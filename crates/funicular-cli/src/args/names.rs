@@ -1,0 +1,107 @@
+//! Choices of an option by name, and the choices of the core that they stand for.
+
+use clap::ValueEnum;
+use funicular::cable::CableModel;
+use funicular::dynamics::Assembly;
+use funicular::statics::StaticModel;
+use funicular_study::names::ModelForm;
+
+/// Tension rules by name; see [`funicular::statics::TensionRule`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TensionRuleName {
+    /// Minimum sum of squares of the tensions above their minimum
+    Lowest,
+    /// Minimum sum of squares of the differences from --target-tension-n
+    Closest,
+    /// Maximum distance from the limits, relative to the distance between them
+    Middle,
+    /// Maximum of the minimum eigenvalue of the scaled stiffness
+    Stiffest,
+}
+
+/// Static models by name; see [`StaticModel`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum StaticModelName {
+    /// Straight, massless, rigid
+    Ideal,
+    /// Straight, massless, elastic
+    Spring,
+    /// Elastic, sagging under its own weight
+    #[default]
+    Catenary,
+}
+
+impl From<StaticModelName> for StaticModel {
+    fn from(name: StaticModelName) -> Self {
+        match name {
+            StaticModelName::Ideal => Self::Ideal,
+            StaticModelName::Spring => Self::Spring,
+            StaticModelName::Catenary => Self::Catenary,
+        }
+    }
+}
+
+/// Cable models by name; see [`CableModel`].
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum CableModelName {
+    /// Vibration about the elastic catenary: any sag, axial waves included
+    CatenaryDynamic,
+    /// Dynamic stiffness of a shallow sagging cable (Starossek 1991)
+    ShallowDynamic,
+    /// Static stiffness of a shallow sagging cable (Irvine 1981)
+    ShallowStatic,
+    /// Exact static stiffness of the elastic catenary
+    CatenaryStatic,
+    /// Massless spring along the chord
+    Spring,
+}
+
+impl From<CableModelName> for CableModel {
+    fn from(name: CableModelName) -> Self {
+        match name {
+            CableModelName::CatenaryDynamic => Self::CatenaryDynamic,
+            CableModelName::ShallowDynamic => Self::ShallowDynamic,
+            CableModelName::ShallowStatic => Self::ShallowStatic,
+            CableModelName::CatenaryStatic => Self::CatenaryStatic,
+            CableModelName::Spring => Self::Spring,
+        }
+    }
+}
+
+/// Form of a reduced model by name; see [`ModelForm`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum ModelFormName {
+    /// State space of the modes that inputs and outputs see
+    #[default]
+    StateSpace,
+    /// M, C, K of the platform and all modes of the cables with fixed ends, and their state space
+    SecondOrder,
+}
+
+impl From<ModelFormName> for ModelForm {
+    fn from(name: ModelFormName) -> Self {
+        match name {
+            ModelFormName::StateSpace => Self::StateSpace,
+            ModelFormName::SecondOrder => Self::SecondOrder,
+        }
+    }
+}
+
+/// Terms of the stiffness by name; see [`Assembly`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum AssemblyName {
+    /// All terms: end stiffness of the cables, and rotation of their forces on their lever arms
+    #[default]
+    Consistent,
+    /// End stiffness of the cables only, as in Yuan et al. 2014
+    WithoutGeometricStiffness,
+}
+
+impl From<AssemblyName> for Assembly {
+    fn from(name: AssemblyName) -> Self {
+        match name {
+            AssemblyName::Consistent => Self::Consistent,
+            AssemblyName::WithoutGeometricStiffness => Self::WithoutGeometricStiffness,
+        }
+    }
+}
