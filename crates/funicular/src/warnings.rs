@@ -297,10 +297,8 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     let mut warnings = Vec::new();
 
     // Tensions of the cables.
-    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
-        if equilibrium.model != StaticModel::Ideal && state.is_slack() {
-            warnings.push(Warning::Slack { cable: cable.name.clone() });
-        }
+    for (i, state) in equilibrium.cables.iter().enumerate() {
+        warnings.extend(slack(robot, equilibrium, i));
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
     }
 
@@ -331,28 +329,55 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
 
 /// Warnings about a cable model at an equilibrium for frequencies up to `below_hz` [Hz].
 pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, below_hz: f64) -> Vec<Warning> {
+    let cables: Vec<usize> = (0..equilibrium.cables.len()).collect();
+    let turns = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT);
+
     let mut warnings = Vec::new();
-
-    // Sag beyond the range of the model.
-    let sags: Vec<Sag> = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect();
-    let states = equilibrium.cables.iter().enumerate();
-    let cables: Vec<DeepSag> = states.filter_map(|(i, state)| DeepSag::of(robot, i, state, model)).collect();
-    if !cables.is_empty() {
-        warnings.push(Warning::DeepSag { cables, model });
-    }
-
-    // Drag that turns with the cables.
-    if let Some(effect) = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT) {
-        warnings.push(Warning::DragTurns { effect });
-    }
-
-    // Frequencies near the first axial one.
-    let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
-    if let Some(i) = lowest {
-        let axial_hz = sags[i].axial_frequency_hz();
-        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz {
-            warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
-        }
-    }
+    warnings.extend(deep_sag(robot, equilibrium, &cables, model));
+    warnings.extend(turns.map(|effect| Warning::DragTurns { effect }));
+    warnings.extend(axial_waves(robot, equilibrium, &cables, model, below_hz));
     warnings
+}
+
+/// Warnings about cable `i` alone, with a cable model for frequencies up to `below_hz` [Hz]: the cable is slack, sags
+/// beyond the range of the model, or has axial waves that the model leaves out.
+pub fn of_cable(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    i: usize,
+    model: CableModel,
+    below_hz: f64,
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    warnings.extend(slack(robot, equilibrium, i));
+    warnings.extend(deep_sag(robot, equilibrium, &[i], model));
+    warnings.extend(axial_waves(robot, equilibrium, &[i], model, below_hz));
+    warnings
+}
+
+/// Warning that cable `i` is slack. Ideal cables have no weight that could keep them taut, and no warning.
+fn slack(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Option<Warning> {
+    let warned = equilibrium.model != StaticModel::Ideal && equilibrium.cables[i].is_slack();
+    warned.then(|| Warning::Slack { cable: robot.cables[i].name.clone() })
+}
+
+/// Warning about those of the given cables that sag beyond the range of the model.
+fn deep_sag(robot: &Robot, equilibrium: &Equilibrium, cables: &[usize], model: CableModel) -> Option<Warning> {
+    let cables: Vec<DeepSag> =
+        cables.iter().filter_map(|&i| DeepSag::of(robot, i, &equilibrium.cables[i], model)).collect();
+    (!cables.is_empty()).then_some(Warning::DeepSag { cables, model })
+}
+
+/// Warning about axial waves in the one of the given cables that has the lowest first axial frequency.
+fn axial_waves(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    cables: &[usize],
+    model: CableModel,
+    below_hz: f64,
+) -> Option<Warning> {
+    let frequencies = cables.iter().map(|&i| (i, Sag::of(robot, i, &equilibrium.cables[i]).axial_frequency_hz()));
+    let (i, axial_hz) = frequencies.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    let matter = model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz;
+    matter.then(|| Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz })
 }
