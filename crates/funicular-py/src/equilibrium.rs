@@ -8,7 +8,7 @@ use crate::pose::PyPose;
 use crate::robot::PyRobot;
 use crate::written;
 use funicular::cable::Sag;
-use funicular::statics::{self, Stability};
+use funicular::statics;
 use funicular_study::analyses;
 use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request::{State, Tensions};
@@ -133,17 +133,13 @@ impl PyEquilibrium {
     /// True if every small motion is opposed; None for ideal cables, which are rigid.
     #[getter]
     fn stable(&self) -> Option<bool> {
-        match self.at_rest.equilibrium.stability {
-            Stability::Stable { .. } => Some(true),
-            Stability::Unstable { .. } => Some(false),
-            Stability::Rigid => None,
-        }
+        self.at_rest.equilibrium.stability.is_stable()
     }
 
     /// Minimum eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; None for ideal cables.
     #[getter]
     fn stiffness_min_n_per_m(&self) -> Option<f64> {
-        min_stiffness(&self.at_rest.equilibrium.stability)
+        self.at_rest.equilibrium.stability.min_stiffness()
     }
 
     /// Unbalanced wrench on the platform relative to the sum of all forces.
@@ -261,12 +257,5 @@ impl PyEquilibrium {
     fn __deepcopy__(slf: Py<Self>, memo: &Bound<'_, PyAny>) -> Py<Self> {
         let _ = memo;
         slf
-    }
-}
-
-pub(crate) fn min_stiffness(stability: &Stability) -> Option<f64> {
-    match stability {
-        Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(*min_stiffness),
-        Stability::Rigid => None,
     }
 }

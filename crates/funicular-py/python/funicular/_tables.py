@@ -67,9 +67,10 @@ def _equilibria(of: Equilibria) -> Any:
     ):
         columns |= {f"{name}_{i + 1}{unit}": values[:, i] for i in range(values.shape[1])}
 
+    columns["residual"] = of.residual
+    if of.stable is not None:
+        columns["stable"] = of.stable
     columns |= {
-        "residual": of.residual,
-        "stable": of.stable,
         "stiffness_min_n_per_m": of.stiffness_min_n_per_m,
         "nearest_pose_distance_m": of.nearest_pose_distance_m,
     }

@@ -11,7 +11,7 @@ use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, TensionLimits};
-use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
+use funicular::statics::{self, Candidate, Equilibrium, Limit, TensionMargin, TensionRange};
 use serde::Serialize;
 
 /// Results of `statics`: an equilibrium.
@@ -229,11 +229,6 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
 pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let cables = cable_rows(at_rest);
-    let (stable, stiffness_min_n_per_m) = match equilibrium.stability {
-        Stability::Stable { min_stiffness } => (Some(true), Some(min_stiffness)),
-        Stability::Unstable { min_stiffness, .. } => (Some(false), Some(min_stiffness)),
-        Stability::Rigid => (None, None),
-    };
     let (mut equilibria, mut search, mut another_stable_equilibrium) = (None, None, None);
     let mut warnings = at_rest.warnings(None);
 
@@ -269,8 +264,8 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         residual: equilibrium.residual,
         is_unloaded: statics::is_unloaded(robot, equilibrium),
         iterations: equilibrium.iterations,
-        stable,
-        stiffness_min_n_per_m,
+        stable: equilibrium.stability.is_stable(),
+        stiffness_min_n_per_m: equilibrium.stability.min_stiffness(),
         another_stable_equilibrium,
         equilibria,
         search,

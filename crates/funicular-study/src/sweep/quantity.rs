@@ -10,7 +10,7 @@ use super::row::PointEvaluation;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
 use funicular::robot::Robot;
-use funicular::statics::{self, Stability, StaticModel, TensionRange};
+use funicular::statics::{self, StaticModel, TensionRange};
 use funicular::suggest::nearest;
 use std::fmt;
 use thiserror::Error;
@@ -225,10 +225,7 @@ static TABLE: [Definition; 20] = [
         frequencies: |_| 0,
         columns: |_, _| one("stiffness_min_n_per_m", "N/m", "minimum eigenvalue of the scaled static stiffness"),
         values: |row, _, out| {
-            out.push(Value::real(match row.rest.stability {
-                Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(min_stiffness),
-                Stability::Rigid => None,
-            }));
+            out.push(Value::real(row.rest.stability.min_stiffness()));
         },
     },
     Definition {
