@@ -2,6 +2,7 @@
 //!
 //! The types are those of nalgebra under these names; no other file of the crate names nalgebra.
 
+pub(crate) mod active_set;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
 pub mod legendre;

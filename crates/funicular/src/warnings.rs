@@ -341,13 +341,7 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
 
 /// Warnings about cable `i` alone, with a cable model for frequencies up to `below_hz` [Hz]: the cable is slack, sags
 /// beyond the range of the model, or has axial waves that the model leaves out.
-pub fn of_cable(
-    robot: &Robot,
-    equilibrium: &Equilibrium,
-    i: usize,
-    model: CableModel,
-    below_hz: f64,
-) -> Vec<Warning> {
+pub fn of_cable(robot: &Robot, equilibrium: &Equilibrium, i: usize, model: CableModel, below_hz: f64) -> Vec<Warning> {
     let mut warnings = Vec::new();
     warnings.extend(slack(robot, equilibrium, i));
     warnings.extend(deep_sag(robot, equilibrium, &[i], model));

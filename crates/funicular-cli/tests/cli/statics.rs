@@ -114,7 +114,8 @@ fn a_maximum_above_the_breaking_load_is_refused_by_every_analysis() {
     let text = std::fs::read_to_string(&cogiro).unwrap();
     let fifth = "name = \"5\"\nmaterial = \"wire-rope-4mm\"";
     assert_eq!(text.matches(fifth).count(), 1);
-    let weak = "\n[materials.weak]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0.1\ndamping_ratio = 0\nbreaking_load_n = 4000\n";
+    let weak =
+        "\n[materials.weak]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0.1\ndamping_ratio = 0\nbreaking_load_n = 4000\n";
     let text = text.replace(fifth, "name = \"5\"\nmaterial = \"weak\"") + weak;
     let refused = run_with(&["statics", "-", "--pose", "1,2,1.5", "--max-tension-n", "20000"], &text);
     assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));

@@ -7,7 +7,7 @@
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
 use super::reference::{Maximum, Reference};
-use super::selection::{Sum, chosen};
+use super::selection::{Size, Sum, chosen};
 use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
@@ -21,15 +21,6 @@ use crate::response::Signal;
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
-
-/// Wanted size of a state space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Size {
-    /// Maximum number of states.
-    Order(usize),
-    /// Maximum error of every response, relative to its peak; the model has as few states as it allows.
-    Tolerance(f64),
-}
 
 /// Requirements for a state space.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,18 @@
 //! Choice of the modes of a state space: as few as a tolerance allows, or the best for a number of states.
 
 use super::ReductionError;
-use super::control_model::Size;
 use super::reference::Reference;
 use super::terms::Term;
 use crate::math::Complex;
+
+/// Wanted size of a state space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Size {
+    /// Maximum number of states.
+    Order(usize),
+    /// Maximum error of every response, relative to its peak; the model has as few states as it allows.
+    Tolerance(f64),
+}
 
 /// Fraction of the tolerance that the choice uses; the rest is for maxima between the frequencies.
 const USED: f64 = 0.995;

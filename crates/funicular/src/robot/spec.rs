@@ -14,14 +14,15 @@ pub mod key;
 mod limits;
 mod materials;
 mod platform;
+pub(super) mod range;
 mod read;
 
-use super::parameters::Range;
 use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
 use key::{Absent, Key, KeyValue, Shape, Table};
+use range::Range;
 use read::{DECIMAL_POINT, Reader, Section, is_zero};
 pub(super) use read::{Numbers, TOP, parsed};
 use toml::de::DeTable;

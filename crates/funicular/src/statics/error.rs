@@ -3,7 +3,7 @@
 use super::equilibrium::RESIDUAL_LIMIT;
 use super::limits::LimitViolation;
 use super::loaded_cable::MAX_LENGTH_RATIO;
-use super::tension::Obstacle;
+use super::obstacle::Obstacle;
 use crate::robot::OutOfPlane;
 use thiserror::Error;
 

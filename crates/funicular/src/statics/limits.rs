@@ -1,7 +1,7 @@
 //! Limits of a cable's tension: their defaults, and the distance of a state from them.
 
 use super::equilibrium::CableState;
-use super::tension::Obstacle;
+use super::obstacle::Obstacle;
 use crate::math::Vec3;
 use crate::robot::Robot;
 use std::fmt;

@@ -7,12 +7,10 @@
 //! balance, which has one or two dimensions for most robots: this takes microseconds, a general solver a tenth of a
 //! millisecond. With many cables it is solved in the space of the cables instead, see [`feasible_set`].
 
-mod active_set;
 mod bounds;
 mod cable_at_pose;
 mod feasible_set;
 mod null_space;
-mod obstacle;
 mod payload;
 mod proof;
 mod search;
@@ -23,12 +21,11 @@ use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::ideal;
 use super::model::StaticModel;
+pub(super) use super::obstacle::Obstacle;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use cable_at_pose::CableAtPose;
 pub use cable_at_pose::TensionPlace;
-pub(crate) use obstacle::spread;
-pub use obstacle::{Obstacle, OneSidedCause};
 pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 use search::TensionSearch;
 

@@ -3,7 +3,7 @@
 //! The reader checks files by this table. [`parameters`](crate::robot::parameters), the JSON Schema and the page of all
 //! keys are made from it.
 
-use crate::robot::parameters::Range;
+use super::range::Range;
 
 /// Table of a robot file.
 #[derive(Debug, Clone, Copy)]

@@ -3,9 +3,9 @@
 
 use super::key::{Absent, Key, Shape};
 use super::limits;
-use super::read::{MAX_NUMBER, MIN_NUMBER, Reader, Section};
+use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
+use super::read::{Reader, Section};
 use crate::math::Vec3;
-use crate::robot::parameters::Range;
 use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

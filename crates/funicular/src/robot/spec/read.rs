@@ -1,14 +1,12 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every message points at the value.
 
 use super::key::{Key, Numeric};
+use super::range::{MAX_NUMBER, MIN_NUMBER, Range as Limits};
 use super::{Issue, TABLES};
-use crate::robot::parameters::Range as Limits;
 use crate::suggest::nearest;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-
-pub(super) use crate::robot::parameters::{MAX_NUMBER, MIN_NUMBER};
 
 /// Maximum number of characters of the user's text that a message repeats.
 const QUOTED: usize = 40;

@@ -6,8 +6,8 @@
 //! tensions within the limits balance the platform, however the cables sag: (39a). Each maximum is a search in one
 //! variable, along the true curve of the cable.
 
-use super::active_set::Polyhedron;
 use super::cable_at_pose::CableAtPose;
+use crate::math::active_set::Polyhedron;
 use crate::math::{Vec3, Vec6};
 use crate::robot::PlatformMotion;
 

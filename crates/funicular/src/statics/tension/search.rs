@@ -1,18 +1,18 @@
 //! Iteration of the tension distribution: linearise the balance and the limits, solve the linear problem exactly,
 //! repeat.
 
-use super::active_set::Active;
 use super::cable_at_pose::{CableAtPose, TensionByTau};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
-use super::obstacle::Obstacle;
 use super::proof::{Infeasibility, Reach};
 use crate::math::Vec6;
+use crate::math::active_set::Active;
 use crate::platform::{Coordinates, balance, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::model::StaticModel;
+use crate::statics::obstacle::Obstacle;
 use crate::statics::residual::scaled_residual;
 
 /// Maximum number of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more
