@@ -2,17 +2,17 @@
 
 use super::check::{LoadRow, WindRow};
 use super::found;
-use super::pose_error::PoseDifferenceRow;
-use super::shared::SagNumbers;
+use super::shared::{PoseDifferenceRow, SagNumbers};
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::Sag;
-use funicular::math::rotation;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, Candidate, Equilibrium, Limit, TensionMargin, TensionRange};
 use serde::Serialize;
+
+pub use super::shared::PoseRow;
 
 /// Results of `statics`: an equilibrium.
 #[derive(Serialize)]
@@ -114,24 +114,6 @@ impl OtherStable {
     fn of(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let (other, energy_above_j) = statics::another_stable_equilibrium(robot, equilibrium)?;
         Some(Self { energy_above_j, distance_m: other.distance, position_m: other.equilibrium.pose.position_w.into() })
-    }
-}
-
-/// Pose of the platform.
-#[derive(Serialize)]
-pub struct PoseRow {
-    pub position_m: [f64; 3],
-    pub quaternion_wxyz: [f64; 4],
-    pub roll_pitch_yaw_deg: [f64; 3],
-}
-
-impl PoseRow {
-    pub(super) fn of(pose: &Pose) -> Self {
-        Self {
-            position_m: pose.position_w.into(),
-            quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
-            roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
-        }
     }
 }
 

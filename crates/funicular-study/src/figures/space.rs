@@ -2,9 +2,9 @@
 
 use super::axis::{nice_step, round_numbers};
 use super::drawing::{Align, BLACK, Colour, Drawing, Label, Point, Stroke};
+use super::hull::faces;
 use super::style::{AXIS_WIDTH, BLUE, CURVE_WIDTH, GREY, Type, VERMILION, around};
-use crate::pages::figure::hull::faces;
-use crate::pages::figure::robot::{EYE, extent, joined, ranges, sides};
+use super::view::{EYE, extent, joined, ranges, sides};
 use crate::text::decimals;
 use funicular::math::Vec3;
 use funicular::robot::Robot;

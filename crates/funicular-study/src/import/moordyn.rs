@@ -9,7 +9,8 @@ mod objects;
 mod sections;
 
 use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState};
-use super::text::{SourceFile, clean};
+use crate::request::SourceFile;
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 use objects::{Holder, MoorDynLine, MoorDynModel, MoorDynPoint};

@@ -1,8 +1,9 @@
 //! Points of a sweep: grids and lists of poses, or robots that the caller supplies.
 
 use super::columns::{Column, ColumnKind};
-use super::plan::{Options, SweepError};
-use super::steps::{Steps, digits};
+use super::error::SweepError;
+use super::options::Options;
+use crate::request::{Steps, digits};
 use funicular::math::rotation;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics::{self, Solution, StaticsError};

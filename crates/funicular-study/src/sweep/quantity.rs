@@ -5,8 +5,8 @@
 //! quantity.
 
 use super::columns::{Column, ColumnKind, Value};
+use super::evaluation::{PointEvaluation, has_ideal_pose};
 use super::points::AXES;
-use super::row::PointEvaluation;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
 use funicular::robot::Robot;
@@ -568,11 +568,6 @@ fn stiffness_columns(robot: &Robot) -> Vec<Column> {
             column(format!("stiffness_{name}_{suffix}"), unit, about)
         })
         .collect()
-}
-
-/// True if rigid cables of given lengths have a pose: only with as many cables as degrees of freedom.
-pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
-    robot.cables.len() == robot.platform.motion.count()
 }
 
 fn pose_error_columns(robot: &Robot) -> Vec<Column> {

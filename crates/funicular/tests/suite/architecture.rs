@@ -1,5 +1,7 @@
 //! Rules of ARCHITECTURE.md that the sources can be read for.
 
+mod circles;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

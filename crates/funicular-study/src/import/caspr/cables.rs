@@ -1,8 +1,8 @@
 //! CASPR's file of cables, of which one set is read.
 
 use crate::import::draft::{DraftCable, DraftRope, listed};
-use crate::import::text::clean;
 use crate::import::xml::{Xml, children, tag};
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
 use funicular::suggest::nearest;
@@ -250,7 +250,7 @@ impl CasprLosses {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::import::text::SourceFile;
+    use crate::request::SourceFile;
 
     #[test]
     fn an_infinite_limit_counts_as_none() {

@@ -1,7 +1,7 @@
 //! Text of the robot file of a draft.
 
 use super::{Draft, DraftCable, DraftMotion, DraftRope, DraftState};
-use crate::import::text::clean;
+use crate::text::clean;
 use anyhow::{Result, anyhow};
 use funicular::math::{Mat3, Vec3, rotation};
 use funicular::robot::Robot;
