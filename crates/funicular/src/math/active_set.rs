@@ -112,9 +112,9 @@ pub(crate) fn nearest(constraints: &mut impl ConstraintSet, x: &mut [f64], toler
 /// zero multipliers). `None` if the polyhedron is empty or unbounded in this direction.
 ///
 /// The result is the point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see
-/// [`Far`].
+/// [`TwoMagnitudes`].
 pub(crate) fn highest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
-    let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
+    let mut point: Vec<TwoMagnitudes> = x.iter().map(|&near| TwoMagnitudes { far: 0.0, near }).collect();
     point.last_mut()?.far = 1.0;
     let held = approach(constraints, &mut point, tolerance.max(rounding(x)))?;
     if point.iter().any(|x| x.far != 0.0) {
@@ -253,40 +253,40 @@ impl Magnitude for f64 {
 /// The highest point of a polyhedron is the point nearest to one high enough above. The necessary height depends on the
 /// flattest edge, and so large a number would leave no digits to the others; so L stays a symbol.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub(crate) struct Far {
+pub(crate) struct TwoMagnitudes {
     far: f64,
     near: f64,
 }
 
-impl Add for Far {
+impl Add for TwoMagnitudes {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self { far: self.far + other.far, near: self.near + other.near }
     }
 }
 
-impl Sub for Far {
+impl Sub for TwoMagnitudes {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self { far: self.far - other.far, near: self.near - other.near }
     }
 }
 
-impl Mul<f64> for Far {
+impl Mul<f64> for TwoMagnitudes {
     type Output = Self;
     fn mul(self, by: f64) -> Self {
         Self { far: self.far * by, near: self.near * by }
     }
 }
 
-impl Div<f64> for Far {
+impl Div<f64> for TwoMagnitudes {
     type Output = Self;
     fn div(self, by: f64) -> Self {
         Self { far: self.far / by, near: self.near / by }
     }
 }
 
-impl Magnitude for Far {
+impl Magnitude for TwoMagnitudes {
     const ZERO: Self = Self { far: 0.0, near: 0.0 };
 
     fn lack(terms: impl Iterator<Item = (f64, Self)>, level: f64, tolerance: f64) -> Option<Self> {

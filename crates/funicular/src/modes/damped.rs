@@ -136,7 +136,7 @@ struct ZeroSearch<'a> {
 }
 
 /// Zero with the undamped modes that share it.
-struct Zero {
+struct DampedZero {
     omega: Complex,
     error: f64,
     members: Vec<usize>,
@@ -144,8 +144,8 @@ struct Zero {
 
 impl ZeroSearch<'_> {
     /// Start of each search: one per mode, or per multiple mode. Modes with the platform at rest have a closed form.
-    fn starts(&self, modes: &[Mode]) -> Vec<Zero> {
-        let mut zeros: Vec<Zero> = Vec::with_capacity(modes.len());
+    fn starts(&self, modes: &[Mode]) -> Vec<DampedZero> {
+        let mut zeros: Vec<DampedZero> = Vec::with_capacity(modes.len());
         let mut next = 0;
         while next < modes.len() {
             let mode = &modes[next];
@@ -153,11 +153,11 @@ impl ZeroSearch<'_> {
             next += members.len();
             let undamped = mode.frequency_hz * TAU;
             zeros.push(if let Some(omega) = self.of_cables_alone(mode) {
-                Zero { omega, error: 0.0, members }
+                DampedZero { omega, error: 0.0, members }
             } else {
                 let sum: f64 = members.iter().map(|i| modes[*i].damping_ratio).sum();
                 let zeta = self.losses * sum / members.len() as f64;
-                Zero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
+                DampedZero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
             });
         }
         zeros
@@ -175,7 +175,7 @@ impl ZeroSearch<'_> {
     }
 
     /// Moves the zeros from their places with less damping to those with the present damping.
-    fn follow(&self, zeros: &mut [Zero], modes: &[Mode]) {
+    fn follow(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
         for zero in &mut *zeros {
             match self.of_cables_alone(&modes[zero.members[0]]) {
                 Some(omega) => zero.omega = omega,
@@ -186,7 +186,7 @@ impl ZeroSearch<'_> {
     }
 
     /// Takes Newton steps on f, divided by all the other zeros, until no zero moves.
-    fn converge(&self, zeros: &mut [Zero]) {
+    fn converge(&self, zeros: &mut [DampedZero]) {
         // Usually four rounds; 60 is a guard for clusters, where convergence is linear at first.
         for _ in 0..60 {
             let mut moved = false;
@@ -225,8 +225,8 @@ impl ZeroSearch<'_> {
     }
 
     /// Splits zeros that several modes share if damping has separated them.
-    fn separate(&self, zeros: &mut Vec<Zero>, modes: &[Mode]) {
-        let (apart, mut all): (Vec<Zero>, Vec<Zero>) =
+    fn separate(&self, zeros: &mut Vec<DampedZero>, modes: &[Mode]) {
+        let (apart, mut all): (Vec<DampedZero>, Vec<DampedZero>) =
             zeros.drain(..).partition(|zero| zero.members.len() > 1 && zero.error > 0.0 && !self.is_one(zero));
         let any = !apart.is_empty();
         for zero in apart {
@@ -236,7 +236,7 @@ impl ZeroSearch<'_> {
                 let turn =
                     Complex::from_polar(0.3 * mode.damping_ratio, TAU * (k as f64 + 0.3) / zero.members.len() as f64);
                 let omega = mode.frequency_hz * TAU * (Complex::new(1.0, mode.damping_ratio) + turn);
-                all.push(Zero { omega, error: f64::INFINITY, members: vec![member] });
+                all.push(DampedZero { omega, error: f64::INFINITY, members: vec![member] });
             }
         }
         *zeros = all;
@@ -247,14 +247,14 @@ impl ZeroSearch<'_> {
 
     /// Searches again for zeros that have left their region: from their own start, and from the starts of the zeros
     /// that have moved farthest, because one of these may have taken the zero of another. All others stay divided out.
-    fn bring_back(&self, zeros: &mut [Zero], modes: &[Mode]) {
-        let start = |zero: &Zero| {
+    fn bring_back(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
+        let start = |zero: &DampedZero| {
             let mode = &modes[zero.members[0]];
             mode.frequency_hz * TAU * Complex::new(1.0, mode.damping_ratio)
         };
         // Zeros without damping lie on the real axis, except for rounding.
-        let minimum = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
-        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < minimum(zero);
+        let minimum = |zero: &DampedZero| -WANTED_ERROR * zero.omega.norm();
+        let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < minimum(zero);
 
         for round in 0..MAX_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
@@ -263,7 +263,7 @@ impl ZeroSearch<'_> {
             }
 
             // Starts: the zero's own, then those of the zeros that have moved farthest.
-            let gone = |zero: &Zero| (zero.omega - start(zero)).norm() / zero.omega.norm();
+            let gone = |zero: &DampedZero| (zero.omega - start(zero)).norm() / zero.omega.norm();
             let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
             places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
 
@@ -280,7 +280,7 @@ impl ZeroSearch<'_> {
 
     /// True if all modes that share a zero really have one multiple zero. The logarithmic slope on a small circle
     /// around it gives the number of zeros inside and the moments of their places.
-    fn is_one(&self, zero: &Zero) -> bool {
+    fn is_one(&self, zero: &DampedZero) -> bool {
         const POINTS: usize = 8;
         let radius = 1e-4 * zero.omega.norm();
         let mut moments = [Complex::new(0.0, 0.0); 3];

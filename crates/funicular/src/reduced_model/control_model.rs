@@ -7,7 +7,7 @@
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
 use super::reference::{Maximum, Reference};
-use super::selection::{Size, Sum, chosen};
+use super::selection::{RemainingDifference, Size, chosen};
 use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
@@ -207,7 +207,7 @@ pub fn control_model(
     for ratio in REPLACED_FROM {
         let added = sets_from(ratio, &reference)?;
         if cut.has_damping_ratios() {
-            damping_error = Sum::of_all(&reference, &added[0]).largest();
+            damping_error = RemainingDifference::of_all(&reference, &added[0]).largest();
         }
         sets.extend(added);
     }

@@ -18,12 +18,12 @@ pub enum Size {
 const USED: f64 = 0.995;
 
 /// Difference between the full responses and those of some terms, at all frequencies of the reference.
-pub(super) struct Sum<'a> {
+pub(super) struct RemainingDifference<'a> {
     reference: &'a Reference<'a>,
     differences: Vec<Complex>,
 }
 
-impl<'a> Sum<'a> {
+impl<'a> RemainingDifference<'a> {
     /// Difference without any term: the static displacement is the feedthrough.
     fn of_none(reference: &'a Reference<'a>) -> Self {
         let pairs = reference.pairs();
@@ -101,7 +101,7 @@ pub(super) fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> R
 fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term>, f64) {
     let mut terms: Vec<Term> = Vec::new();
     let mut left = states;
-    let mut sum = Sum::of_none(reference);
+    let mut sum = RemainingDifference::of_none(reference);
     for term in ranked {
         if term.states() <= left {
             left -= term.states();
@@ -116,7 +116,7 @@ fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term
 /// The first terms in the order of their size that keep the tolerance, without those that turn out not to be needed; or
 /// all terms if these do not keep it. With their error.
 fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>, f64) {
-    let mut sum = Sum::of_none(reference);
+    let mut sum = RemainingDifference::of_none(reference);
     let mut count = 0;
     let mut error = f64::INFINITY;
     for term in ranked {

@@ -22,12 +22,12 @@ struct Element {
 }
 
 /// Gauss rule (ξ, weight), and the slopes d/dξ of hats and bubbles (rows) at its points (columns).
-pub(super) struct Table {
+pub(super) struct ElementTable {
     rule: Vec<(f64, f64)>,
     slopes: DMat,
 }
 
-impl Table {
+impl ElementTable {
     fn new(degree: usize) -> Self {
         // A product of two slopes has degree 2p − 2; the additional points are for C.
         let rule = legendre::gauss(degree + 8);
@@ -103,8 +103,8 @@ impl<'a> Mesh<'a> {
     }
 
     /// Quadrature and slopes of each element; all components share them.
-    pub(super) fn tables(&self) -> Vec<Table> {
-        self.elements.iter().map(|element| Table::new(element.degree + BEYOND)).collect()
+    pub(super) fn tables(&self) -> Vec<ElementTable> {
+        self.elements.iter().map(|element| ElementTable::new(element.degree + BEYOND)).collect()
     }
 
     /// Polynomial degree of each element.
@@ -134,7 +134,7 @@ impl<'a> Mesh<'a> {
     /// displacements of the points at the arc lengths `stations`.
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
-        tables: &[Table],
+        tables: &[ElementTable],
         still: [[f64; N]; N],
         limit: f64,
         stations: &[f64],
@@ -143,7 +143,7 @@ impl<'a> Mesh<'a> {
     }
 
     /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`].
-    fn assemble<const D: usize, const N: usize>(&self, tables: &[Table], stations: &[f64]) -> Partition<D, N> {
+    fn assemble<const D: usize, const N: usize>(&self, tables: &[ElementTable], stations: &[f64]) -> Partition<D, N> {
         let mut partition = Partition::new(self.inner_functions(), BEYOND * self.elements.len(), stations.len());
 
         for (e, (element, table)) in self.elements.iter().zip(tables).enumerate() {
@@ -200,10 +200,10 @@ impl<'a> Mesh<'a> {
 
     /// Stiffness per entry of C (hh, hv, vv, or one out of plane) and mass of an element over its hats and bubbles,
     /// [`BEYOND`] included.
-    fn element_matrices<const D: usize>(&self, element: &Element, table: &Table) -> (Vec<DMat>, DMat) {
+    fn element_matrices<const D: usize>(&self, element: &Element, table: &ElementTable) -> (Vec<DMat>, DMat) {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);
-        let Table { rule, slopes } = table;
+        let ElementTable { rule, slopes } = table;
 
         // C at the points of the rule.
         let entries = 2 * D - 1;

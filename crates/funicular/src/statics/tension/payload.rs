@@ -10,8 +10,8 @@ use super::TensionRule;
 use super::cable_at_pose::{CableAtPose, TensionPlace};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
-use super::proof::{Infeasibility, Reach};
-use super::search::{Linear, ProximalStep, Stride, TauBound, TensionSearch};
+use super::proof::{Infeasibility, ReachableTensions};
+use super::search::{Linear, ProximalStep, ProximalStepControl, TauBound, TensionSearch};
 use crate::math::{Vec3, Vec6};
 use crate::platform::{Coordinates, load_wrench, wrench_of};
 use crate::robot::{Load, Pose, Robot};
@@ -184,7 +184,7 @@ struct Optimum {
 impl PayloadSearch<'_> {
     fn extreme(&mut self) -> Result<Optimum, StaticsError> {
         let sign = self.requested.side.sign();
-        let mut stride = Stride::default();
+        let mut stride = ProximalStepControl::default();
         let mut weight = 0.0;
         while self.iterations < MAX_ITERATIONS {
             self.iterations += 1;
@@ -331,11 +331,11 @@ impl PayloadSearch<'_> {
         }
 
         let mut cables = self.search.cables().to_vec();
-        let reaches: Vec<Reach> = cables
+        let reaches: Vec<ReachableTensions> = cables
             .iter_mut()
             .map(|cable| {
                 let minimum = cable.at_minimum();
-                Reach::of(cable, minimum)
+                ReachableTensions::of(cable, minimum)
             })
             .collect();
         let own = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));

@@ -26,12 +26,12 @@ const ROUNDING: f64 = 1e-12;
 
 /// Range of a cable's tension.
 #[derive(Debug, Clone)]
-pub(super) struct Reach {
+pub(super) struct ReachableTensions {
     /// Cable at the minimum τ within its limits, not slacker than (37), and at the maximum.
     ends: [CableAtPose; 2],
 }
 
-impl Reach {
+impl ReachableTensions {
     /// Range of a cable in any state; `minimum` is its [`CableAtPose::at_minimum`].
     pub(super) fn of(cable: &CableAtPose, minimum: f64) -> Self {
         let mut ends = [cable.clone(), cable.clone()];
@@ -145,7 +145,7 @@ impl TauInterval {
 }
 
 /// Result of the directions tried.
-pub(super) struct Verdict {
+pub(super) struct ProofResult {
     /// True if it is proved that no tensions within the limits balance the platform.
     pub proved: bool,
     /// Tensions with the maximum contributions in the first direction [N].
@@ -154,7 +154,7 @@ pub(super) struct Verdict {
 
 /// Load to be balanced by cables within their ranges; in the platform's coordinates, scaled.
 pub(super) struct Infeasibility<'a> {
-    pub reaches: &'a [Reach],
+    pub reaches: &'a [ReachableTensions],
     pub load: Vec6,
     pub motion: PlatformMotion,
 }
@@ -166,11 +166,11 @@ impl Infeasibility<'_> {
     /// plane. The next direction has all of these sets on the right side, with the largest minimum angle (cutting
     /// planes). There is no such direction if the load lies in the convex hull of the wrenches that these tensions
     /// balance; then no direction is a proof.
-    pub(super) fn prove(&self, first: &Vec6) -> Verdict {
+    pub(super) fn prove(&self, first: &Vec6) -> ProofResult {
         let n = self.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
-        let mut verdict = Verdict { proved: false, max_shares: Vec::new() };
+        let mut verdict = ProofResult { proved: false, max_shares: Vec::new() };
 
         for _ in 0..=MAX_CUTS {
             let (proved, max_shares) = self.test_direction(&y);

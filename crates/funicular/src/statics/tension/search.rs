@@ -4,7 +4,7 @@
 use super::cable_at_pose::{CableAtPose, TensionByTau};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
-use super::proof::{Infeasibility, Reach};
+use super::proof::{Infeasibility, ReachableTensions};
 use crate::math::Vec6;
 use crate::math::active_set::Active;
 use crate::platform::{Coordinates, balance, load_size, load_wrench};
@@ -112,19 +112,19 @@ pub(super) struct ProximalStep {
 /// smaller: the distance may grow by a limited amount only, with the smallest possible move of the tensions (a proximal
 /// step). The fixed points are the same.
 #[derive(Debug)]
-pub(super) struct Stride {
+pub(super) struct ProximalStepControl {
     pub climb: Option<ProximalStep>,
     pub last_change: f64,
     setbacks: usize,
 }
 
-impl Default for Stride {
+impl Default for ProximalStepControl {
     fn default() -> Self {
         Self { climb: None, last_change: f64::INFINITY, setbacks: 0 }
     }
 }
 
-impl Stride {
+impl ProximalStepControl {
     pub(super) fn next(&mut self, change: f64, size: f64, height: f64) {
         if change > 0.9 * self.last_change {
             self.setbacks += 1;
@@ -340,7 +340,7 @@ impl<'a> TensionSearch<'a> {
     /// Moves to the tensions as far from the limits as possible, relative to the distance between the limits.
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
-        let mut stride = Stride::default();
+        let mut stride = ProximalStepControl::default();
         let mut reach = 1.0;
 
         for _ in 0..MAX_ITERATIONS {
@@ -350,7 +350,7 @@ impl<'a> TensionSearch<'a> {
 
             if optimum.distance < -VIOLATION {
                 self.min_violation()?;
-                stride = Stride::default();
+                stride = ProximalStepControl::default();
                 if self.rescued.is_some() {
                     // From the result of another start, next to the limits, with shorter steps each time.
                     reach *= 0.3;
@@ -422,7 +422,8 @@ impl<'a> TensionSearch<'a> {
         }
 
         // The direction of the limits' multipliers is nearly always a proof.
-        let reaches: Vec<Reach> = self.cables.iter().zip(&minima).map(|(cable, tau)| Reach::of(cable, *tau)).collect();
+        let reaches: Vec<ReachableTensions> =
+            self.cables.iter().zip(&minima).map(|(cable, tau)| ReachableTensions::of(cable, *tau)).collect();
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
         let claim = Infeasibility { reaches: &reaches, load, motion };
@@ -451,7 +452,7 @@ impl<'a> TensionSearch<'a> {
     }
 
     /// Start number `k` of tensions that spread over the range between the limits, evenly in their logarithms.
-    fn spread(&self, reaches: &[Reach], k: usize) -> Vec<f64> {
+    fn spread(&self, reaches: &[ReachableTensions], k: usize) -> Vec<f64> {
         let cables = reaches.iter().zip(&self.cables).enumerate();
         let tensions = cables.map(|(i, (reach, cable))| {
             let [low, high] = reach.limits();
@@ -468,7 +469,7 @@ impl<'a> TensionSearch<'a> {
     /// Minimum violation if cables are continued by their tangents below these tensions.
     fn min_violation_above(&mut self, floors: &[f64]) -> Result<MarginOptimum, StaticsError> {
         let mut here = self.tensions();
-        let mut stride = Stride::default();
+        let mut stride = ProximalStepControl::default();
         let mut mildest: Option<MarginOptimum> = None;
 
         for iteration in 0..MAX_ITERATIONS {
