@@ -183,6 +183,7 @@ fn angles(pose: &Pose) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::names::Named;
     use crate::request::SourceFile;
     use funicular::robot::spec::TABLES;
 
