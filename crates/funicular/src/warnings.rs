@@ -169,15 +169,7 @@ impl fmt::Display for Warning {
                  stronger rope, another pose or less load"
             ),
             Self::BeyondLimit { cable, tension, limit, value } => {
-                let (range, side, name) = match limit {
-                    Limit::Minimum => ("only", "below", "minimum_tension_n"),
-                    Limit::Maximum => ("up to", "above", "maximum_tension_n"),
-                };
-                write!(
-                    f,
-                    "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: \
-                     choose another pose, load or lengths, or another limit"
-                )
+                f.write_str(&beyond_limit(cable, *tension, *limit, *value))
             }
             Self::NoDrag { ropes } => {
                 let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
@@ -188,28 +180,8 @@ impl fmt::Display for Warning {
                     ropes.join(", ")
                 )
             }
-            Self::NearlySingular { gain } if gain.is_infinite() => write!(
-                f,
-                "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which \
-                 the cables pull in more directions"
-            ),
-            Self::NearlySingular { gain } => write!(
-                f,
-                "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension \
-                 (limit {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
-            ),
-            Self::Unstable { directions, min_stiffness: 0.0 } => write!(
-                f,
-                "the equilibrium is indifferent: in {} nothing holds the platform, and its natural frequency there is \
-                 zero; add a cable, or another attachment point",
-                crate::counted(*directions, "direction")
-            ),
-            Self::Unstable { directions, min_stiffness } => write!(
-                f,
-                "the equilibrium is not stable: {} without a restoring force (minimum scaled stiffness \
-                 {min_stiffness:.3e} N/m); the robot would leave this pose",
-                crate::counted(*directions, "direction")
-            ),
+            Self::NearlySingular { gain } => f.write_str(&nearly_singular(*gain)),
+            Self::Unstable { directions, min_stiffness } => f.write_str(&unstable(*directions, *min_stiffness)),
             Self::Elsewhere { cables, dof, translation, turn_deg, distance } => write!(
                 f,
                 "{} for {dof} degrees of freedom cannot hold the requested pose with any lengths: this is the nearest \
@@ -217,21 +189,7 @@ impl fmt::Display for Warning {
                 crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
-            Self::DeepSag { cables, model } => {
-                let what =
-                    if *model == CableModel::ShallowStatic { "stiffness along the chord" } else { "first frequency" };
-                let one = |DeepSag { cable, ratio, error }: &DeepSag| {
-                    let error =
-                        error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
-                    format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
-                };
-                write!(
-                    f,
-                    "cable {}, the limit is 1/20: the {model} model is outside its range; use the model \
-                     `catenary-dynamic`, or raise the tension",
-                    cables.iter().map(one).collect::<Vec<_>>().join(", ")
-                )
-            }
+            Self::DeepSag { cables, model } => f.write_str(&too_deep(cables, *model)),
             Self::DragTurns { effect } => write!(
                 f,
                 "the drag of the wind turns with the cables and changes the static displacement under a small load by \
@@ -247,6 +205,60 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+/// Text about a tension beyond a limit of the file.
+fn beyond_limit(cable: &str, tension: f64, limit: Limit, value: f64) -> String {
+    let (range, side, name) = match limit {
+        Limit::Minimum => ("only", "below", "minimum_tension_n"),
+        Limit::Maximum => ("up to", "above", "maximum_tension_n"),
+    };
+    format!(
+        "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: choose another \
+         pose, load or lengths, or another limit"
+    )
+}
+
+/// Text about a pose at or near a singular one.
+fn nearly_singular(gain: f64) -> String {
+    if gain.is_infinite() {
+        return "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which the \
+                cables pull in more directions"
+            .to_owned();
+    }
+    format!(
+        "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension (limit \
+         {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
+    )
+}
+
+/// Text about an equilibrium that is indifferent or not stable.
+fn unstable(directions: usize, min_stiffness: f64) -> String {
+    let directions = crate::counted(directions, "direction");
+    if min_stiffness == 0.0 {
+        return format!(
+            "the equilibrium is indifferent: in {directions} nothing holds the platform, and its natural frequency \
+             there is zero; add a cable, or another attachment point"
+        );
+    }
+    format!(
+        "the equilibrium is not stable: {directions} without a restoring force (minimum scaled stiffness \
+         {min_stiffness:.3e} N/m); the robot would leave this pose"
+    )
+}
+
+/// Text about cables that sag too deep for a model.
+fn too_deep(cables: &[DeepSag], model: CableModel) -> String {
+    let what = if model == CableModel::ShallowStatic { "stiffness along the chord" } else { "first frequency" };
+    let one = |DeepSag { cable, ratio, error }: &DeepSag| {
+        let error = error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
+        format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
+    };
+    format!(
+        "cable {}, the limit is 1/20: the {model} model is outside its range; use the model `catenary-dynamic`, or raise \
+         the tension",
+        cables.iter().map(one).collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// Warning about a cable beyond the breaking load of its rope or beyond a limit of the file; only the most serious one.
