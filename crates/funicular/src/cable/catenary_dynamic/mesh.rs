@@ -29,8 +29,8 @@ pub(super) struct ElementTable {
 
 impl ElementTable {
     fn new(degree: usize) -> Self {
-        // A product of two slopes has degree 2p − 2; the additional points are for C.
-        let rule = legendre::gauss(degree + 8);
+        // A product of two slopes has degree 2p − 2.
+        let rule = legendre::gauss(degree + POINTS_FOR_TANGENT);
         let mut slopes = DMat::zeros(degree + 1, rule.len());
         for (mut column, (xi, _)) in slopes.column_iter_mut().zip(&rule) {
             column[0] = -0.5;
@@ -42,6 +42,38 @@ impl ElementTable {
         Self { rule, slopes }
     }
 }
+
+/// Points of the Gauss rule beyond the degree of an element. Products of two slopes of degree p − 1 need p points; the
+/// additional ones are for C, whose coefficients fall by the size of the Bernstein ellipse per degree. The rule is exact
+/// up to twice the points, so that eight of them leave 1.5^-16 = 2e-3 of the highest products only, and those with the
+/// low modes far less.
+const POINTS_FOR_TANGENT: usize = 8;
+
+/// Degree per radian of a wave's phase over an element. A half wave needs π/2 degrees, 0.5 per radian (docs/theory.md,
+/// section 9); the rest is margin, fitted to the estimate of the error.
+const DEGREE_PER_RADIAN: f64 = 0.53;
+
+/// Degrees per cube root of half the phase: width of the transition after which the error of a resolved wave falls
+/// exponentially.
+const DEGREES_OF_TRANSITION: f64 = 2.2;
+
+/// Degrees that every element has besides, and the exponent of the decrease that the coefficients of C get: e^-13, whose
+/// square, 5e-12, is the error of a frequency. Fitted to the estimate of the error; 6 and 14 were the values before.
+const BASE_DEGREE: f64 = 4.0;
+const DECREASE_OF_TANGENT: f64 = 13.0;
+
+/// Maximum degree that is asked for: far above `MAX_UNKNOWNS`, so that the error names the number of unknowns, and a
+/// number that fits `usize`.
+const MAX_DEGREE: f64 = 1e6;
+
+/// Refinement of an element: the inverse fraction of its degree that is added, and the degrees that are added besides.
+/// Eight degrees divide the error of a smooth element by at least 1.5^16 = 660.
+const REFINED_PART: usize = 6;
+const REFINED_DEGREES: usize = 8;
+
+/// Minimum tension of a cable, over its largest: below it the stiffness of a taut string, and with it a vibration, is
+/// rounding of the forces at the ends.
+const MIN_TENSION: f64 = 1e-9;
 
 /// Number of degrees that the matrices of an element have beyond its own. The response of these additional functions
 /// estimates the error of the discretisation.
@@ -86,10 +118,9 @@ impl<'a> Mesh<'a> {
             let mean = (slowness(from) + 4.0 * slowness(center) + slowness(to)) / 6.0;
             let phase = limit * mean * (to - from);
 
-            // A degree of 0.5 per radian resolves a wave; the cube root is the width of the transition to exponential
-            // convergence.
-            let waves = 0.53 * phase + 2.2 * (0.5 * phase).cbrt();
-            let degree = (waves + 4.0 + 13.0 / size.ln()).ceil().min(1e6) as usize;
+            // Degree for the waves, and for the variation of C along the element.
+            let waves = DEGREE_PER_RADIAN * phase + DEGREES_OF_TRANSITION * (0.5 * phase).cbrt();
+            let degree = (waves + BASE_DEGREE + DECREASE_OF_TANGENT / size.ln()).ceil().min(MAX_DEGREE) as usize;
             elements.push(Element { from, to, degree });
         }
         Ok(Self { catenary, mass_per_length, elements, refined: 0 })
@@ -98,7 +129,7 @@ impl<'a> Mesh<'a> {
     pub(super) fn refine(&mut self) {
         self.refined += 1;
         for element in &mut self.elements {
-            element.degree += element.degree / 6 + 8;
+            element.degree += element.degree / REFINED_PART + REFINED_DEGREES;
         }
     }
 
@@ -256,7 +287,7 @@ pub(crate) fn has_tension(catenary: &Catenary) -> bool {
     // The minimum is at the lowest point if the cable has one, otherwise at an end.
     let inside = w != 0.0 && (0.0..=catenary.rope().unstrained_length).contains(&(-va / w));
     let minimum = if inside { h } else { start.min(end) };
-    minimum > 1e-9 * end.max(start)
+    minimum > MIN_TENSION * end.max(start)
 }
 
 /// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C: the sum of its

@@ -21,6 +21,13 @@ const MAX_CUTS: usize = 60;
 /// one up to 0.98.
 const STEEP: f64 = 0.95;
 
+/// Violation of a cut that counts as rounding; the cuts are unit vectors.
+const CUT_ROUNDING: f64 = 1e-9;
+
+/// Change of a unit direction below which it counts as the direction before: then rounding decides, far below
+/// [`CUT_ROUNDING`].
+const SAME_DIRECTION: f64 = 1e-12;
+
 /// Rounding of the sum of all contributions, relative to their magnitudes.
 const ROUNDING: f64 = 1e-12;
 
@@ -192,12 +199,12 @@ impl Infeasibility<'_> {
                 sides.add(unit[..n].iter(), -1.0, None, 1.0);
             }
             let mut next = [0.0; 6];
-            if sides.nearest(&mut next[..n], 1e-9).is_none() {
+            if sides.nearest(&mut next[..n], CUT_ROUNDING).is_none() {
                 break;
             }
             let next = Vec6::from(next).normalize();
             // If the last direction repeats, rounding decides.
-            if (next - y).amax() < 1e-12 {
+            if (next - y).amax() < SAME_DIRECTION {
                 break;
             }
             y = next;
