@@ -74,7 +74,7 @@ impl ErrorKind {
         let no_solution = match error.downcast_ref::<StaticsError>() {
             Some(error) => error.is_no_solution(),
             None => {
-                matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
+                error.downcast_ref().is_some_and(DynamicsError::is_no_solution)
                     || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
                     || error.downcast_ref().is_some_and(ReductionError::is_no_solution)
                     || error.is::<NoSolution>()

@@ -88,6 +88,16 @@ pub enum DynamicsError {
 }
 
 impl DynamicsError {
+    /// True if the request is valid and the robot has no linear vibration at this equilibrium, because a cable has no
+    /// tension; otherwise another model or frequency limit helps.
+    pub fn is_no_solution(&self) -> bool {
+        match self {
+            Self::NoTension { .. } => true,
+            Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
+            Self::Rigid => false,
+        }
+    }
+
     /// Error for the cable of this name, which has no stiffness in a model.
     pub fn of_cable(name: &str, model: CableModel, reason: NoStiffness) -> Self {
         let cable = name.to_owned();
