@@ -135,7 +135,8 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
 
 /// Least squares of the remaining wrench by the method of Levenberg and Marquardt.
 ///
-/// The unknowns are logarithms, see [`LogarithmicUnit`]: so damping has the same meaning for a taut and for a slack cable.
+/// The unknowns are logarithms, see [`LogarithmicUnit`]: so damping has the same meaning for a taut and for a slack
+/// cable.
 fn levenberg_marquardt(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> CableSearch {
     let coordinates = Coordinates::of(robot);
     let (mut wrench, mut residual) = wrench_residual(robot, &coordinates, pose, &hanging);
