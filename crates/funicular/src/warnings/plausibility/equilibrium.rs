@@ -1,4 +1,4 @@
-//! Plausibility of an equilibrium: strain, weight of the cables against their tension, and their length.
+//! Plausibility of an equilibrium: strain, weight of the cables against their tension, and length of the cables.
 
 use super::{Implausible, likely, outside, usual};
 use crate::robot::{Robot, State};
@@ -69,8 +69,10 @@ fn length(robot: &Robot, equilibrium: &Equilibrium) -> Option<Implausible> {
     let what = format!("unstrained length of cable \"{name}\" over the distance of its ends");
     outside(what, ratio, "", usual::LENGTH_OVER_CHORD, |_| match robot.state {
         State::Lengths(_) => "its `unstrained_length_m` too long, or an end of the cable at a wrong place?".to_owned(),
-        State::Pose(_) | State::Unknown => "the cable hangs far below its ends, and straight it would have to push: a \
-                                            pose that the cables do not hold, or a wrong attachment or anchor?"
-            .to_owned(),
+        State::Pose(_) | State::Unknown => {
+            "straight it would be slack or have to push, and only so long a cable balances the platform: wrong pose, \
+             attachment or anchor?"
+                .to_owned()
+        }
     })
 }

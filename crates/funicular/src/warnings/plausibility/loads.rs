@@ -61,7 +61,7 @@ fn gravity_up(robot: &Robot) -> Option<Implausible> {
     })
 }
 
-/// Gravity across z, with all anchors above the platform in z.
+/// Gravity perpendicular to z, with all anchors above the platform in z.
 fn gravity_level(robot: &Robot) -> Option<Implausible> {
     let State::Pose(pose) = &robot.state else { return None };
     let gravity = robot.gravity_w.norm();
@@ -69,7 +69,7 @@ fn gravity_level(robot: &Robot) -> Option<Implausible> {
     let is_above = robot.cables.iter().all(|cable| cable.anchor.reference_w().z > pose.position_w.z);
     (is_level && is_above).then(|| Implausible::Odd {
         what: format!(
-            "`gravity_m_s2` is ({}, {}, {}), across z, and all anchors are above the platform in z",
+            "`gravity_m_s2` is ({}, {}, {}), perpendicular to z, and all anchors are above the platform in z",
             robot.gravity_w.x, robot.gravity_w.y, robot.gravity_w.z
         ),
         slip: "gravity along -z meant?".to_owned(),
