@@ -192,7 +192,7 @@ impl PyEquilibrium {
             for i in 0..points {
                 let fraction = i as f64 / (points - 1) as f64;
                 let point = match &cable.hanging {
-                    Some(hanging) => hanging.point_w(fraction * cable.unstrained_length),
+                    Some(hanging) => hanging.point_w(fraction * cable.free_length()),
                     None => cable.attachment_w + (cable.anchor_w - cable.attachment_w) * fraction,
                 };
                 flat.extend(point.iter());
