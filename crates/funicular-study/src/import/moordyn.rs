@@ -182,6 +182,7 @@ fn cable(
         },
         limits: [None; 2],
         unstrained_length: Some(line.unstrained_length),
+        pulley: None,
     })
 }
 
