@@ -247,7 +247,8 @@ fn losses_and_assumptions_are_reported_on_stderr_and_in_the_file() {
     let [bodies, cables] = caspr();
     let output = import(&[&[bodies.as_str(), &cables, "--cable-set", "springs"], &ROPES[..2]].concat());
     let (said, written) = (stderr(&output), stdout(&output).replace("\n#   ", " "));
-    for lost in ["pulleys at the base, of radius 0.05 m", "q_min and q_max", "\"ideal\""] {
+    assert!(written.contains("[pulleys.wheel]\nradius_m = 0.05"), "{written}");
+    for lost in ["q_min and q_max", "\"ideal\""] {
         assert!(said.contains(lost) && written.contains(lost), "{lost}: {said}\n{written}");
     }
 
