@@ -39,7 +39,7 @@ fn weight(robot: &Robot, equilibrium: &Equilibrium) -> Option<Implausible> {
     let gravity = robot.gravity_w.norm();
     let (mut weights, mut tensions) = (0.0, 0.0);
     for (cable, state) in robot.cables.iter().zip(&equilibrium.cables) {
-        weights += cable.material.mass_per_length * gravity * state.unstrained_length;
+        weights += cable.material.mass_per_length * gravity * state.free_length();
         tensions += 0.5 * (state.tension_platform + state.tension_anchor);
     }
     if equilibrium.model != StaticModel::Catenary || tensions == 0.0 {

@@ -215,7 +215,7 @@ fn load(robot: &Robot, rope: &Material) -> Option<Implausible> {
     let weight = weight_w.norm();
     let cables = robot.cables.iter().filter(|cable| cable.material == *rope);
     let loads_w: Vec<Vec3> = cables.map(|cable| cable.load_per_length_w).collect();
-    let load = loads_w.iter().map(|load_w| load_w.norm()).fold(0.0, f64::max);
+    let load = loads_w.iter().map(Vec3::norm).fold(0.0, f64::max);
     if weight == 0.0 || load == 0.0 {
         return None;
     }
