@@ -63,7 +63,7 @@ enum Parameter {
 pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
-static TABLE: [Definition; 20] = [
+static TABLE: [Definition; 22] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -168,6 +168,31 @@ static TABLE: [Definition; 20] = [
         frequencies: |_| 0,
         columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at its platform end"),
         values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_platform)))),
+    },
+    Definition {
+        name: "drum-tensions",
+        about: "tension of every cable at its drum",
+        documentation: "`tension_drum_NAME_n`: tension of every cable at its drum; without pulley and winch that at its \
+                        anchor",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |robot, _| each_cable(robot, "tension_drum", "n", "N", "tension of a cable at its drum"),
+        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_drum())))),
+    },
+    Definition {
+        name: "wrap-max",
+        about: "maximum wrap angle on a pulley",
+        documentation: "`wrap_max_deg`: maximum wrap angle of a cable on its pulley; empty without pulleys and with \
+                        `ideal` cables",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("wrap_max_deg", "degrees", "maximum wrap angle on a pulley"),
+        values: |row, _, out| {
+            let wraps = row.rest.cables.iter().filter_map(|cable| cable.drive.as_ref()?.contact);
+            out.push(Value::real(wraps.map(|contact| contact.wrap.to_degrees()).reduce(f64::max)));
+        },
     },
     Definition {
         name: "lengths",
