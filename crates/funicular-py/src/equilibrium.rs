@@ -99,6 +99,19 @@ impl PyEquilibrium {
         self.at_rest.equilibrium.cables.iter().map(|cable| cable.tension_anchor).collect()
     }
 
+    /// Tensions at the drums [N]; those at the anchor ends for cables without pulley and winch.
+    #[getter]
+    fn tension_drum_n(&self) -> Vector {
+        self.at_rest.equilibrium.cables.iter().map(statics::CableState::tension_drum).collect()
+    }
+
+    /// Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without pulleys.
+    #[getter]
+    fn exit_m(&self) -> Matrix {
+        let cables = &self.at_rest.equilibrium.cables;
+        Matrix::of_rows(cables.iter().flat_map(|cable| cable.anchor_w.iter().copied()).collect(), 3)
+    }
+
     /// Forces of the cables on the platform in world axes [N], one row per cable.
     #[getter]
     fn force_on_platform_n(&self) -> Matrix {
@@ -188,7 +201,7 @@ impl PyEquilibrium {
             for i in 0..points {
                 let fraction = i as f64 / (points - 1) as f64;
                 let point = match &cable.hanging {
-                    Some(hanging) => hanging.point_w(fraction * cable.unstrained_length),
+                    Some(hanging) => hanging.point_w(fraction * cable.free_length()),
                     None => cable.attachment_w + (cable.anchor_w - cable.attachment_w) * fraction,
                 };
                 flat.extend(point.iter());

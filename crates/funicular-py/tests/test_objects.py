@@ -248,4 +248,4 @@ def test_implausible_values_come_with_the_result_and_with_an_error(robot: funicu
     with pytest.raises(funicular.StaticsError) as caught:
         robot.equilibrium(pose=[0.0, 0.0, 1500.0])
     assert caught.value.code == "negative-tension"
-    assert str(caught.value).count("position in mm given as m?") == 1
+    assert str(caught.value).count("position in mm or cm given as m?") == 1

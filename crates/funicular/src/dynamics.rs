@@ -79,6 +79,17 @@ pub enum DynamicsError {
         /// Requested model.
         model: CableModel,
     },
+    /// A cable runs over a pulley or to a winch.
+    #[error(
+        "cable \"{cable}\" runs over a pulley or to a winch: the {model} model exists for cables that end at fixed \
+         points; use the model `catenary-dynamic`"
+    )]
+    Drive {
+        /// Name of the cable.
+        cable: String,
+        /// Requested model.
+        model: CableModel,
+    },
     /// An equilibrium with ideal cables has no tangent stiffness.
     #[error(
         "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use \
@@ -94,7 +105,7 @@ impl DynamicsError {
         match self {
             Self::NoTension { .. } => true,
             Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid => false,
+            Self::Rigid | Self::Drive { .. } => false,
         }
     }
 
@@ -104,6 +115,7 @@ impl DynamicsError {
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
+            NoStiffness::Drive => Self::Drive { cable, model },
             NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
         }
     }

@@ -39,6 +39,18 @@ pub fn skew(v: &Vec3) -> Mat3 {
     v.cross_matrix()
 }
 
+/// Unit vector normal to the unit vector `v`.
+pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
+    let least = if v.x.abs() <= v.y.abs().min(v.z.abs()) {
+        Vec3::x()
+    } else if v.y.abs() <= v.z.abs() {
+        Vec3::y()
+    } else {
+        Vec3::z()
+    };
+    v.cross(&least).normalize()
+}
+
 /// Symmetric part `(A + Aᵀ)/2` of a square matrix.
 #[inline]
 pub fn symmetric_part<D: nalgebra::Dim>(matrix: &nalgebra::OMatrix<f64, D, D>) -> nalgebra::OMatrix<f64, D, D>

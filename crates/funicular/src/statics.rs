@@ -27,6 +27,7 @@ mod obstacle; // direction in which no cable can pull, whatever the limits
 // Pieces shared by several solvers.
 mod collect; // equilibrium from the cables that hang at a pose
 mod energy; // potential energy, minimised by forward statics
+mod exit_points; // exit points of cables over pulleys, which follow from the tensions
 mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
 mod residual; // residual of the balance at a pose, and its rounding

@@ -8,7 +8,7 @@ use plausibility::Implausible;
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
-use crate::robot::{Pose, Robot};
+use crate::robot::{Cable, Pose, Robot};
 use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -22,6 +22,20 @@ pub enum Warning {
     Slack {
         /// Name of the cable.
         cable: String,
+    },
+    /// A cable wraps more than half around its pulley.
+    Wrap {
+        /// Name of the cable.
+        cable: String,
+        /// Wrap angle [degrees].
+        wrap_deg: f64,
+    },
+    /// A cable would have to push at its entry point to the pulley.
+    SlackAtDrum {
+        /// Name of the cable.
+        cable: String,
+        /// Tension at the drum [N], negative.
+        tension: f64,
     },
     /// A tension is above the breaking load of the rope.
     Breaks {
@@ -163,6 +177,16 @@ impl fmt::Display for Warning {
                 "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
                  choose the static model `catenary`, which includes its weight"
             ),
+            Self::Wrap { cable, wrap_deg } => write!(
+                f,
+                "cable \"{cable}\" wraps {wrap_deg:.1}° around its pulley: beyond 180° the swivel is unstable, and the \
+                 wheel turns away from the cable; choose another pose, or another `entry_direction`"
+            ),
+            Self::SlackAtDrum { cable, tension } => write!(
+                f,
+                "cable \"{cable}\" has a tension of {tension:.2} N at its drum: it would lift off its pulley; raise the \
+                 tension"
+            ),
             Self::Breaks { cable, tension, breaking_load } => write!(
                 f,
                 "cable \"{cable}\" has a tension of {tension:.1} N, but its rope breaks at {breaking_load} N: choose a \
@@ -276,6 +300,17 @@ fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning
     Some(Warning::BeyondLimit { cable: name, tension: margin.min, limit: Limit::Minimum, value })
 }
 
+/// Warning about the place of a cable on its pulley.
+fn of_drive(cable: &Cable, state: &CableState) -> Option<Warning> {
+    let drive = state.drive.as_deref()?;
+    let name = cable.name.clone();
+    if drive.tension_drum < 0.0 {
+        return Some(Warning::SlackAtDrum { cable: name, tension: drive.tension_drum });
+    }
+    let wrap = drive.contact.map(|contact| contact.wrap).filter(|wrap| *wrap > std::f64::consts::PI)?;
+    Some(Warning::Wrap { cable: name, wrap_deg: wrap.to_degrees() })
+}
+
 /// Maximum distance from the requested pose, over the size of the platform, at which the pose counts as reached; the
 /// error of forward statics is smaller.
 const HELD: f64 = 1e-7;
@@ -311,6 +346,7 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     // Tensions of the cables.
     for (i, state) in equilibrium.cables.iter().enumerate() {
         warnings.extend(slack(robot, equilibrium, i));
+        warnings.extend(of_drive(&robot.cables[i], state));
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
     }
 

@@ -42,7 +42,7 @@ impl Shape {
     fn at_rest(robot: &Robot, equilibrium: &Equilibrium) -> Self {
         let fraction = |k: u32| f64::from(k) / f64::from(INTERVALS);
         let cables = equilibrium.cables.iter().map(|state| match &state.hanging {
-            Some(hanging) => (0..=INTERVALS).map(|k| hanging.point_w(fraction(k) * state.unstrained_length)).collect(),
+            Some(hanging) => (0..=INTERVALS).map(|k| hanging.point_w(fraction(k) * state.free_length())).collect(),
             None => vec![state.attachment_w, state.anchor_w],
         });
         Self {

@@ -183,6 +183,7 @@ fn cable(
         },
         limits: [None; 2],
         unstrained_length: Some(line.unstrained_length),
+        pulley: None,
     })
 }
 

@@ -238,6 +238,7 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
             rope: rope.clone(),
             limits: [minimum, max_force(xml, root, chain)?],
             unstrained_length: None,
+            pulley: None,
         });
     }
     if cables.is_empty() {

@@ -25,6 +25,10 @@ pub enum RobotPart {
     Platform,
     /// A rope; its name is the second key of the path.
     Material,
+    /// A pulley; its name is the second key of the path.
+    Pulley,
+    /// A winch; its name is the second key of the path.
+    Winch,
     /// The cable at this index in file order, from 0.
     Cable(usize),
     /// The load on the platform.
@@ -326,7 +330,7 @@ fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
     (1..=path.len()).rev().find_map(|count| {
         let (header, key) = match path[..count] {
             [key] => (TOP.to_owned(), key),
-            ["materials", _, key] => ("[materials.NAME]".to_owned(), key),
+            [kind @ ("materials" | "pulleys" | "winches"), _, key] => (format!("[{kind}.NAME]"), key),
             ["cables", _, key] => ("[[cables]]".to_owned(), key),
             [table, key] => (format!("[{table}]"), key),
             _ => return None,
@@ -489,10 +493,12 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
         table(RobotPart::Platform, "[platform]", &["platform"], platform);
     }
-    if let Some(DeValue::Table(materials)) = root.get("materials").map(Spanned::get_ref) {
-        for (name, material) in materials {
-            if let DeValue::Table(material) = material.get_ref() {
-                table(RobotPart::Material, "[materials.NAME]", &["materials", name.get_ref()], material);
+    let named = [("materials", RobotPart::Material), ("pulleys", RobotPart::Pulley), ("winches", RobotPart::Winch)];
+    for (kind, part) in named {
+        let Some(DeValue::Table(tables)) = root.get(kind).map(Spanned::get_ref) else { continue };
+        for (name, entry) in tables {
+            if let DeValue::Table(entry) = entry.get_ref() {
+                table(part, &format!("[{kind}.NAME]"), &[kind, name.get_ref()], entry);
             }
         }
     }

@@ -280,7 +280,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         let chord = chord_w.norm();
         // Limit the slackness, so that the length is not all sag.
         let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * cable.load.size * chord);
-        cable.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
+        cable.length_with_tension(pose, balanced[i].max(least))
     });
     Ok(lengths.collect())
 }
@@ -313,8 +313,8 @@ impl Surface {
         let mut equations = DMat::zeros(n + m, n + m);
         equations.view_mut((0, 0), (n, n)).copy_from(&stiffness.view((0, 0), (n, n)));
         for (i, cable) in equilibrium.cables.iter().enumerate() {
-            let hanging = cable.hanging.as_ref().expect("an elastic cable hangs");
-            let column = coordinates.reduce_force(&hanging.force_by_length_w(), &cable.lever_w);
+            let by_length = cable.force_by_length_w().expect("an elastic cable hangs");
+            let column = coordinates.reduce_force(&by_length, &cable.lever_w);
             equations.view_mut((0, n + i), (n, 1)).copy_from(&-column.rows(0, n));
         }
 

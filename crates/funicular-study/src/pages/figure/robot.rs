@@ -26,7 +26,7 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
                 state.unstrained_length,
                 state.tension_platform
             );
-            cable_line(i, &curve(state, state.unstrained_length), &hover)
+            cable_line(i, &curve(state, state.free_length()), &hover)
         })
         .collect();
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
@@ -39,7 +39,7 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     data.extend(platform(robot, equilibrium, false));
     let mut points = anchors.clone();
     for state in &equilibrium.cables {
-        points.extend(curve(state, state.unstrained_length));
+        points.extend(curve(state, state.free_length()));
     }
     let scene = scene(&points, true, WIDE);
     Figure::new(
@@ -62,7 +62,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     for (i, state) in equilibrium.cables.iter().enumerate() {
         let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
         let part = (0.6 * reach / state.chord()).min(1.0);
-        let stub = curve(state, part * state.unstrained_length);
+        let stub = curve(state, part * state.free_length());
         data.push(cable_line(i, &stub, &hover));
         points.extend(stub);
     }
@@ -129,7 +129,7 @@ fn curve(state: &CableState, up_to: f64) -> Vec<Vec3> {
     if let Some(hanging) = &state.hanging {
         return (0..=SAMPLES).map(|k| hanging.point_w(up_to * f64::from(k) / f64::from(SAMPLES))).collect();
     }
-    let part = up_to / state.unstrained_length;
+    let part = up_to / state.free_length();
     vec![state.attachment_w, state.attachment_w + (state.anchor_w - state.attachment_w) * part]
 }
 

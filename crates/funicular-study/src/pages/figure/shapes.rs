@@ -200,7 +200,7 @@ fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
         .map(|(i, state)| {
             let chord_w = state.anchor_w - state.attachment_w;
             let at = |k: usize| match &state.hanging {
-                Some(hanging) => hanging.point_w(part(k) * state.unstrained_length),
+                Some(hanging) => hanging.point_w(part(k) * state.free_length()),
                 None => state.attachment_w + chord_w * part(k),
             };
             let rest: Vec<Vec3> = (0..=AT_REST).map(at).collect();

@@ -170,8 +170,14 @@ fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
     let series = chosen(&groups, wanted)?[0];
     let (h, v) = plane(rows, choice)?;
     let at = places(rows, choice, [h, v])?;
+
+    // A place that the user has given needs no note.
     let mut notes = Vec::new();
-    for (k, axis) in rows.axes.iter().enumerate().filter(|(k, _)| *k != h && *k != v) {
+    let mut given = Vec::new();
+    for (name, _) in &choice.at {
+        given.push(axis_of(rows, "at", name)?);
+    }
+    for (k, axis) in rows.axes.iter().enumerate().filter(|(k, _)| *k != h && *k != v && !given.contains(k)) {
         let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
         notes.push(format!(
             "the slice at {} = {}{unit} is drawn; ⟪at⟫ chooses another",

@@ -10,6 +10,8 @@ pub(super) struct Mesh<'a> {
     catenary: &'a Catenary,
     mass_per_length: f64,
     elements: Vec<Element>,
+    /// True if the end of the cable can move: its hat function is then an inner one.
+    free_end: bool,
     /// Number of refinements so far.
     pub(super) refined: usize,
 }
@@ -81,12 +83,13 @@ const BEYOND: usize = 2;
 
 impl<'a> Mesh<'a> {
     /// Mesh for frequencies up to ω = `limit`, with nodes at the arc lengths `cuts`, where the motion has a kink under
-    /// a force.
+    /// a force. With `free_end` the end of the cable can move.
     pub(super) fn new(
         catenary: &'a Catenary,
         mass_per_length: f64,
         limit: f64,
         cuts: &[f64],
+        free_end: bool,
     ) -> Result<Self, CatenaryDynamicError> {
         let rope = catenary.rope();
         if !has_tension(catenary) {
@@ -123,7 +126,7 @@ impl<'a> Mesh<'a> {
             let degree = (waves + BASE_DEGREE + DECREASE_OF_TANGENT / size.ln()).ceil().min(MAX_DEGREE) as usize;
             elements.push(Element { from, to, degree });
         }
-        Ok(Self { catenary, mass_per_length, elements, refined: 0 })
+        Ok(Self { catenary, mass_per_length, elements, free_end, refined: 0 })
     }
 
     pub(super) fn refine(&mut self) {
@@ -145,7 +148,7 @@ impl<'a> Mesh<'a> {
 
     /// Number of inner unknowns in plane.
     pub(super) fn unknowns(&self) -> usize {
-        2 * self.inner_functions()
+        2 * self.inner_functions(self.free_end)
     }
 
     /// C at arc length s [N]: its entries in plane (hh, hv, vv) and the one out of plane.
@@ -162,23 +165,35 @@ impl<'a> Mesh<'a> {
     }
 
     /// Condenses D components per point onto the two ends (N = 2D), whose static stiffness is `still`, and finds the
-    /// displacements of the points at the arc lengths `stations`.
+    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside: it
+    /// moves along a direction, against a stiffness [N/m].
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[ElementTable],
         still: [[f64; N]; N],
+        end: Option<(&[f64; D], f64)>,
         limit: f64,
         stations: &[f64],
     ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
-        self.assemble::<D, N>(tables, stations).reduce(still, limit)
+        let mut partition = self.assemble::<D, N>(tables, stations, end.is_some());
+        if let Some((direction, stiffness)) = end {
+            partition.guide(self.elements.len() - 1, direction, stiffness);
+        }
+        partition.reduce(still, limit)
     }
 
     /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`].
-    fn assemble<const D: usize, const N: usize>(&self, tables: &[ElementTable], stations: &[f64]) -> Partition<D, N> {
-        let mut partition = Partition::new(self.inner_functions(), BEYOND * self.elements.len(), stations.len());
+    fn assemble<const D: usize, const N: usize>(
+        &self,
+        tables: &[ElementTable],
+        stations: &[f64],
+        moves: bool,
+    ) -> Partition<D, N> {
+        let inner = self.inner_functions(moves);
+        let mut partition = Partition::new(inner, BEYOND * self.elements.len(), stations.len());
 
         for (e, (element, table)) in self.elements.iter().zip(tables).enumerate() {
-            let functions = self.functions_of(e);
+            let functions = self.functions_of(e, moves);
 
             let (stiffness, mass) = self.element_matrices::<D>(element, table);
             partition.add_inner(&functions, &stiffness, &mass);
@@ -194,16 +209,17 @@ impl<'a> Mesh<'a> {
         partition
     }
 
-    /// Number of inner functions; their order is nodes between elements, then bubbles.
-    fn inner_functions(&self) -> usize {
-        self.elements.iter().map(|e| e.degree).sum::<usize>() - 1
+    /// Number of inner functions; their order is nodes between elements, the end if it moves, then bubbles.
+    fn inner_functions(&self, moves: bool) -> usize {
+        self.elements.iter().map(|e| e.degree).sum::<usize>() - usize::from(!moves)
     }
 
     /// Indices of the functions of element `e` in the [`Partition`].
-    fn functions_of(&self, e: usize) -> Functions {
+    fn functions_of(&self, e: usize, moves: bool) -> Functions {
         let last = self.elements.len() - 1;
         let degree = self.elements[e].degree;
-        let first_bubble = last + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
+        let nodes = last + usize::from(moves);
+        let first_bubble = nodes + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
 
         // Hats: those of nodes between elements are inner functions, the others belong to the ends of the cable.
         let (mut inner, mut ends) = (Vec::with_capacity(degree + 1), Vec::new());
@@ -212,7 +228,7 @@ impl<'a> Mesh<'a> {
             _ => inner.push((0, e - 1)),
         }
         match e {
-            _ if e == last => ends.push((1, 1)),
+            _ if e == last && !moves => ends.push((1, 1)),
             _ => inner.push((1, e)),
         }
 

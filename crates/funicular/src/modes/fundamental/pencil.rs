@@ -35,7 +35,8 @@ pub(super) struct RobotPencil {
 }
 
 impl RobotPencil {
-    /// Pencil of a robot; `None` if a cable does not hang, has no tension, or has a point without tension.
+    /// Pencil of a robot; `None` if a cable does not hang, has no tension, has a point without tension, or runs over a
+    /// pulley or to a winch.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 
@@ -45,7 +46,7 @@ impl RobotPencil {
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let hanging = state.hanging.as_ref()?;
             let mass_per_length = robot.cables[i].material.mass_per_length;
-            if hanging.catenary.parallel_tension() <= 0.0 {
+            if hanging.catenary.parallel_tension() <= 0.0 || state.drive.is_some() {
                 return None;
             }
             if mass_per_length == 0.0 {

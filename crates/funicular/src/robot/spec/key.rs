@@ -40,7 +40,7 @@ pub enum KeyValue {
     Word(&'static [(&'static str, &'static str)]),
     /// Table of the file.
     Table,
-    /// Tables with names of the user's choice: `[materials.NAME]`.
+    /// Tables with names of the user's choice, as `[materials.NAME]`.
     NamedTables,
     /// List of tables: `[[cables]]`.
     Tables,

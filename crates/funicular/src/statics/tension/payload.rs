@@ -12,12 +12,14 @@ use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SP
 use super::null_space::Solutions;
 use super::proof::{Infeasibility, ReachableTensions};
 use super::search::{Linear, ProximalStep, ProximalStepControl, TauBound, TensionSearch};
+use crate::drive::CableAtRest;
 use crate::math::{Vec3, Vec6};
 use crate::platform::{Coordinates, load_wrench, wrench_of};
 use crate::robot::{Load, Pose, Robot};
 use crate::statics::collect::collect;
 use crate::statics::equilibrium::{CableState, Equilibrium};
 use crate::statics::error::StaticsError;
+use crate::statics::exit_points;
 use crate::statics::ideal;
 use crate::statics::limits::Limit;
 use crate::statics::model::StaticModel;
@@ -128,6 +130,21 @@ pub struct RequestedPayload {
 /// # References
 /// docs/theory.md, equations (40c) to (40e).
 pub fn payload_bound(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    requested: RequestedPayload,
+    start: Option<&Equilibrium>,
+) -> Result<PayloadBound, StaticsError> {
+    if !exit_points::follows(robot, model) {
+        return at_exit_points(robot, pose, model, requested, start);
+    }
+    let solve = |held: &Robot| at_exit_points(held, pose, model, requested, start);
+    exit_points::followed(robot, pose, solve, |bound| &mut bound.cables)
+}
+
+/// Payload by [`payload_bound`] of cables that end at fixed points.
+fn at_exit_points(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
@@ -384,6 +401,6 @@ fn equilibrium_of(
         return ideal::collect(robot, *pose, &tensions, iterations);
     }
     let lengths: Vec<f64> = cables.iter().map(|cable| cable.length()[0]).collect();
-    let hanging = cables.into_iter().map(|cable| cable.hanging).collect();
+    let hanging = cables.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
     collect(robot, *pose, model, hanging, &lengths, iterations)
 }
