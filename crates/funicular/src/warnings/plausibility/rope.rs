@@ -103,8 +103,9 @@ fn specific_stiffness(rope: &Material) -> Option<Implausible> {
     })
 }
 
-/// Modulus over the metal of a stranded steel rope whose modulus is given together with the full circle [Pa]. The circle
-/// is that of `diameter_m`, or an `area_m2` with the density of a rope in place of that of steel.
+/// Modulus over the metal of a stranded steel rope whose modulus is given together with the full circle [Pa].
+///
+/// The circle is that of `diameter_m`, or an `area_m2` with the density of a rope in place of that of steel.
 fn metal_modulus(rope: &Material) -> Option<f64> {
     let section = rope.dimensions.section?;
     let fill = rope.mass_per_length / section.area() / usual::STEEL_DENSITY;
