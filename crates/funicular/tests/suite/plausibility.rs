@@ -277,6 +277,7 @@ fn slips_of_units_and_signs_are_named() {
 
 /// Slips at one cable, values in another frame, weights counted twice, and other slips of one key.
 #[test]
+#[expect(clippy::too_many_lines, reason = "one list of slips")]
 fn slips_of_single_values_are_named() {
     let hall = hall();
     let mut misses = Vec::new();
