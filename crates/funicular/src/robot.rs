@@ -1,4 +1,5 @@
-//! The robot: platform, cables, ropes and gravity. A robot never changes, and every robot that exists is valid.
+//! The robot as plain data: platform, cables, ropes and gravity. A robot that was read from a file is valid, and no
+//! analysis changes it. Code that writes a public field keeps it within the range of the field's key.
 //!
 //! Frames: `w` world, `p` platform. `exit_w` is a point in world coordinates, `attachment_p` a point in platform
 //! coordinates, and `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
