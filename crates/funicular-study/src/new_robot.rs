@@ -103,8 +103,7 @@ impl Named for LengthUnit {
     }
 }
 
-/// Constructions of wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd edition 2015, table of factors for
-/// stranded ropes).
+/// Constructions of wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd edition 2015, table 1.9).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum WireRope {
     /// Six strands of 19 wires on a steel core.
