@@ -20,7 +20,7 @@ use crate::args::{
     Cli, Command, ExportArgs, FigureArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, ReduceArgs, RobotArgs,
 };
 use crate::output::{Content, FigureSink, Sink, Target, refuse_without_figure};
-use crate::progress::{Shown, Waiting};
+use crate::progress::{TerminalProgress, WaitingSpinner};
 use crate::table::counted;
 use crate::{errors, pose_csv, robot_file, sweep_run};
 use anyhow::{Context, Result, bail};
@@ -168,8 +168,8 @@ fn analyse_or_draw(
     };
 
     let robot = robot.context("a figure needs a robot")?;
-    let mut watch = Shown::default();
-    let waiting = Waiting::for_("the figure");
+    let mut watch = TerminalProgress::default();
+    let waiting = WaitingSpinner::for_("the figure");
     let made = figures::of_request(request, robot, &figures::Choice { mode }, &mut watch)?;
     drop((watch, waiting));
     sink.write(&made.figure)?;
@@ -184,8 +184,8 @@ fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<(
 }
 
 fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result<()> {
-    let mut watch = Shown::default();
-    let waiting = matches!(request, Request::Statics(_)).then(|| Waiting::for_("the equilibrium"));
+    let mut watch = TerminalProgress::default();
+    let waiting = matches!(request, Request::Statics(_)).then(|| WaitingSpinner::for_("the equilibrium"));
     let results = run_on(request, robot, &mut watch)?;
     drop((watch, waiting));
 
@@ -216,7 +216,7 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let sink = Sink::open(&args.sink, false, &mut guard)?;
     let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
-    let waiting = Waiting::for_("the model and its errors");
+    let waiting = WaitingSpinner::for_("the model and its errors");
     let mut found = analyses::reduce::run(robot, of)?;
     drop(waiting);
     found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));

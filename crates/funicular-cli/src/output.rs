@@ -209,7 +209,7 @@ impl Sink {
             Format::Json => as_json(&mut bytes, results)?,
             Format::Text | Format::Csv => {
                 // Only finite numbers are printed: this check is the same for all formats.
-                as_json(&mut io::sink(), results)?;
+                as_json(&mut Vec::new(), results)?;
                 if self.format == Format::Text {
                     bytes = results.text().into_bytes();
                     if self.target.is_file() {
@@ -228,7 +228,7 @@ impl Sink {
     }
 }
 
-fn as_json<R: Printed>(out: &mut impl Write, results: &R) -> Result<(), NoSolution> {
+fn as_json<R: Printed>(out: &mut Vec<u8>, results: &R) -> Result<(), NoSolution> {
     json::write(out, results.command(), results.robot(), results, &in_words(results))
 }
 

@@ -64,11 +64,11 @@ impl Drop for Progress {
 
 /// Progress bar of an analysis, drawn if stderr is a terminal.
 #[derive(Default)]
-pub(crate) struct Shown {
+pub(crate) struct TerminalProgress {
     bar: Option<Progress>,
 }
 
-impl Watch for Shown {
+impl Watch for TerminalProgress {
     fn progress(&mut self, done: usize, total: usize, what: &'static str) {
         let bar = self.bar.get_or_insert_with(|| Progress::with_rate(total, what));
         bar.advance(done - bar.done);
@@ -76,11 +76,11 @@ impl Watch for Shown {
 }
 
 /// Spinner that appears once a command takes long, and stays until it is dropped.
-pub(crate) struct Waiting {
+pub(crate) struct WaitingSpinner {
     done: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
-impl Waiting {
+impl WaitingSpinner {
     pub(crate) fn for_(what: &'static str) -> Self {
         let (done, is_done) = mpsc::channel();
         let thread = thread::spawn(move || {
@@ -96,7 +96,7 @@ impl Waiting {
     }
 }
 
-impl Drop for Waiting {
+impl Drop for WaitingSpinner {
     fn drop(&mut self) {
         if let Some((done, thread)) = self.done.take() {
             drop(done);

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 /// Files that a command reads and writes, including journals and temporary files.
 #[derive(Debug, Default)]
 pub struct Guard {
-    read: Vec<Used>,
-    written: Vec<Used>,
+    read: Vec<GuardedFile>,
+    written: Vec<GuardedFile>,
 }
 
 /// File or folder and its role in the command.
 #[derive(Debug)]
-struct Used {
+struct GuardedFile {
     /// Name in messages, such as "the robot file".
     role: String,
     path: PathBuf,
@@ -27,7 +27,7 @@ impl Guard {
     /// Adds a file that is read. Devices and pipes are ignored, because no result replaces them.
     pub fn reads(&mut self, role: &str, path: &Path) {
         if let Some(place) = Place::of(path) {
-            self.read.push(Used { role: role.to_owned(), path: path.to_owned(), place, is_folder: false });
+            self.read.push(GuardedFile { role: role.to_owned(), path: path.to_owned(), place, is_folder: false });
         }
     }
 
@@ -65,7 +65,7 @@ impl Guard {
 
     fn add(&mut self, role: &str, option: &str, path: &Path, is_folder: bool) -> Result<(), FilesError> {
         let Some(place) = Place::of(path) else { return Ok(()) };
-        let used = Used { role: role.to_owned(), path: path.to_owned(), place, is_folder };
+        let used = GuardedFile { role: role.to_owned(), path: path.to_owned(), place, is_folder };
         let advice = format!("choose another file for {option}");
         if let Some(source) = self.read.iter().find(|source| used.meets(source)) {
             let shown = source.path.display();
@@ -88,7 +88,7 @@ impl Guard {
     }
 }
 
-impl Used {
+impl GuardedFile {
     /// True if writing one would replace the other or a file in it.
     fn meets(&self, other: &Self) -> bool {
         self.place.is(&other.place)

@@ -1,7 +1,6 @@
 //! Equilibria of many states of one robot, computed in parallel.
 
 use crate::arrays::{Matrix, Numbers, Vector};
-use crate::equilibrium::min_stiffness;
 use crate::errors;
 use crate::interrupt::{check_signals, on_threads};
 use crate::pose;
@@ -10,7 +9,7 @@ use crate::threads::Threads;
 use funicular::cable::Sag;
 use funicular::math::rotation;
 use funicular::robot::{Robot, State};
-use funicular::statics::{self, Solution, Stability, StaticModel, TensionRule};
+use funicular::statics::{self, Solution, StaticModel, TensionRule};
 use funicular_study::at_rest;
 use funicular_study::request::{State as SharedState, Tensions};
 use funicular_study::values;
@@ -97,7 +96,8 @@ struct StateNumbers {
     /// Per cable: unstrained length, tensions at platform and anchor, sag ratio.
     cables: Vec<[f64; 4]>,
     residual: f64,
-    stable: bool,
+    /// `None` for ideal cables.
+    stable: Option<bool>,
     min_stiffness: f64,
     distance: f64,
 }
@@ -119,8 +119,8 @@ impl StateNumbers {
             pose: [p.x, p.y, p.z, w, i, j, k, roll, pitch, yaw],
             cables: cables.collect(),
             residual: equilibrium.residual,
-            stable: matches!(equilibrium.stability, Stability::Stable { .. }),
-            min_stiffness: min_stiffness(&equilibrium.stability).unwrap_or(f64::NAN),
+            stable: equilibrium.stability.is_stable(),
+            min_stiffness: equilibrium.stability.min_stiffness().unwrap_or(f64::NAN),
             distance: requested_pose.map_or(f64::NAN, |(_, distance)| distance),
         }
     }
@@ -198,6 +198,7 @@ struct Columns {
     pose: [Vec<f64>; 3],
     of_cables: [Vec<f64>; 4],
     residual: Vec<f64>,
+    /// Without meaning for ideal cables.
     stable: Vec<bool>,
     min_stiffness: Vec<f64>,
     distance: Vec<f64>,
@@ -240,7 +241,7 @@ impl Columns {
                     }
 
                     self.residual[row] = found.residual;
-                    self.stable[row] = found.stable;
+                    self.stable[row] = found.stable.unwrap_or(false);
                     self.min_stiffness[row] = found.min_stiffness;
                     self.distance[row] = found.distance;
                 }
@@ -266,7 +267,8 @@ impl Columns {
         fields.set_item("sag_ratio", Matrix::of_rows(sag_ratio, self.cables))?;
 
         fields.set_item("residual", Vector::<f64>::from_iter(self.residual))?;
-        fields.set_item("stable", Vector::<bool>::from_iter(self.stable))?;
+        let stable = (model != StaticModel::Ideal).then(|| Vector::<bool>::from_iter(self.stable));
+        fields.set_item("stable", stable)?;
         fields.set_item("stiffness_min_n_per_m", Vector::<f64>::from_iter(self.min_stiffness))?;
         fields.set_item("nearest_pose_distance_m", Vector::<f64>::from_iter(self.distance))?;
         fields.set_item("static_model", model.name())?;

@@ -8,7 +8,7 @@ use crate::pose::PyPose;
 use crate::robot::PyRobot;
 use crate::written;
 use funicular::cable::Sag;
-use funicular::statics::{self, Stability};
+use funicular::statics;
 use funicular_study::analyses;
 use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request::{State, Tensions};
@@ -99,6 +99,19 @@ impl PyEquilibrium {
         self.at_rest.equilibrium.cables.iter().map(|cable| cable.tension_anchor).collect()
     }
 
+    /// Tensions at the drums [N]; those at the anchor ends for cables without pulley and winch.
+    #[getter]
+    fn tension_drum_n(&self) -> Vector {
+        self.at_rest.equilibrium.cables.iter().map(statics::CableState::tension_drum).collect()
+    }
+
+    /// Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without pulleys.
+    #[getter]
+    fn exit_m(&self) -> Matrix {
+        let cables = &self.at_rest.equilibrium.cables;
+        Matrix::of_rows(cables.iter().flat_map(|cable| cable.anchor_w.iter().copied()).collect(), 3)
+    }
+
     /// Forces of the cables on the platform in world axes [N], one row per cable.
     #[getter]
     fn force_on_platform_n(&self) -> Matrix {
@@ -133,17 +146,13 @@ impl PyEquilibrium {
     /// True if every small motion is opposed; None for ideal cables, which are rigid.
     #[getter]
     fn stable(&self) -> Option<bool> {
-        match self.at_rest.equilibrium.stability {
-            Stability::Stable { .. } => Some(true),
-            Stability::Unstable { .. } => Some(false),
-            Stability::Rigid => None,
-        }
+        self.at_rest.equilibrium.stability.is_stable()
     }
 
     /// Minimum eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; None for ideal cables.
     #[getter]
     fn stiffness_min_n_per_m(&self) -> Option<f64> {
-        min_stiffness(&self.at_rest.equilibrium.stability)
+        self.at_rest.equilibrium.stability.min_stiffness()
     }
 
     /// Unbalanced wrench on the platform relative to the sum of all forces.
@@ -192,7 +201,7 @@ impl PyEquilibrium {
             for i in 0..points {
                 let fraction = i as f64 / (points - 1) as f64;
                 let point = match &cable.hanging {
-                    Some(hanging) => hanging.point_w(fraction * cable.unstrained_length),
+                    Some(hanging) => hanging.point_w(fraction * cable.free_length()),
                     None => cable.attachment_w + (cable.anchor_w - cable.attachment_w) * fraction,
                 };
                 flat.extend(point.iter());
@@ -261,12 +270,5 @@ impl PyEquilibrium {
     fn __deepcopy__(slf: Py<Self>, memo: &Bound<'_, PyAny>) -> Py<Self> {
         let _ = memo;
         slf
-    }
-}
-
-pub(crate) fn min_stiffness(stability: &Stability) -> Option<f64> {
-    match stability {
-        Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(*min_stiffness),
-        Stability::Rigid => None,
     }
 }

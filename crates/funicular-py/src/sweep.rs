@@ -4,6 +4,7 @@
 
 mod arguments;
 mod plan;
+mod plan_data;
 mod table;
 mod work;
 

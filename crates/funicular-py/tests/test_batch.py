@@ -28,8 +28,10 @@ def assert_equals_loop(robot: funicular.Robot, rows: NDArray[np.float64], many: 
         assert many.position_m[i].tobytes() == one.pose.position_m.tobytes()
         assert many.quaternion_wxyz[i].tobytes() == one.pose.quaternion_wxyz.tobytes()
         assert many.roll_pitch_yaw_deg[i].tobytes() == one.pose.roll_pitch_yaw_deg.tobytes()
-        assert (many.residual[i], bool(many.stable[i])) == (one.residual, one.stable)
-        assert many.stiffness_min_n_per_m[i] == one.stiffness_min_n_per_m
+        assert many.residual[i] == one.residual
+        assert (None if many.stable is None else bool(many.stable[i])) == one.stable
+        stiffness = many.stiffness_min_n_per_m[i]
+        assert (None if np.isnan(stiffness) else stiffness) == one.stiffness_min_n_per_m
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -52,6 +54,17 @@ def test_so_is_one_of_lengths(robot: funicular.Robot) -> None:
     many = robot.equilibria(lengths_m=rows)
     for i, row in enumerate(rows):
         assert many.tension_platform_n[i].tobytes() == robot.equilibrium(lengths_m=row).tension_platform_n.tobytes()
+
+
+def test_stability_has_no_meaning_for_rigid_cables(robot: funicular.Robot) -> None:
+    pytest.importorskip("pandas")
+    rows = [[0, 0, 0.5], [0.2, 0, 0.6], [0, 0, 50]]
+    rigid, elastic = (robot.equilibria(poses=rows, static_model=model) for model in ("ideal", "spring"))
+    assert rigid.stable is None and robot.equilibrium(pose=rows[0], static_model="ideal").stable is None
+    assert elastic.stable is not None and elastic.stable.tolist() == [True, True, False]
+    assert_equals_loop(robot, np.asarray(rows), rigid, static_model="ideal")
+    assert "stable" not in rigid.to_pandas().columns and "stable" in elastic.to_pandas().columns
+    assert rigid == robot.equilibria(poses=rows, static_model="ideal") and rigid != elastic
 
 
 def test_quaternions_are_the_angles(robot: funicular.Robot) -> None:

@@ -192,6 +192,14 @@ def test_what_holds_itself_is_refused(robot: funicular.Robot) -> None:
         funicular.Robot.from_dict(table)
 
 
+def test_a_maximum_above_the_breaking_load_is_refused(cogiro: funicular.Robot) -> None:
+    said = "maximum tension 12000 N is above the breaking load 10000 N .* give `max_tension_n` of at most 10000"
+    with pytest.raises(funicular.InputError, match=said):
+        cogiro.equilibrium(pose=[1, 2, 1.5], max_tension_n=12000)
+    with pytest.raises(funicular.InputError, match=said):
+        cogiro.equilibria(poses=[[1, 2, 1.5]], max_tension_n=12000)
+
+
 def test_text_in_a_change_stays_text(robot: funicular.Robot) -> None:
     name = 'a "quoted" = name, é # not a comment'
     assert robot.with_({"name": name}).name == name
@@ -240,4 +248,4 @@ def test_implausible_values_come_with_the_result_and_with_an_error(robot: funicu
     with pytest.raises(funicular.StaticsError) as caught:
         robot.equilibrium(pose=[0.0, 0.0, 1500.0])
     assert caught.value.code == "negative-tension"
-    assert str(caught.value).count("position in mm given as m?") == 1
+    assert str(caught.value).count("position in mm or cm given as m?") == 1

@@ -6,7 +6,6 @@
 pub mod cable;
 pub mod check;
 pub mod compare;
-pub mod control_model;
 pub mod frf;
 pub mod modes;
 pub mod parameters;
@@ -17,6 +16,8 @@ pub mod shared;
 pub mod statics;
 pub mod stiffness;
 pub mod validate;
+
+pub use reduce::control_model;
 
 use serde::Serialize;
 

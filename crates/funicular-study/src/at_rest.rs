@@ -104,9 +104,10 @@ pub fn refuse_no_state(robot: &Robot) -> Result<()> {
 /// Robot with the tension limits of a request.
 ///
 /// # Errors
-/// A minimum that is not below the maximum of a cable.
+/// A maximum above the breaking load of a rope, or a minimum that is not below the maximum of a cable.
 pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
     tensions.check()?;
+    refuse_above_breaking_load(robot, tensions)?;
     let limits = TensionLimits { minimum: tensions.min_tension_n, maximum: tensions.max_tension_n };
     let robot = robot.with_tension_limits(limits);
     for cable in &robot.cables {
@@ -121,6 +122,27 @@ pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
         }
     }
     Ok(robot)
+}
+
+/// Refuses a maximum above the breaking load of a rope, as the reader of robot files does. The message names a cable
+/// with the lowest breaking load, so that the remedy holds for every cable.
+///
+/// # Errors
+/// A maximum above the breaking load of a rope.
+fn refuse_above_breaking_load(robot: &Robot, tensions: &Tensions) -> Result<()> {
+    let Some(maximum) = tensions.max_tension_n else { return Ok(()) };
+    let breaking = robot.cables.iter().filter_map(|cable| cable.material.breaking_load.map(|load| (cable, load)));
+    let weakest = breaking.min_by(|(_, one), (_, other)| one.total_cmp(other));
+    if let Some((cable, load)) = weakest.filter(|(_, load)| maximum > *load) {
+        bail!(
+            "cable \"{}\": maximum tension {maximum} N is above the breaking load {load} N of its rope \"{}\": give \
+             ⟪max_tension_n⟫ of at most {load}, usually a fifth to a third of it, or change `breaking_load_n` in the robot \
+             file",
+            cable.name,
+            cable.material.name
+        );
+    }
+    Ok(())
 }
 
 /// Tension rule of a request. Target tensions without a rule stand for the rule `closest`.

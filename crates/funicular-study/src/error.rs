@@ -1,6 +1,6 @@
 //! Error of every analysis. Its kind decides the exit code; its text is for the user.
 
-use crate::wording::{Words, message};
+use crate::wording::{Warned, Words, message};
 use funicular::dynamics::DynamicsError;
 use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
@@ -36,19 +36,6 @@ pub struct NoSolution(pub String);
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before the end")]
 pub(crate) struct Cancelled;
-
-/// Warnings that explain an error: values of the robot that are likely slips. [`message`] writes them below the error.
-#[derive(Debug)]
-pub(crate) struct Warned {
-    /// Warnings, one sentence each.
-    pub(crate) warnings: Vec<String>,
-}
-
-impl fmt::Display for Warned {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the robot has implausible values")
-    }
-}
 
 /// Error of statics together with the warnings about the robot, which may be its cause; without warnings, and for a
 /// request that is wrong itself, the error alone. Its type stays known.
@@ -87,7 +74,7 @@ impl ErrorKind {
         let no_solution = match error.downcast_ref::<StaticsError>() {
             Some(error) => error.is_no_solution(),
             None => {
-                matches!(error.downcast_ref::<DynamicsError>(), Some(DynamicsError::NoTension { .. }))
+                error.downcast_ref().is_some_and(DynamicsError::is_no_solution)
                     || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
                     || error.downcast_ref().is_some_and(ReductionError::is_no_solution)
                     || error.is::<NoSolution>()

@@ -6,7 +6,6 @@ pub(crate) mod opensees;
 pub(crate) mod vtk;
 
 use crate::at_rest::AtRest;
-use crate::names::Named;
 use crate::request;
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -14,32 +13,10 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::{self, LowestError, Modes};
 use funicular::statics::StaticModel;
 
+pub use crate::names::ExportFormat;
+
 /// Maximum number of modes in a file: each mode is a field of the whole robot, or a row of a table.
 const MAX_MODES: usize = 500;
-
-/// Programs that robots can be exported to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ExportFormat {
-    /// Python script for OpenSeesPy.
-    Opensees,
-    /// MoorDyn input file of version 2.
-    Moordyn,
-    /// VTK XML of polylines and polygons (.vtp), for ParaView.
-    Vtk,
-}
-
-impl Named for ExportFormat {
-    const WHAT: &'static str = "format of export";
-    const ALL: &'static [Self] = &[Self::Opensees, Self::Moordyn, Self::Vtk];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Opensees => "opensees",
-            Self::Moordyn => "moordyn",
-            Self::Vtk => "vtk",
-        }
-    }
-}
 
 /// File for another program.
 #[derive(Debug, Clone, PartialEq)]

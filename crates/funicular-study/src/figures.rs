@@ -10,12 +10,14 @@ pub(crate) mod chart;
 mod contour;
 pub(crate) mod drawing;
 mod font;
+pub(crate) mod hull;
 mod making;
 pub(crate) mod map;
 mod pdf;
 pub(crate) mod space;
 pub(crate) mod style;
 mod svg;
+pub(crate) mod view;
 
 pub use making::{Made, of_request};
 

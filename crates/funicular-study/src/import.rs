@@ -10,7 +10,7 @@ pub(crate) mod text;
 pub(crate) mod wirex;
 pub(crate) mod xml;
 
-pub use text::{MAX_BYTES, SourceFile};
+pub use crate::request::{MAX_BYTES, SourceFile};
 
 use crate::request;
 use crate::wording::{Words, worded};

@@ -30,12 +30,14 @@ pub fn of_results<R: Found>(results: &R, words: Words) -> Result<Vec<u8>, Error>
     Ok(bytes)
 }
 
-/// Writes results of a command for a robot.
+/// Appends results of a command for a robot to `out`.
+///
+/// It writes to memory only: for every kind of writer, each type of results would be compiled again.
 ///
 /// # Errors
 /// [`NoSolution`]: a result that is not finite, which JSON cannot express.
 pub fn write<R: Serialize>(
-    out: &mut impl Write,
+    out: &mut Vec<u8>,
     command: &'static str,
     robot: &str,
     results: &R,
@@ -43,13 +45,18 @@ pub fn write<R: Serialize>(
 ) -> Result<(), NoSolution> {
     let envelope = Envelope { schema: "funicular/1", command, robot, results, warnings };
     let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Lines { depth: 0 });
-    let written = envelope.serialize(&mut serializer).map_err(io::Error::from).and_then(|()| out.write_all(b"\n"));
-    written.map_err(|error| {
-        NoSolution(format!(
-            "{error}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change \
-             the frequency or check the units"
-        ))
-    })
+    envelope.serialize(&mut serializer).map_err(not_finite)?;
+    out.push(b'\n');
+    Ok(())
+}
+
+/// Error of a result that JSON cannot express.
+fn not_finite(error: serde_json::Error) -> NoSolution {
+    NoSolution(format!(
+        "{}: an undamped resonance lies exactly here, or numbers of the robot file are too far apart; change the \
+         frequency or check the units",
+        io::Error::from(error)
+    ))
 }
 
 /// Formatter that writes each key of an object on its own line and an array on one line.
@@ -128,7 +135,7 @@ mod tests {
     #[test]
     fn a_result_that_is_not_finite_is_an_error() {
         for value in [f64::NAN, f64::INFINITY] {
-            assert!(write(&mut io::sink(), "c", "r", &SampleRow { x: value }, &[]).is_err());
+            assert!(write(&mut Vec::new(), "c", "r", &SampleRow { x: value }, &[]).is_err());
         }
     }
 }

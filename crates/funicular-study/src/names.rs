@@ -140,6 +140,109 @@ impl Named for ModelForm {
     }
 }
 
+/// Programs that robots can be exported to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExportFormat {
+    /// Python script for OpenSeesPy.
+    Opensees,
+    /// MoorDyn input file of version 2.
+    Moordyn,
+    /// VTK XML of polylines and polygons (.vtp), for ParaView.
+    Vtk,
+}
+
+impl Named for ExportFormat {
+    const WHAT: &'static str = "format of export";
+    const ALL: &'static [Self] = &[Self::Opensees, Self::Moordyn, Self::Vtk];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Opensees => "opensees",
+            Self::Moordyn => "moordyn",
+            Self::Vtk => "vtk",
+        }
+    }
+}
+
+/// Motions of the platforms of new robots.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum NewMotion {
+    /// Three translations and three rotations.
+    #[default]
+    Rigid,
+    /// Three translations.
+    PointMass,
+    /// Translations along x and z, rotation about y.
+    PlanarXz,
+}
+
+impl Named for NewMotion {
+    const WHAT: &'static str = "motion of a new robot";
+    const ALL: &'static [Self] = &[Self::Rigid, Self::PointMass, Self::PlanarXz];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::PointMass => "point-mass",
+            Self::PlanarXz => "planar-xz",
+        }
+    }
+}
+
+/// Units of lengths in a table of points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Metres.
+    Metre,
+    /// Millimetres.
+    Millimetre,
+}
+
+impl LengthUnit {
+    /// Factor that makes metres of a number.
+    pub(crate) fn metres(self) -> f64 {
+        match self {
+            Self::Metre => 1.0,
+            Self::Millimetre => 1e-3,
+        }
+    }
+}
+
+impl Named for LengthUnit {
+    const WHAT: &'static str = "unit of length";
+    const ALL: &'static [Self] = &[Self::Metre, Self::Millimetre];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Metre => "m",
+            Self::Millimetre => "mm",
+        }
+    }
+}
+
+/// Constructions of wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd edition 2015, table of factors for
+/// stranded ropes).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum WireRope {
+    /// Six strands of 19 wires on a steel core.
+    #[default]
+    SixTimes19,
+    /// Seven strands of seven wires: six strands of 7 wires on a steel strand.
+    SevenTimes7,
+}
+
+impl Named for WireRope {
+    const WHAT: &'static str = "rope construction";
+    const ALL: &'static [Self] = &[Self::SixTimes19, Self::SevenTimes7];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::SixTimes19 => "6x19",
+            Self::SevenTimes7 => "7x7",
+        }
+    }
+}
+
 /// Serialises a choice as its name: for `#[serde(with = "…")]`.
 pub(crate) fn serialize<T: Named, S: Serializer>(choice: &T, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_str(choice.name())

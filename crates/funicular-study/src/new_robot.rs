@@ -8,7 +8,6 @@ mod layout;
 mod points;
 
 use crate::at_rest;
-use crate::names::Named;
 use crate::request::{NewRequest, RobotText, State, Tensions, check};
 use crate::values::{not_negative, positive};
 use crate::wording::{Words, worded};
@@ -19,6 +18,8 @@ use funicular::robot::{Pose, Robot};
 use funicular::statics::Stability;
 use layout::Layout;
 use points::CablePoints;
+
+pub use crate::names::{LengthUnit, NewMotion, WireRope};
 
 /// Default mass of the platform [kg].
 const MASS: f64 = 100.0;
@@ -46,84 +47,6 @@ const MIN_SIDE: f64 = 1e-3;
 
 /// Coordinate above which metres are unlikely [m]: no cable robot is larger than a kilometre.
 const UNLIKELY_M: f64 = 1e3;
-
-/// Motions of the platforms of new robots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum NewMotion {
-    /// Three translations and three rotations.
-    #[default]
-    Rigid,
-    /// Three translations.
-    PointMass,
-    /// Translations along x and z, rotation about y.
-    PlanarXz,
-}
-
-impl Named for NewMotion {
-    const WHAT: &'static str = "motion of a new robot";
-    const ALL: &'static [Self] = &[Self::Rigid, Self::PointMass, Self::PlanarXz];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::PointMass => "point-mass",
-            Self::PlanarXz => "planar-xz",
-        }
-    }
-}
-
-/// Units of lengths in a table of points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LengthUnit {
-    /// Metres.
-    Metre,
-    /// Millimetres.
-    Millimetre,
-}
-
-impl LengthUnit {
-    /// Factor that makes metres of a number.
-    fn metres(self) -> f64 {
-        match self {
-            Self::Metre => 1.0,
-            Self::Millimetre => 1e-3,
-        }
-    }
-}
-
-impl Named for LengthUnit {
-    const WHAT: &'static str = "unit of length";
-    const ALL: &'static [Self] = &[Self::Metre, Self::Millimetre];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Millimetre => "mm",
-        }
-    }
-}
-
-/// Constructions of wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd edition 2015, table 1.9).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum WireRope {
-    /// Six strands of 19 wires on a steel core.
-    #[default]
-    SixTimes19,
-    /// Seven strands of seven wires: six strands of 7 wires on a steel strand.
-    SevenTimes7,
-}
-
-impl Named for WireRope {
-    const WHAT: &'static str = "rope construction";
-    const ALL: &'static [Self] = &[Self::SixTimes19, Self::SevenTimes7];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::SixTimes19 => "6x19",
-            Self::SevenTimes7 => "7x7",
-        }
-    }
-}
 
 /// Robot file with starting values.
 #[derive(Debug, Clone, PartialEq)]
@@ -260,7 +183,8 @@ fn angles(pose: &Pose) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::import::SourceFile;
+    use crate::names::Named;
+    use crate::request::SourceFile;
     use funicular::robot::spec::TABLES;
 
     fn made(request: &NewRequest) -> (Robot, NewRobot) {

@@ -6,18 +6,21 @@
 
 mod keys;
 mod parts;
+mod source_file;
+mod steps;
 
 pub use keys::KEYS;
 pub use parts::{
-    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
+    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
     ResponsePoints, RobotText, State, Tensions, Terms,
 };
+pub use source_file::{MAX_BYTES, SourceFile};
+pub use steps::{Steps, digits};
+
 pub(crate) use parts::{check, check_vector};
 
 use crate::error::Error;
-use crate::import::SourceFile;
-use crate::names::{ModelForm, suggestion};
-use crate::new_robot::{LengthUnit, NewMotion, WireRope};
+use crate::names::{ExportFormat, LengthUnit, ModelForm, NewMotion, WireRope, suggestion};
 use crate::signals::{Input, Output};
 use crate::values::{fraction, not_negative, positive};
 use anyhow::{anyhow, bail};
@@ -459,7 +462,7 @@ pub struct ExportRequest {
     pub robot: RobotText,
     /// Program that the file is for.
     #[serde(with = "crate::names")]
-    pub to: crate::export::ExportFormat,
+    pub to: ExportFormat,
     /// Elements per cable.
     #[serde(default = "twenty_segments")]
     pub segments: usize,

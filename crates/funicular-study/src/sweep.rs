@@ -6,7 +6,10 @@
 
 mod columns;
 mod digest;
+mod error;
+mod evaluation;
 mod frequency;
+mod options;
 mod plan;
 mod points;
 mod quantity;
@@ -14,17 +17,19 @@ mod record;
 mod robot_values;
 mod row;
 mod status;
-mod steps;
 
 pub use columns::{Chunk, Column, ColumnKind, Values};
+pub use error::{MAX_POINTS, SweepError};
 pub use frequency::{PointModes, lowest_modes};
-pub use plan::{MAX_HZ, MAX_POINTS, Options, Plan, SweepError};
+pub use options::Options;
+pub use plan::Plan;
 pub use points::{AXES, Point, Points, Poses};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
 pub use record::{Part, Record, RecordDifference, SCHEMA, kind_name};
 pub use robot_values::{RobotValues, ValueAxis};
 pub use status::CODES;
-pub use steps::{Steps, digits};
+
+pub use crate::request::{MAX_HZ, Steps, digits};
 
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;

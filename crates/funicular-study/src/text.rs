@@ -50,6 +50,13 @@ pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
+/// Text of a file made fit for names and comments: one line, no control characters, limited length.
+pub(crate) fn clean(text: &str) -> String {
+    const MAX_LENGTH: usize = 200;
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line.chars().filter(|c| !c.is_control() && !matches!(c, '\u{2028}' | '\u{2029}')).take(MAX_LENGTH).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,5 +71,11 @@ mod tests {
         assert_eq!(significant(0.0, 4), "0");
         assert_eq!(short(10.55, 6), "10.55");
         assert_eq!(short(100.0, 6), "100");
+    }
+
+    #[test]
+    fn clean_text_is_one_short_line() {
+        assert_eq!(clean(" a\n\tb\u{7}c "), "a bc");
+        assert_eq!(clean(&"x".repeat(10_000)).len(), 200);
     }
 }

@@ -6,6 +6,7 @@
 mod catenary;
 mod cube;
 mod damped;
+mod drives;
 mod dynamics;
 mod exact;
 mod independent;
@@ -107,6 +108,7 @@ pub fn sections() -> Result<Vec<Section>> {
         independent::section(&independent)?,
         exact::section(&published, &reference::exact()?, &independent)?,
         damped::section(&reference::damped()?, &independent)?,
+        drives::section(&reference::drives()?)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,

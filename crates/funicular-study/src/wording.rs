@@ -3,8 +3,8 @@
 //! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program
 //! shows `--min-tension-n`, Python and JSON show `min_tension_n`.
 
-use crate::error::Warned;
 use funicular::statics::StaticsError;
+use std::fmt;
 
 /// Ways in which front ends write the name of an option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +49,19 @@ pub fn worded(text: &str, words: Words) -> String {
         rest = after;
     }
     out + rest
+}
+
+/// Warnings that explain an error: values of the robot that are likely slips. [`message`] writes them below the error.
+#[derive(Debug)]
+pub(crate) struct Warned {
+    /// Warnings, one sentence each.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl fmt::Display for Warned {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the robot has implausible values")
+    }
 }
 
 /// Message of an error of any analysis for a front end: the text of the error, the option that helps, and in lines of

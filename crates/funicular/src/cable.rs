@@ -11,8 +11,7 @@ pub mod shallow_dynamic;
 pub mod shallow_static;
 pub mod spring;
 
-use crate::catenary::space::any_normal;
-use crate::math::{Complex, Mat3, Vec3};
+use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::Robot;
 use crate::statics::CableState;
 use catenary_dynamic::CatenaryDynamicEnd;
@@ -208,6 +207,9 @@ pub enum NoStiffness {
     /// The cable carries no tension.
     #[error("it has no tension")]
     NoTension,
+    /// The shallow-dynamic model has no pulleys and winches.
+    #[error("it runs over a pulley or to a winch")]
+    Drive,
     /// The catenary-dynamic model does not exist for the cable.
     #[error(transparent)]
     CatenaryDynamic(#[from] catenary_dynamic::CatenaryDynamicError),
@@ -308,11 +310,17 @@ impl EndStiffness {
         }
         let without_b =
             |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
+        // A cable over a pulley or to a winch is in series with its anchor end.
+        let drive = state.drive.as_deref();
+        let in_series = |held: Mat3| drive.map_or(held, |drive| drive.end.in_series_with(&held));
         Ok(match model {
             CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
-            CableModel::Spring => Self::Constant(spring::stiffness(&sag).in_world(&axes)),
-            CableModel::ShallowStatic => Self::Constant(without_b(shallow_static::stiffness(&sag).in_world(&axes))),
+            CableModel::Spring => Self::Constant(in_series(spring::stiffness(&sag).in_world(&axes))),
+            CableModel::ShallowStatic => {
+                Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes))))
+            }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
+            CableModel::ShallowDynamic if drive.is_some() => return Err(NoStiffness::Drive),
             CableModel::ShallowDynamic => {
                 let cable = ShallowDynamic::new(sag, axes, material.damping, in_plane_only);
                 Self::Dynamic(DynamicCable::ShallowDynamic(cable))
@@ -320,10 +328,11 @@ impl EndStiffness {
             CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 if material.mass_per_length == 0.0 {
-                    return Ok(Self::Constant(without_b(hanging.tangent_w())));
+                    return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
                 }
                 let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
-                let cable = CatenaryDynamicEnd::new(hanging, m, damping, in_plane_only, limit)?;
+                let cable =
+                    CatenaryDynamicEnd::new(hanging, drive.map(|drive| &drive.end), m, damping, in_plane_only, limit)?;
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })

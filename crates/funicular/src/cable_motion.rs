@@ -76,7 +76,7 @@ impl CableStations {
         loaded: bool,
     ) -> Result<Self, CableMotionError> {
         let state = &equilibrium.cables[i];
-        let arc_lengths: Vec<f64> = fractions.iter().map(|fraction| fraction * state.unstrained_length).collect();
+        let arc_lengths: Vec<f64> = fractions.iter().map(|fraction| fraction * state.free_length()).collect();
         let term = dynamics.terms().iter().position(|term| term.cable() == i);
         let chord_w = state.chord_w();
 
@@ -87,10 +87,18 @@ impl CableStations {
             Some((term, DynamicCable::CatenaryDynamic(end))) => {
                 let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
                 let (m, limit) = (end.mass_per_length, end.cable.limit);
-                let (mut cable, mut stations) =
-                    CatenaryDynamic::with_stations(&hanging.catenary, m, limit, arc_lengths.clone(), loaded).map_err(
-                        |reason| CableMotionError::CatenaryDynamic { cable: robot.cables[i].name.clone(), reason },
-                    )?;
+                let (mut cable, mut stations) = CatenaryDynamic::with_stations(
+                    &hanging.catenary,
+                    end.cable.end,
+                    m,
+                    limit,
+                    arc_lengths.clone(),
+                    loaded,
+                )
+                .map_err(|reason| {
+                    let cable = robot.cables[i].name.clone();
+                    CableMotionError::CatenaryDynamic { cable, reason }
+                })?;
                 if !loaded {
                     // Take the cable of `dynamics`, with as many clamped modes as it has kept.
                     if let Some((in_plane, out_of_plane)) = end.kept {

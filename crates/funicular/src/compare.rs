@@ -1,6 +1,7 @@
 //! Comparison of the cable models: natural frequencies of each below a limit, and the simplest model that is good
 //! enough.
 
+use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
 use crate::math::{Mat6, Vec6};
@@ -160,7 +161,7 @@ pub struct Advice {
 /// `linearisation` is ignored; its other options apply to all models. The criterion selects the modes that count.
 ///
 /// # Errors
-/// [`DynamicsError`] if the reference does not exist at this equilibrium (a cable without tension).
+/// [`DynamicsError`] if the reference does not exist at this equilibrium (a cable without tension, ideal cables).
 pub fn compare(
     robot: &Robot,
     equilibrium: &Equilibrium,
@@ -173,8 +174,10 @@ pub fn compare(
     let (reference, dynamics) = match with(CableModel::CatenaryDynamic) {
         Ok(dynamics) => (CableModel::CatenaryDynamic, dynamics),
         // Too many unknowns for one cable: the next best reference is the shallow-dynamic model, which has no such
-        // limit.
-        Err(DynamicsError::CatenaryDynamic { .. }) => (CableModel::ShallowDynamic, with(CableModel::ShallowDynamic)?),
+        // limit. Every other error says that the robot has no linear vibration at this equilibrium.
+        Err(DynamicsError::CatenaryDynamic { reason: CatenaryDynamicError::TooFine { .. }, .. }) => {
+            (CableModel::ShallowDynamic, with(CableModel::ShallowDynamic)?)
+        }
         Err(other) => return Err(other),
     };
 

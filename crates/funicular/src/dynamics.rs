@@ -79,6 +79,17 @@ pub enum DynamicsError {
         /// Requested model.
         model: CableModel,
     },
+    /// A cable runs over a pulley or to a winch.
+    #[error(
+        "cable \"{cable}\" runs over a pulley or to a winch: the {model} model exists for cables that end at fixed \
+         points; use the model `catenary-dynamic`"
+    )]
+    Drive {
+        /// Name of the cable.
+        cable: String,
+        /// Requested model.
+        model: CableModel,
+    },
     /// An equilibrium with ideal cables has no tangent stiffness.
     #[error(
         "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use \
@@ -88,12 +99,23 @@ pub enum DynamicsError {
 }
 
 impl DynamicsError {
+    /// True if the request is valid and the robot has no linear vibration at this equilibrium, because a cable has no
+    /// tension; otherwise another model or frequency limit helps.
+    pub fn is_no_solution(&self) -> bool {
+        match self {
+            Self::NoTension { .. } => true,
+            Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
+            Self::Rigid | Self::Drive { .. } => false,
+        }
+    }
+
     /// Error for the cable of this name, which has no stiffness in a model.
     pub fn of_cable(name: &str, model: CableModel, reason: NoStiffness) -> Self {
         let cable = name.to_owned();
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
+            NoStiffness::Drive => Self::Drive { cable, model },
             NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
         }
     }

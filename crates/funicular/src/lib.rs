@@ -50,6 +50,7 @@ pub mod cable;
 pub mod cable_motion;
 pub mod catenary;
 pub mod compare;
+pub mod drive;
 pub mod dynamics;
 pub mod math;
 pub mod modes;

@@ -2,6 +2,7 @@
 //!
 //! The types are those of nalgebra under these names; no other file of the crate names nalgebra.
 
+pub(crate) mod active_set;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
 pub mod legendre;
@@ -36,6 +37,18 @@ pub type Quaternion = nalgebra::Quaternion<f64>;
 #[inline]
 pub fn skew(v: &Vec3) -> Mat3 {
     v.cross_matrix()
+}
+
+/// Unit vector normal to the unit vector `v`.
+pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
+    let least = if v.x.abs() <= v.y.abs().min(v.z.abs()) {
+        Vec3::x()
+    } else if v.y.abs() <= v.z.abs() {
+        Vec3::y()
+    } else {
+        Vec3::z()
+    };
+    v.cross(&least).normalize()
 }
 
 /// Symmetric part `(A + Aᵀ)/2` of a square matrix.

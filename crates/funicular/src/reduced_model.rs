@@ -13,8 +13,9 @@ mod selection;
 mod terms;
 
 pub use control_model::{
-    ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, Size, control_model,
+    ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, control_model,
 };
+pub use selection::Size;
 
 use crate::cable::DynamicCable;
 use crate::cable_motion::CableMotionError;

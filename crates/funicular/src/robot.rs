@@ -7,12 +7,16 @@ mod anchor;
 mod change;
 mod motion;
 pub mod parameters;
+mod pulley;
 pub mod spec;
+mod winch;
 mod wind;
 
 pub use anchor::Anchor;
 pub use change::{CableChange, RobotChange};
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
+pub use pulley::{Pulley, PulleyContact};
+pub use winch::Winch;
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};

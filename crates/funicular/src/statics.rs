@@ -22,10 +22,12 @@ mod equilibrium; // pose, cables, residual, stability; the limits of the residua
 mod error; // reasons for the lack of an equilibrium, with their messages
 mod limits; // tension limits, their defaults, distance from them
 mod model; // ideal, spring, catenary
+mod obstacle; // direction in which no cable can pull, whatever the limits
 
 // Pieces shared by several solvers.
 mod collect; // equilibrium from the cables that hang at a pose
 mod energy; // potential energy, minimised by forward statics
+mod exit_points; // exit points of cables over pulleys, which follow from the tensions
 mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
 mod residual; // residual of the balance at a pose, and its rounding
@@ -54,13 +56,14 @@ pub use forward::forward;
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
+pub(crate) use obstacle::spread;
+pub use obstacle::{Obstacle, OneSidedCause};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
-pub(crate) use tension::spread;
 pub use tension::{
-    LimitAtCable, Obstacle, OneSidedCause, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule,
-    distribute_tensions, payload_bound,
+    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
+    payload_bound,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

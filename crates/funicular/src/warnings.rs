@@ -8,7 +8,7 @@ use plausibility::Implausible;
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
-use crate::robot::{Pose, Robot};
+use crate::robot::{Cable, Pose, Robot};
 use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -22,6 +22,20 @@ pub enum Warning {
     Slack {
         /// Name of the cable.
         cable: String,
+    },
+    /// A cable wraps more than half around its pulley.
+    Wrap {
+        /// Name of the cable.
+        cable: String,
+        /// Wrap angle [degrees].
+        wrap_deg: f64,
+    },
+    /// A cable would have to push at its entry point to the pulley.
+    SlackAtDrum {
+        /// Name of the cable.
+        cable: String,
+        /// Tension at the drum [N], negative.
+        tension: f64,
     },
     /// A tension is above the breaking load of the rope.
     Breaks {
@@ -163,21 +177,23 @@ impl fmt::Display for Warning {
                 "cable \"{cable}\" is slack: it carries no force and does not help to hold the platform; shorten it or \
                  choose the static model `catenary`, which includes its weight"
             ),
+            Self::Wrap { cable, wrap_deg } => write!(
+                f,
+                "cable \"{cable}\" wraps {wrap_deg:.1}° around its pulley: beyond 180° the swivel is unstable, and the \
+                 wheel turns away from the cable; choose another pose, or another `entry_direction`"
+            ),
+            Self::SlackAtDrum { cable, tension } => write!(
+                f,
+                "cable \"{cable}\" has a tension of {tension:.2} N at its drum: it would lift off its pulley; raise the \
+                 tension"
+            ),
             Self::Breaks { cable, tension, breaking_load } => write!(
                 f,
                 "cable \"{cable}\" has a tension of {tension:.1} N, but its rope breaks at {breaking_load} N: choose a \
                  stronger rope, another pose or less load"
             ),
             Self::BeyondLimit { cable, tension, limit, value } => {
-                let (range, side, name) = match limit {
-                    Limit::Minimum => ("only", "below", "minimum_tension_n"),
-                    Limit::Maximum => ("up to", "above", "maximum_tension_n"),
-                };
-                write!(
-                    f,
-                    "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: \
-                     choose another pose, load or lengths, or another limit"
-                )
+                f.write_str(&beyond_limit(cable, *tension, *limit, *value))
             }
             Self::NoDrag { ropes } => {
                 let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
@@ -188,28 +204,8 @@ impl fmt::Display for Warning {
                     ropes.join(", ")
                 )
             }
-            Self::NearlySingular { gain } if gain.is_infinite() => write!(
-                f,
-                "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which \
-                 the cables pull in more directions"
-            ),
-            Self::NearlySingular { gain } => write!(
-                f,
-                "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension \
-                 (limit {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
-            ),
-            Self::Unstable { directions, min_stiffness: 0.0 } => write!(
-                f,
-                "the equilibrium is indifferent: in {} nothing holds the platform, and its natural frequency there is \
-                 zero; add a cable, or another attachment point",
-                crate::counted(*directions, "direction")
-            ),
-            Self::Unstable { directions, min_stiffness } => write!(
-                f,
-                "the equilibrium is not stable: {} without a restoring force (minimum scaled stiffness \
-                 {min_stiffness:.3e} N/m); the robot would leave this pose",
-                crate::counted(*directions, "direction")
-            ),
+            Self::NearlySingular { gain } => f.write_str(&nearly_singular(*gain)),
+            Self::Unstable { directions, min_stiffness } => f.write_str(&unstable(*directions, *min_stiffness)),
             Self::Elsewhere { cables, dof, translation, turn_deg, distance } => write!(
                 f,
                 "{} for {dof} degrees of freedom cannot hold the requested pose with any lengths: this is the nearest \
@@ -217,21 +213,7 @@ impl fmt::Display for Warning {
                 crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
-            Self::DeepSag { cables, model } => {
-                let what =
-                    if *model == CableModel::ShallowStatic { "stiffness along the chord" } else { "first frequency" };
-                let one = |DeepSag { cable, ratio, error }: &DeepSag| {
-                    let error =
-                        error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
-                    format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
-                };
-                write!(
-                    f,
-                    "cable {}, the limit is 1/20: the {model} model is outside its range; use the model \
-                     `catenary-dynamic`, or raise the tension",
-                    cables.iter().map(one).collect::<Vec<_>>().join(", ")
-                )
-            }
+            Self::DeepSag { cables, model } => f.write_str(&too_deep(cables, *model)),
             Self::DragTurns { effect } => write!(
                 f,
                 "the drag of the wind turns with the cables and changes the static displacement under a small load by \
@@ -249,6 +231,60 @@ impl fmt::Display for Warning {
     }
 }
 
+/// Text about a tension beyond a limit of the file.
+fn beyond_limit(cable: &str, tension: f64, limit: Limit, value: f64) -> String {
+    let (range, side, name) = match limit {
+        Limit::Minimum => ("only", "below", "minimum_tension_n"),
+        Limit::Maximum => ("up to", "above", "maximum_tension_n"),
+    };
+    format!(
+        "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: choose another \
+         pose, load or lengths, or another limit"
+    )
+}
+
+/// Text about a pose at or near a singular one.
+fn nearly_singular(gain: f64) -> String {
+    if gain.is_infinite() {
+        return "the pose is singular: in some direction the cables cannot resist a force; choose a pose from which the \
+                cables pull in more directions"
+            .to_owned();
+    }
+    format!(
+        "the pose is nearly singular: in its weakest direction a force of 1 N needs {gain:.0} N of tension (limit \
+         {SINGULAR_GAIN} N); choose a pose from which the cables pull in more directions"
+    )
+}
+
+/// Text about an equilibrium that is indifferent or not stable.
+fn unstable(directions: usize, min_stiffness: f64) -> String {
+    let directions = crate::counted(directions, "direction");
+    if min_stiffness == 0.0 {
+        return format!(
+            "the equilibrium is indifferent: in {directions} nothing holds the platform, and its natural frequency \
+             there is zero; add a cable, or another attachment point"
+        );
+    }
+    format!(
+        "the equilibrium is not stable: {directions} without a restoring force (minimum scaled stiffness \
+         {min_stiffness:.3e} N/m); the robot would leave this pose"
+    )
+}
+
+/// Text about cables that sag too deep for a model.
+fn too_deep(cables: &[DeepSag], model: CableModel) -> String {
+    let what = if model == CableModel::ShallowStatic { "stiffness along the chord" } else { "first frequency" };
+    let one = |DeepSag { cable, ratio, error }: &DeepSag| {
+        let error = error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
+        format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
+    };
+    format!(
+        "cable {}, the limit is 1/20: the {model} model is outside its range; use the model `catenary-dynamic`, or raise \
+         the tension",
+        cables.iter().map(one).collect::<Vec<_>>().join(", ")
+    )
+}
+
 /// Warning about a cable beyond the breaking load of its rope or beyond a limit of the file; only the most serious one.
 fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning> {
     let (cable, limits) = (&robot.cables[i], robot.cables[i].limits());
@@ -262,6 +298,17 @@ fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning
     }
     let value = limits.minimum.filter(|min| margin.min < *min * (1.0 - 1e-6))?;
     Some(Warning::BeyondLimit { cable: name, tension: margin.min, limit: Limit::Minimum, value })
+}
+
+/// Warning about the place of a cable on its pulley.
+fn of_drive(cable: &Cable, state: &CableState) -> Option<Warning> {
+    let drive = state.drive.as_deref()?;
+    let name = cable.name.clone();
+    if drive.tension_drum < 0.0 {
+        return Some(Warning::SlackAtDrum { cable: name, tension: drive.tension_drum });
+    }
+    let wrap = drive.contact.map(|contact| contact.wrap).filter(|wrap| *wrap > std::f64::consts::PI)?;
+    Some(Warning::Wrap { cable: name, wrap_deg: wrap.to_degrees() })
 }
 
 /// Maximum distance from the requested pose, over the size of the platform, at which the pose counts as reached; the
@@ -297,10 +344,9 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     let mut warnings = Vec::new();
 
     // Tensions of the cables.
-    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
-        if equilibrium.model != StaticModel::Ideal && state.is_slack() {
-            warnings.push(Warning::Slack { cable: cable.name.clone() });
-        }
+    for (i, state) in equilibrium.cables.iter().enumerate() {
+        warnings.extend(slack(robot, equilibrium, i));
+        warnings.extend(of_drive(&robot.cables[i], state));
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
     }
 
@@ -331,28 +377,49 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
 
 /// Warnings about a cable model at an equilibrium for frequencies up to `below_hz` [Hz].
 pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, below_hz: f64) -> Vec<Warning> {
+    let cables: Vec<usize> = (0..equilibrium.cables.len()).collect();
+    let turns = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT);
+
     let mut warnings = Vec::new();
-
-    // Sag beyond the range of the model.
-    let sags: Vec<Sag> = equilibrium.cables.iter().enumerate().map(|(i, state)| Sag::of(robot, i, state)).collect();
-    let states = equilibrium.cables.iter().enumerate();
-    let cables: Vec<DeepSag> = states.filter_map(|(i, state)| DeepSag::of(robot, i, state, model)).collect();
-    if !cables.is_empty() {
-        warnings.push(Warning::DeepSag { cables, model });
-    }
-
-    // Drag that turns with the cables.
-    if let Some(effect) = statics::drag_effect(robot, equilibrium).filter(|effect| *effect > DRAG_TURN_LIMIT) {
-        warnings.push(Warning::DragTurns { effect });
-    }
-
-    // Frequencies near the first axial one.
-    let lowest = (0..sags.len()).min_by(|&i, &j| sags[i].axial_frequency_hz().total_cmp(&sags[j].axial_frequency_hz()));
-    if let Some(i) = lowest {
-        let axial_hz = sags[i].axial_frequency_hz();
-        if model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz {
-            warnings.push(Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz });
-        }
-    }
+    warnings.extend(deep_sag(robot, equilibrium, &cables, model));
+    warnings.extend(turns.map(|effect| Warning::DragTurns { effect }));
+    warnings.extend(axial_waves(robot, equilibrium, &cables, model, below_hz));
     warnings
+}
+
+/// Warnings about cable `i` alone, with a cable model for frequencies up to `below_hz` [Hz]: the cable is slack, sags
+/// beyond the range of the model, or has axial waves that the model leaves out.
+pub fn of_cable(robot: &Robot, equilibrium: &Equilibrium, i: usize, model: CableModel, below_hz: f64) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    warnings.extend(slack(robot, equilibrium, i));
+    warnings.extend(deep_sag(robot, equilibrium, &[i], model));
+    warnings.extend(axial_waves(robot, equilibrium, &[i], model, below_hz));
+    warnings
+}
+
+/// Warning that cable `i` is slack. Ideal cables have no weight that could keep them taut, and no warning.
+fn slack(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Option<Warning> {
+    let warned = equilibrium.model != StaticModel::Ideal && equilibrium.cables[i].is_slack();
+    warned.then(|| Warning::Slack { cable: robot.cables[i].name.clone() })
+}
+
+/// Warning about those of the given cables that sag beyond the range of the model.
+fn deep_sag(robot: &Robot, equilibrium: &Equilibrium, cables: &[usize], model: CableModel) -> Option<Warning> {
+    let cables: Vec<DeepSag> =
+        cables.iter().filter_map(|&i| DeepSag::of(robot, i, &equilibrium.cables[i], model)).collect();
+    (!cables.is_empty()).then_some(Warning::DeepSag { cables, model })
+}
+
+/// Warning about axial waves in the one of the given cables that has the lowest first axial frequency.
+fn axial_waves(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    cables: &[usize],
+    model: CableModel,
+    below_hz: f64,
+) -> Option<Warning> {
+    let frequencies = cables.iter().map(|&i| (i, Sag::of(robot, i, &equilibrium.cables[i]).axial_frequency_hz()));
+    let (i, axial_hz) = frequencies.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    let matter = model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz;
+    matter.then(|| Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz })
 }

@@ -3,7 +3,7 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::robot::PlatformMotion;
-use funicular_study::analyses::check::{Checked, CheckedLimits, CheckedRope};
+use funicular_study::analyses::check::{Checked, CheckedLimits, CheckedRope, CheckedWinch};
 use std::cmp::Ordering;
 use std::fmt::Write;
 
@@ -75,7 +75,7 @@ impl Printed for Checked {
             None => "none: analyses need --lengths-m or --pose".to_owned(),
         };
         say(format!("  state       {state}"));
-        out += &("\n".to_owned() + &rope_table(self) + "\n" + &cable_table(self));
+        out += &("\n".to_owned() + &rope_table(self) + "\n" + &cable_table(self) + &drive_table(self));
         for note in &self.notes {
             let _ = write!(out, "\nNote: {note}.\n");
         }
@@ -107,6 +107,30 @@ impl Printed for Checked {
         }
         Ok(())
     }
+}
+
+/// Pulleys and winches of the cables; empty if all cables end at fixed points.
+fn drive_table(found: &Checked) -> String {
+    if found.cables.iter().all(|cable| cable.pulley.is_none() && cable.winch.is_none()) {
+        return String::new();
+    }
+    let header = ["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]"];
+    let mut rows = Table::new(&header).text_columns(&[1, 4]);
+    for cable in &found.cables {
+        let (pulley, winch) = (cable.pulley.as_ref(), cable.winch.as_ref());
+        let none = || table::NONE.to_owned();
+        let stiffness = |winch: &CheckedWinch| winch.stiffness_n_per_m.map_or("rigid".to_owned(), |k| short(k, 6));
+        rows.row(vec![
+            cable.name.clone(),
+            pulley.map_or_else(none, |pulley| pulley.name.clone()),
+            pulley.map_or_else(none, |pulley| short(pulley.radius_m, 6)),
+            pulley.map_or_else(none, |pulley| format!("({})", vector(&pulley.entry_direction, 3))),
+            winch.map_or_else(none, |winch| winch.name.clone()),
+            winch.map_or_else(none, |winch| short(winch.drum_side_length_m, 6)),
+            winch.map_or_else(none, stiffness),
+        ]);
+    }
+    format!("\n{rows}")
 }
 
 fn rope_table(found: &Checked) -> String {

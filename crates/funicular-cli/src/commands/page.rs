@@ -3,7 +3,7 @@
 use crate::args::PlotArgs;
 use crate::errors;
 use crate::output::{Content, FigureSink, Target, refuse_page_as_figure, refuse_without_figure};
-use crate::progress::{Shown, Waiting};
+use crate::progress::{TerminalProgress, WaitingSpinner};
 use crate::robot_file;
 use anyhow::{Context, Result, bail};
 use funicular_files::{Guard, SweepFile};
@@ -18,7 +18,7 @@ pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path
     let file = of.robot.read()?;
     refuse_page_as_figure(output)?;
     let target = Target::open(Some(output), Content::PAGE, &mut robot_file::guard(robot_path))?;
-    let waiting = Waiting::for_("the robot's figures and tables");
+    let waiting = WaitingSpinner::for_("the robot's figures and tables");
     let page = pages::report::of_request(of, file, command_line()?)?;
     drop(waiting);
     write(&target, output, &page.html)?;
@@ -30,7 +30,7 @@ pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path
 pub(crate) fn paper(output: &Path) -> Result<()> {
     refuse_page_as_figure(output)?;
     let target = Target::open(Some(output), Content::PAGE, &mut Guard::default())?;
-    let waiting = Waiting::for_("the paper's figures and tables");
+    let waiting = WaitingSpinner::for_("the paper's figures and tables");
     let page = pages::paper::paper(command_line()?)?;
     drop(waiting);
     write(&target, output, &page)
@@ -58,8 +58,9 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     refuse_without_figure(args.plane.is_some(), "plane")?;
     refuse_without_figure(!args.at.is_empty(), "at")?;
     let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
-    let waiting = Waiting::for_("the figures");
-    let page = pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut Shown::default())?;
+    let waiting = WaitingSpinner::for_("the figures");
+    let page =
+        pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut TerminalProgress::default())?;
     drop(waiting);
     write(&target, &to, &page.html)?;
     page.notes.iter().for_each(|note| errors::warn(note));

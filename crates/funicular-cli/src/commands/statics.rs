@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
-use funicular_study::analyses::statics::{EquilibriumRow, LimitNumbers, OtherStable, Statics};
+use funicular_study::analyses::statics::{DriveRow, EquilibriumRow, LimitNumbers, OtherStable, Statics};
 
 impl Printed for Statics {
     fn text(&self) -> String {
@@ -36,6 +36,7 @@ impl Printed for Statics {
             cables.row(row);
         }
 
+        let drives = drives_table(self);
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
             (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
@@ -71,7 +72,7 @@ impl Printed for Statics {
 
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}{held}\n\
-             {cables}\n{stability}. {balance} after {}.\n{others}",
+             {cables}\n{drives}{stability}. {balance} after {}.\n{others}",
             self.robot,
             self.static_model,
             short(self.mass_kg, 6),
@@ -85,7 +86,7 @@ impl Printed for Statics {
         if let Some(equilibria) = &self.equilibria {
             return equilibria_csv(equilibria, out);
         }
-        out.write_record([
+        let mut header = vec![
             "name",
             "unstrained_length_m",
             "tension_platform_n",
@@ -101,7 +102,10 @@ impl Printed for Statics {
             "maximum_tension_n",
             "tension_margin_n",
             "limit_reached",
-        ])?;
+        ];
+        let drives = self.cables.iter().any(|cable| cable.drive.is_some());
+        header.extend(DRIVE_COLUMNS.iter().filter(|_| drives));
+        out.write_record(header)?;
         for c in &self.cables {
             let limits = c.limits.as_ref();
             out.serialize((
@@ -118,10 +122,57 @@ impl Printed for Statics {
                 limits.and_then(|l| l.maximum_tension_n),
                 limits.map(|l| l.tension_margin_n),
                 limits.and_then(|l| l.limit_reached),
+                if drives { drive_values(c.drive.as_ref()).to_vec() } else { Vec::new() },
             ))?;
         }
         Ok(())
     }
+}
+
+/// Pulleys and winches; empty if all cables end at fixed points.
+fn drives_table(found: &Statics) -> String {
+    if found.cables.iter().all(|cable| cable.drive.is_none()) {
+        return String::new();
+    }
+    let header =
+        ["cable", "exit point [m]", "wrap [°]", "T drum [N]", "free [m]", "on wheel [m]", "to drum [m]", "yield [mm]"];
+    let mut rows = Table::new(&header);
+    for cable in &found.cables {
+        let Some(drive) = &cable.drive else { continue };
+        rows.row(vec![
+            cable.name.clone(),
+            vector(&drive.exit_m, 4),
+            decimals_or_none(drive.wrap_deg, 2),
+            decimals(drive.tension_drum_n, 3),
+            decimals(drive.free_length_m, 4),
+            decimals(drive.arc_length_m, 4),
+            decimals(drive.drum_side_length_m, 4),
+            decimals(1e3 * drive.winch_yield_m, 3),
+        ]);
+    }
+    format!("{rows}\n")
+}
+
+/// Columns of pulleys and winches in CSV.
+const DRIVE_COLUMNS: [&str; 9] = [
+    "exit_x_m",
+    "exit_y_m",
+    "exit_z_m",
+    "wrap_deg",
+    "tension_drum_n",
+    "free_length_m",
+    "arc_length_m",
+    "drum_side_length_m",
+    "winch_yield_m",
+];
+
+/// Values of [`DRIVE_COLUMNS`]; empty for a cable that ends at a fixed point.
+fn drive_values(drive: Option<&DriveRow>) -> [Option<f64>; DRIVE_COLUMNS.len()] {
+    let Some(drive) = drive else { return [None; DRIVE_COLUMNS.len()] };
+    let [x, y, z] = drive.exit_m.map(Some);
+    let lengths = [drive.free_length_m, drive.arc_length_m, drive.drum_side_length_m, drive.winch_yield_m];
+    let [free, arc, drum_side, yielded] = lengths.map(Some);
+    [x, y, z, drive.wrap_deg, Some(drive.tension_drum_n), free, arc, drum_side, yielded]
 }
 
 fn equilibria_csv(equilibria: &[EquilibriumRow], out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {

@@ -247,7 +247,8 @@ fn losses_and_assumptions_are_reported_on_stderr_and_in_the_file() {
     let [bodies, cables] = caspr();
     let output = import(&[&[bodies.as_str(), &cables, "--cable-set", "springs"], &ROPES[..2]].concat());
     let (said, written) = (stderr(&output), stdout(&output).replace("\n#   ", " "));
-    for lost in ["pulleys at the base, of radius 0.05 m", "q_min and q_max", "\"ideal\""] {
+    assert!(written.contains("[pulleys.wheel]\nradius_m = 0.05"), "{written}");
+    for lost in ["q_min and q_max", "\"ideal\""] {
         assert!(said.contains(lost) && written.contains(lost), "{lost}: {said}\n{written}");
     }
 
@@ -453,4 +454,45 @@ fn the_robot_file_is_written_completely_or_not_at_all() {
     assert!(text.starts_with("# Written by funicular") && text.contains("name = \"tripod, cables ideal\""));
     assert!(!text.contains(Path::new(&bodies).parent().unwrap().to_str().unwrap()), "no folders in the file");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
+}
+
+/// CASPR's rotating pulleys become pulleys of the robot file, and the cables leave them tangentially.
+#[test]
+fn rotating_pulleys_of_caspr_become_pulleys() {
+    let directory = tempfile::tempdir().unwrap();
+    let cables = directory.path().join("pulleys.xml");
+    let base =
+        "<attachment>\n          <link>0</link>\n          <location>0.15 4.0 5.0</location>\n        </attachment>";
+    let pulley = "<base_rotating_pulley>\n<fixed_location>0.15 4.0 5.0</fixed_location>\n\
+                  <pulley_radius>0.045</pulley_radius>\n<cable_entry_vector>0 0 1</cable_entry_vector>\n\
+                  </base_rotating_pulley>";
+    let text = example_text("tripod_cables.xml");
+    assert!(text.contains(base));
+    std::fs::write(&cables, text.replacen(base, pulley, 1)).unwrap();
+    let bodies = example("tripod_bodies.xml");
+    let text = imported(&[&[cables.to_str().unwrap(), &bodies], &ROPES[..]].concat());
+    assert!(text.contains("[pulleys.wheel]\nradius_m = 0.045\nentry_direction = [0.0, 0.0, 1.0]"), "{text}");
+
+    let robot = json("check", &text, &[]);
+    assert_eq!(robot["cables"][0]["pulley"]["radius_m"], 0.045);
+    assert!(robot["cables"][1].get("pulley").is_none());
+    let rest = json("statics", &text, &[]);
+    let drive = &rest["cables"][0]["drive"];
+    assert!(drive["wrap_deg"].as_f64().unwrap() > 90.0, "the cable goes down from the wheel: {drive}");
+    let exit = numbers(&drive["exit_m"]);
+    assert!((exit[2] - 5.0).abs() < 0.0451 && exit[1] < 4.0, "{exit:?}");
+
+    // Damaged values.
+    for (right, wrong, message) in [
+        ("0.045", "-0.045", "<pulley_radius> is -0.045 m, it must be positive"),
+        ("<cable_entry_vector>0 0 1", "<cable_entry_vector>0 0 0", "<cable_entry_vector> has no length"),
+    ] {
+        let damaged = std::fs::read_to_string(&cables).unwrap().replace(right, wrong);
+        let file = directory.path().join("damaged.xml");
+        std::fs::write(&file, damaged).unwrap();
+        let output = import(&[&[file.to_str().unwrap(), &bodies], &ROPES[..]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(message), "{told}");
+    }
 }

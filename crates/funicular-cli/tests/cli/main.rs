@@ -3,6 +3,7 @@
 mod bad_input;
 mod cable;
 mod compare;
+mod defaults;
 mod export;
 mod figures;
 mod files;

@@ -1,6 +1,6 @@
 //! Tests of the pages: output files, repeated command lines, refusals.
 
-use super::{command, robot, run, stderr, stdout, succeed};
+use super::{command, json, number, robot, run, stderr, stdout, succeed};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use flate2::read::GzDecoder;
@@ -30,6 +30,23 @@ fn without_arguments_the_pages_are_written_here() {
         assert!(page.contains(&format!("<pre>funicular {verb}</pre>")));
     }
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2, "nothing else is left");
+}
+
+/// The table of tensions has the limits and margins of `statics`, and none for a robot without limits.
+#[test]
+fn a_report_has_the_tension_limits_of_the_robot() {
+    let found = json(&["statics", &robot("cogiro.toml"), "--pose", "1,2,1.5"]);
+    let page = succeed(&["report", &robot("cogiro.toml"), "--pose", "1,2,1.5", "--below-hz", "5", "-o", "-"]);
+    let (_, table) = page.split_once("Margin: distance of the tension from its nearest limit").unwrap();
+    let (table, _) = table.split_once("</table>").unwrap();
+    for cable in found["cables"].as_array().unwrap() {
+        let margin = format!("{:.1}", number(&cable["tension_margin_n"]));
+        assert!(table.contains(&format!(">{margin}<")), "{margin}: {table}");
+    }
+    assert!(page.contains("1 platform mode, "), "one mode is no plural");
+
+    let without = succeed(&["report", "--below-hz", "2", "-o", "-"]);
+    assert!(without.contains("table-tensions") && !without.contains("Margin: distance"));
 }
 
 #[test]

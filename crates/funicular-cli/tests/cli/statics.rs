@@ -1,6 +1,6 @@
 //! `statics`: keys, poses and lengths, tensions by rules, other equilibria, what is none.
 
-use super::{close, json, json_of, number, numbers, robot, run, stderr, stdout, succeed, yuan};
+use super::{close, json, json_of, number, numbers, robot, run, run_with, stderr, stdout, succeed, yuan};
 use serde_json::Value;
 
 #[test]
@@ -84,6 +84,43 @@ fn a_state_beyond_its_limits_is_warned_of_with_numbers() {
     let rope = "materials.rope-4mm.breaking_load_n=52";
     let output = run(&["statics", "ROBOT", "--set", rope]);
     assert!(stderr(&output).contains("its rope breaks at 52 N"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_maximum_above_the_breaking_load_is_refused_by_every_analysis() {
+    let (cogiro, breaks) = (robot("cogiro.toml"), "above the breaking load 10000 N of its rope");
+    let at = ["--pose", "1,2,1.5"];
+    for command in [
+        &["statics"][..],
+        &["modes", "--below-hz", "3"],
+        &["payload"],
+        &["map", "--grid", "z=1:2:2", "--quantity", "tension-max"],
+    ] {
+        let with = |maximum: &str| {
+            let named = [&command[..1], &[cogiro.as_str()], &command[1..], &at].concat();
+            run(&[&named[..], &["--max-tension-n", maximum]].concat())
+        };
+        let refused = with("10000.1");
+        assert_eq!(refused.status.code(), Some(2), "{command:?}: {}", stderr(&refused));
+        let message = stderr(&refused);
+        assert!(message.contains("cable \"1\": maximum tension 10000.1 N is"), "{message}");
+        assert!(message.contains(breaks) && message.contains("give --max-tension-n of at most 10000"), "{message}");
+        assert!(stdout(&refused).is_empty());
+        // The breaking load itself is allowed, as in a robot file.
+        assert_eq!(with("10000").status.code(), Some(0), "{command:?}");
+    }
+
+    // The message names the weakest rope, whatever the order of the cables.
+    let text = std::fs::read_to_string(&cogiro).unwrap();
+    let fifth = "name = \"5\"\nmaterial = \"wire-rope-4mm\"";
+    assert_eq!(text.matches(fifth).count(), 1);
+    let weak =
+        "\n[materials.weak]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0.1\ndamping_ratio = 0\nbreaking_load_n = 4000\n";
+    let text = text.replace(fifth, "name = \"5\"\nmaterial = \"weak\"") + weak;
+    let refused = run_with(&["statics", "-", "--pose", "1,2,1.5", "--max-tension-n", "20000"], &text);
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("cable \"5\": maximum tension 20000 N"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("of at most 4000"), "{}", stderr(&refused));
 }
 
 #[test]

@@ -454,8 +454,8 @@ class Equilibria(_ArrayFields):
     """Sags over chords, (states, cables); NaN for a cable without tension."""
     residual: NDArray[np.float64]
     """Unbalanced wrench on the platform relative to the sum of all forces."""
-    stable: NDArray[np.bool_]
-    """True if every small motion is opposed; False for ideal cables, which are rigid."""
+    stable: NDArray[np.bool_] | None
+    """True if every small motion is opposed, False where there is no equilibrium; None for ideal cables, which are rigid."""
     stiffness_min_n_per_m: NDArray[np.float64]
     """Minimum eigenvalue of the scaled static stiffness, in wind of its symmetric part [N/m]; NaN for ideal cables."""
     nearest_pose_distance_m: NDArray[np.float64]

@@ -26,7 +26,14 @@ def _cables(of: Equilibrium) -> Any:
     for cable in of.cables:
         force = cable.pop("force_on_platform_n")
         components = zip("xyz", force, strict=True)
+        drive = cable.pop("drive", None)
         rows.append(cable | {f"force_on_platform_{axis}_n": component for axis, component in components})
+        if drive is not None:
+            point, direction = drive.pop("exit_m"), drive.pop("swivel_direction", None)
+            rows[-1] |= {f"exit_{axis}_m": component for axis, component in zip("xyz", point, strict=True)}
+            if direction is not None:
+                rows[-1] |= {f"swivel_{axis}": component for axis, component in zip("xyz", direction, strict=True)}
+            rows[-1] |= drive
     return _pandas().DataFrame(rows).set_index("name")
 
 
@@ -67,9 +74,10 @@ def _equilibria(of: Equilibria) -> Any:
     ):
         columns |= {f"{name}_{i + 1}{unit}": values[:, i] for i in range(values.shape[1])}
 
+    columns["residual"] = of.residual
+    if of.stable is not None:
+        columns["stable"] = of.stable
     columns |= {
-        "residual": of.residual,
-        "stable": of.stable,
         "stiffness_min_n_per_m": of.stiffness_min_n_per_m,
         "nearest_pose_distance_m": of.nearest_pose_distance_m,
     }

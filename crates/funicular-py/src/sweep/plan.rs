@@ -1,56 +1,17 @@
 //! Plan of a map or sweep, which is sent to workers and computes chunks of rows.
 
+use super::plan_data::PlanData;
 use super::work::PyWork;
 use crate::arrays::PickleParts;
 use crate::errors;
-use crate::interrupt::on_threads;
 use crate::threads::Threads;
 use funicular_files::{Begin, Job, Opened, table};
 use funicular_study::request::Request;
-use funicular_study::sweep::{Chunk, Part, PreparedSweep, Record};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::num::NonZeroUsize;
-use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Sweep that is ready to run, and the record of its rows.
-pub(crate) struct PlanData {
-    sweep: PreparedSweep,
-    pub(crate) record: Record,
-}
-
-impl PlanData {
-    fn of(request: &Request, part: Option<Part>) -> anyhow::Result<Self> {
-        let sweep = PreparedSweep::new(request)?;
-        let record = sweep.record(&sweep.plan()?, part);
-        Ok(Self { sweep, record })
-    }
-
-    /// Number of rows to compute.
-    pub(crate) fn rows(&self) -> usize {
-        self.record.rows_of(self.record.range())
-    }
-
-    /// Number of rows before the chunk `next`.
-    pub(crate) fn done(&self, next: usize) -> usize {
-        self.record.rows_of(self.record.range().start..next)
-    }
-
-    /// Computes chunks on new threads and passes them in order to `take` on the calling thread; `check` looks for
-    /// Ctrl-C.
-    pub(crate) fn run(
-        &self,
-        chunks: Range<usize>,
-        threads: NonZeroUsize,
-        take: impl FnMut(Chunk) -> PyResult<()>,
-        check: impl FnMut() -> PyResult<()>,
-    ) -> PyResult<()> {
-        let plan = self.sweep.plan().map_err(|error| errors::study(&error.into()))?;
-        on_threads(chunks, threads, |index, cancelled| plan.evaluate(index, cancelled), take, check)
-    }
-}
 
 /// Plan of a map or sweep; its pickle is the request as JSON.
 #[pyclass(frozen, name = "SweepPlan", module = "funicular._funicular")]

@@ -1,6 +1,6 @@
 //! Collection of the rows of a plan in memory or in a file.
 
-use super::plan::PlanData;
+use super::plan_data::PlanData;
 use super::table::PyTable;
 use crate::errors;
 use crate::threads::Threads;

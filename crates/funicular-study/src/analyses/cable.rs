@@ -11,7 +11,7 @@ use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag}
 use funicular::dynamics::DynamicsError;
 use funicular::math::{Complex, Mat3};
 use funicular::robot::Robot;
-use funicular::statics::CableState;
+use funicular::warnings;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -136,6 +136,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
     let stiffness = EndStiffness::new(robot, i, state, model, in_plane_only, to_hz)
         .map_err(|reason| DynamicsError::of_cable(name, model, reason))?;
     let sag = Sag::of(robot, i, state);
+    let of_cable = warnings::of_cable(robot, &at_rest.equilibrium, i, model, to_hz);
     let axes = LocalAxes::of_cable(robot, i, state);
     let values = curve(&stiffness, &axes, &frequency_hz)?;
     let part = |of: fn(&LocalStiffness<Complex>) -> Complex| ComplexValues {
@@ -166,7 +167,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
         },
         world: World { real: world(|k| k.re), imag: world(|k| k.im) },
         frequency_hz,
-        warnings: at_rest.implausible().chain(warnings(robot, i, state, &sag, model, to_hz)).collect(),
+        warnings: at_rest.implausible().chain(of_cable.iter().map(ToString::to_string)).collect(),
     })
 }
 
@@ -241,24 +242,6 @@ fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<
     }
     let all = form.clamped_frequencies_below(limit).into_iter().map(|omega| omega / TAU);
     Ok(Some(all.filter(|f| *f >= from_hz).collect()))
-}
-
-/// Warnings of the core for this cable alone.
-fn warnings(robot: &Robot, i: usize, state: &CableState, sag: &Sag, model: CableModel, below_hz: f64) -> Vec<String> {
-    use funicular::warnings::{AXIAL_FRACTION, DeepSag, Warning};
-    let cable = robot.cables[i].name.clone();
-    let mut warnings = Vec::new();
-    if state.is_slack() {
-        warnings.push(Warning::Slack { cable: cable.clone() });
-    }
-    if let Some(deep) = DeepSag::of(robot, i, state, model) {
-        warnings.push(Warning::DeepSag { cables: vec![deep], model });
-    }
-    let axial_hz = sag.axial_frequency_hz();
-    if model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz {
-        warnings.push(Warning::AxialWaves { cable, axial_hz, below_hz });
-    }
-    warnings.iter().map(ToString::to_string).collect()
 }
 
 found!(CableResult, "cable");

@@ -3,7 +3,7 @@
 use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Cable, Damping, Load, PlatformMotion, Robot, State, TensionLimits, Wind};
+use funicular::robot::{Cable, Damping, Load, PlatformMotion, Pulley, Robot, State, TensionLimits, Winch, Wind};
 use funicular::warnings::plausibility;
 use serde::Serialize;
 
@@ -136,6 +136,12 @@ pub struct CheckedCable {
     pub material: String,
     pub anchor_m: [f64; 3],
     pub attachment_m: [f64; 3],
+    /// Pulley at the anchor; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pulley: Option<CheckedPulley>,
+    /// Winch behind the anchor; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub winch: Option<CheckedWinch>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
     /// Tension limits of the cable, or else of its rope.
@@ -144,6 +150,40 @@ pub struct CheckedCable {
     /// Load per length besides weight and wind; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_n_per_m: Option<[f64; 3]>,
+}
+
+/// Pulley of a cable.
+#[derive(Serialize)]
+pub struct CheckedPulley {
+    pub name: String,
+    pub radius_m: f64,
+    /// Direction of travel at the anchor towards the platform, unit vector.
+    pub entry_direction: [f64; 3],
+}
+
+/// Winch of a cable.
+#[derive(Serialize)]
+pub struct CheckedWinch {
+    pub name: String,
+    pub drum_side_length_m: f64,
+    /// Stiffness at the cable; absent for a rigid winch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_n_per_m: Option<f64>,
+}
+
+impl CheckedPulley {
+    fn of(pulley: &Pulley) -> Self {
+        let Pulley { name, radius, entry_direction_w, .. } = pulley;
+        Self { name: name.clone(), radius_m: *radius, entry_direction: (*entry_direction_w).into() }
+    }
+}
+
+impl CheckedWinch {
+    fn of(winch: &Winch) -> Self {
+        let Winch { name, drum_side_length, stiffness } = winch;
+        let stiffness_n_per_m = stiffness.is_finite().then_some(*stiffness);
+        Self { name: name.clone(), drum_side_length_m: *drum_side_length, stiffness_n_per_m }
+    }
 }
 
 /// Pose of a robot file.
@@ -190,6 +230,8 @@ pub fn run(robot: Robot) -> Checked {
             material: cable.material.name.clone(),
             anchor_m: cable.anchor.reference_w().into(),
             attachment_m: cable.attachment_p.into(),
+            pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
+            winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
             unstrained_length_m: lengths.map(|lengths| lengths[i]),
             limits: CheckedLimits::of(cable.limits()),
             load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),

@@ -1,7 +1,8 @@
 //! `payload`: minimum and maximum payload at a pose.
 
 use super::found;
-use super::statics::{LimitNumbers, PoseRow};
+use super::shared::PoseRow;
+use super::statics::LimitNumbers;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::request;

@@ -1,7 +1,7 @@
 //! `pose-error`: pose errors of simpler static models over platform mass.
 
 use super::found;
-use super::statics::PoseRow;
+use super::shared::PoseRow;
 use crate::Watch;
 use crate::at_rest;
 use crate::error::{Cancelled, NoSolution, with_warnings};
@@ -9,10 +9,12 @@ use crate::request::{self, PoseErrorRequest};
 use crate::text::counted;
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};
-use funicular::pose_error::{self, PoseDifference, PoseErrorPoint, Threshold};
+use funicular::pose_error::{self, PoseErrorPoint, Threshold};
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, Solution, StaticModel, StaticsError, TensionRule};
 use serde::Serialize;
+
+pub use super::shared::PoseDifferenceRow;
 
 /// Results of `pose-error`: distances between the poses of static models over platform mass.
 #[derive(Serialize)]
@@ -50,24 +52,6 @@ pub struct PoseErrorRow {
     pub catenary_from_ideal: Option<PoseDifferenceRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_from_catenary: Option<PoseDifferenceRow>,
-}
-
-/// Translation and rotation between two poses.
-#[derive(Serialize, Clone, Copy)]
-pub struct PoseDifferenceRow {
-    pub translation_m: [f64; 3],
-    pub distance_m: f64,
-    pub angle_deg: f64,
-}
-
-impl From<PoseDifference> for PoseDifferenceRow {
-    fn from(difference: PoseDifference) -> Self {
-        Self {
-            translation_m: difference.translation,
-            distance_m: difference.distance,
-            angle_deg: difference.angle.to_degrees(),
-        }
-    }
 }
 
 /// Minimum mass at which springs are good enough.

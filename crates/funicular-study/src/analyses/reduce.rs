@@ -1,6 +1,7 @@
 //! `reduce`: model of the robot for control design, as a state space ([`control_model`]) or in second-order form.
 
-use super::control_model::{self, ControlStateSpace};
+pub mod control_model;
+
 use super::shared::Models;
 use super::{Found, found};
 use crate::at_rest::{self, AtRest};
@@ -9,6 +10,7 @@ use crate::request;
 use crate::signals::{Input, Output};
 use crate::text::significant;
 use anyhow::{Result, bail};
+use control_model::ControlStateSpace;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
@@ -123,10 +125,10 @@ pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<ReducedForm
 }
 
 /// Inputs and outputs of a model.
-pub(super) type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
+type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
 
 /// Refuses numbers out of range, keys that exclude each other, and signals that the robot does not have.
-pub(super) fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
+fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
     request::check_positive("below_hz", request.below_hz)?;
     match (request.form, request.order, request.tolerance) {
         (ModelForm::SecondOrder, Some(_), _) => bail!(
@@ -151,21 +153,17 @@ pub(super) fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<S
 }
 
 /// Robot at equilibrium, linearised for a model.
-pub(super) struct Linearised {
-    pub(super) dynamics: Dynamics,
-    pub(super) linearisation: Linearisation,
-    pub(super) warnings: Vec<String>,
-    pub(super) damping_at: DampingAt,
-    pub(super) from: Vec<Signal>,
-    pub(super) to: Vec<(Signal, Quantity)>,
+struct Linearised {
+    dynamics: Dynamics,
+    linearisation: Linearisation,
+    warnings: Vec<String>,
+    damping_at: DampingAt,
+    from: Vec<Signal>,
+    to: Vec<(Signal, Quantity)>,
 }
 
 /// Linearises the robot and checks the number of its modes.
-pub(super) fn linearised(
-    at_rest: &AtRest,
-    request: &request::ReduceRequest,
-    (inputs, outputs): &Signals,
-) -> Result<Linearised> {
+fn linearised(at_rest: &AtRest, request: &request::ReduceRequest, (inputs, outputs): &Signals) -> Result<Linearised> {
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
@@ -180,7 +178,7 @@ pub(super) fn linearised(
 }
 
 /// Sentence about the treatment of damping.
-pub(super) fn damping_in_words(is_exact: bool, damping_at: DampingAt) -> String {
+fn damping_in_words(is_exact: bool, damping_at: DampingAt) -> String {
     match (is_exact, damping_at) {
         (true, _) => "viscous, without approximation".to_owned(),
         (false, DampingAt::NaturalFrequencies) => {
@@ -258,12 +256,12 @@ fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Outpu
     requested.into_iter().map(|output| Ok(output.signal(robot, point_p).map(|signal| (output, signal))?)).collect()
 }
 
-pub(super) fn input_rows(inputs: &[(Input, Signal)]) -> Vec<ChannelRow> {
+fn input_rows(inputs: &[(Input, Signal)]) -> Vec<ChannelRow> {
     let unit = |input: &Input| if input.is_moment { "N m" } else { "N" };
     inputs.iter().map(|(input, _)| ChannelRow { name: input.name.clone(), unit: unit(input) }).collect()
 }
 
-pub(super) fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
+fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
     outputs.iter().map(|(output, _)| ChannelRow { name: output.name.clone(), unit: unit(output) }).collect()
 }
 

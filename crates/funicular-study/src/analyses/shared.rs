@@ -3,6 +3,9 @@
 use crate::at_rest::AtRest;
 use funicular::cable::Sag;
 use funicular::dynamics::Linearisation;
+use funicular::math::rotation;
+use funicular::pose_error::PoseDifference;
+use funicular::robot::Pose;
 use funicular::statics::TensionRule;
 use serde::Serialize;
 
@@ -79,6 +82,42 @@ impl SagNumbers {
             sag_ratio: taut.then(|| sag.ratio()),
             lambda2: taut.then_some(sag.lambda2),
             string_frequency_hz: taut.then(|| sag.string_frequency_hz()).filter(|f| f.is_finite()),
+        }
+    }
+}
+
+/// Pose of the platform.
+#[derive(Serialize)]
+pub struct PoseRow {
+    pub position_m: [f64; 3],
+    pub quaternion_wxyz: [f64; 4],
+    pub roll_pitch_yaw_deg: [f64; 3],
+}
+
+impl PoseRow {
+    pub fn of(pose: &Pose) -> Self {
+        Self {
+            position_m: pose.position_w.into(),
+            quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
+            roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
+        }
+    }
+}
+
+/// Translation and rotation between two poses.
+#[derive(Serialize, Clone, Copy)]
+pub struct PoseDifferenceRow {
+    pub translation_m: [f64; 3],
+    pub distance_m: f64,
+    pub angle_deg: f64,
+}
+
+impl From<PoseDifference> for PoseDifferenceRow {
+    fn from(difference: PoseDifference) -> Self {
+        Self {
+            translation_m: difference.translation,
+            distance_m: difference.distance,
+            angle_deg: difference.angle.to_degrees(),
         }
     }
 }

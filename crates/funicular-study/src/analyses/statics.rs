@@ -2,17 +2,17 @@
 
 use super::check::{LoadRow, WindRow};
 use super::found;
-use super::pose_error::PoseDifferenceRow;
-use super::shared::SagNumbers;
+use super::shared::{PoseDifferenceRow, SagNumbers};
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
 use funicular::cable::Sag;
-use funicular::math::rotation;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, TensionLimits};
-use funicular::statics::{self, Candidate, Equilibrium, Limit, Stability, TensionMargin, TensionRange};
+use funicular::statics::{self, CableState, Candidate, Equilibrium, Limit, TensionMargin, TensionRange};
 use serde::Serialize;
+
+pub use super::shared::PoseRow;
 
 /// Results of `statics`: an equilibrium.
 #[derive(Serialize)]
@@ -117,24 +117,6 @@ impl OtherStable {
     }
 }
 
-/// Pose of the platform.
-#[derive(Serialize)]
-pub struct PoseRow {
-    pub position_m: [f64; 3],
-    pub quaternion_wxyz: [f64; 4],
-    pub roll_pitch_yaw_deg: [f64; 3],
-}
-
-impl PoseRow {
-    pub(super) fn of(pose: &Pose) -> Self {
-        Self {
-            position_m: pose.position_w.into(),
-            quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
-            roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
-        }
-    }
-}
-
 /// Pose whose unstrained lengths are held, and the motion from there to the equilibrium.
 #[derive(Serialize)]
 pub struct HeldRow {
@@ -160,9 +142,50 @@ pub struct CableRow {
     #[serde(flatten)]
     pub sag: SagNumbers,
     pub force_on_platform_n: [f64; 3],
+    /// State of pulley and winch; absent for a cable that ends at a fixed point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drive: Option<DriveRow>,
     /// Tension limits; absent if neither the file nor a rule has limits.
     #[serde(flatten)]
     pub limits: Option<LimitNumbers>,
+}
+
+/// Pulley and winch of a cable at the equilibrium.
+#[derive(Serialize)]
+pub struct DriveRow {
+    /// Point at which the cable leaves its pulley.
+    pub exit_m: [f64; 3],
+    /// Wrap angle on the pulley; absent without a pulley.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrap_deg: Option<f64>,
+    /// Direction from the entry point to the axle, unit vector; absent without a pulley.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub swivel_direction: Option<[f64; 3]>,
+    /// Tension from the entry point to the drum.
+    pub tension_drum_n: f64,
+    /// Unstrained lengths of the free span, on the wheel, and from the entry point to the drum, which add up to that of
+    /// the cable.
+    pub free_length_m: f64,
+    pub arc_length_m: f64,
+    pub drum_side_length_m: f64,
+    /// Length that the winch pays out because it yields.
+    pub winch_yield_m: f64,
+}
+
+impl DriveRow {
+    fn of(state: &CableState) -> Option<Self> {
+        let drive = state.drive.as_deref()?;
+        Some(Self {
+            exit_m: state.anchor_w.into(),
+            wrap_deg: drive.contact.map(|contact| contact.wrap.to_degrees()),
+            swivel_direction: drive.contact.map(|contact| contact.center_w.into()),
+            tension_drum_n: drive.tension_drum,
+            free_length_m: state.free_length(),
+            arc_length_m: drive.arc_length,
+            drum_side_length_m: drive.drum_side_length,
+            winch_yield_m: drive.winch_yield,
+        })
+    }
 }
 
 /// Tension limits of a cable, and the distance of its tension from them.
@@ -217,6 +240,7 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
             chord_m: cable.chord(),
             sag: SagNumbers::of(&Sag::of(robot, i, cable)),
             force_on_platform_n: cable.force_on_platform_w.into(),
+            drive: DriveRow::of(cable),
             limits: limited.then(|| LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable))),
         })
         .collect()
@@ -229,11 +253,6 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
 pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
     let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let cables = cable_rows(at_rest);
-    let (stable, stiffness_min_n_per_m) = match equilibrium.stability {
-        Stability::Stable { min_stiffness } => (Some(true), Some(min_stiffness)),
-        Stability::Unstable { min_stiffness, .. } => (Some(false), Some(min_stiffness)),
-        Stability::Rigid => (None, None),
-    };
     let (mut equilibria, mut search, mut another_stable_equilibrium) = (None, None, None);
     let mut warnings = at_rest.warnings(None);
 
@@ -269,8 +288,8 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         residual: equilibrium.residual,
         is_unloaded: statics::is_unloaded(robot, equilibrium),
         iterations: equilibrium.iterations,
-        stable,
-        stiffness_min_n_per_m,
+        stable: equilibrium.stability.is_stable(),
+        stiffness_min_n_per_m: equilibrium.stability.min_stiffness(),
         another_stable_equilibrium,
         equilibria,
         search,

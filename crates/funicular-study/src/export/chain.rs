@@ -38,8 +38,8 @@ impl Chain {
     /// A slack cable, because nothing keeps a chain of bars in its place.
     pub(crate) fn of(robot: &Robot, equilibrium: &Equilibrium, i: usize, count: usize) -> Result<Self> {
         let (cable, state) = (&robot.cables[i], &equilibrium.cables[i]);
-        let mass = cable.material.mass_per_length * state.unstrained_length;
-        let weight_w = robot.line_load(i, &state.chord_w()).vector_w() * state.unstrained_length;
+        let mass = cable.material.mass_per_length * state.free_length();
+        let weight_w = robot.line_load(i, &state.chord_w()).vector_w() * state.free_length();
         if mass == 0.0 && weight_w != Vec3::zeros() {
             bail!(
                 "cable \"{}\" has a load but no mass: the joints of its bars need mass, so give its material a \
@@ -147,7 +147,7 @@ mod tests {
             assert!((chain.nodes_w[20] - state.anchor_w).norm() < 1e-12);
             let hanging = state.hanging.as_ref().unwrap();
             for (k, node) in chain.nodes_w.iter().enumerate() {
-                let point = hanging.point_w(state.unstrained_length * k as f64 / 20.0);
+                let point = hanging.point_w(state.free_length() * k as f64 / 20.0);
                 assert!((node - point).norm() < 1e-3 * state.chord() / 20.0, "{k}");
             }
         }
@@ -159,7 +159,7 @@ mod tests {
         for (i, state) in rest.cables.iter().enumerate() {
             let less = |count: usize| {
                 let chain = Chain::of(&robot, &rest, i, count).unwrap();
-                state.unstrained_length - count as f64 * chain.bar_length
+                state.free_length() - count as f64 * chain.bar_length
             };
             let weight = |count: usize| Chain::of(&robot, &rest, i, count).unwrap().weight_factor - 1.0;
             assert!(weight(20).abs() < 1e-3 && (weight(20) / weight(40) - 4.0).abs() < 0.01);
@@ -179,9 +179,8 @@ mod tests {
                 let strain = bar.norm() / chain.bar_length - 1.0;
                 bar.normalize() * (material.axial_stiffness * strain)
             };
-            let weight = robot.gravity_w
-                * chain.weight_factor
-                * (material.mass_per_length * rest.cables[i].unstrained_length / 7.0);
+            let weight =
+                robot.gravity_w * chain.weight_factor * (material.mass_per_length * rest.cables[i].free_length() / 7.0);
             let on_platform = force(0) + weight * 0.5;
             assert!((on_platform - rest.cables[i].force_on_platform_w).norm() < 1e-6, "{i}");
             for k in 1..7 {

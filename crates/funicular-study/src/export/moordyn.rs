@@ -79,7 +79,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         let chain = Chain::of(robot, equilibrium, i, segments)?;
         let unstrained_length = chain.bar_length * segments as f64;
         let mass_per_length =
-            chain.weight_factor * cable.material.mass_per_length * (state.unstrained_length / unstrained_length);
+            chain.weight_factor * cable.material.mass_per_length * (state.free_length() / unstrained_length);
         heavier = heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
 
         let name = type_name(&cable.material.name, i);
@@ -87,10 +87,10 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
         types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
         let wave = (cable.material.axial_stiffness / cable.material.mass_per_length).sqrt();
         step = step.min(STEP * chain.bar_length / wave);
-        shortened = shortened.max(state.unstrained_length - unstrained_length);
+        shortened = shortened.max(state.free_length() - unstrained_length);
         lowest = chain.nodes_w.iter().map(|node| node.z).fold(lowest, f64::min);
 
-        points.push(MoorDynPointRow { id: i + 1, attachment: "Fixed", at: cable.anchor.reference_w(), mass: 0.0 });
+        points.push(MoorDynPointRow { id: i + 1, attachment: "Fixed", at: state.anchor_w, mass: 0.0 });
         let mut end = cables + 1;
         if let Some(frame) = &body {
             end += i;

@@ -89,7 +89,7 @@ pub(crate) fn script(
         body.loads(at_rest).iter().map(|(point, force)| [(*point).into(), (*force).into()]).collect();
     let (axes, guided) = axes(robot.platform.motion);
 
-    let stiffest = |i: usize| robot.cables[i].material.axial_stiffness / equilibrium.cables[i].unstrained_length;
+    let stiffest = |i: usize| robot.cables[i].material.axial_stiffness / equilibrium.cables[i].free_length();
     let frame_stiffness = FRAME_STIFFNESS * (0..robot.cables.len()).map(stiffest).fold(0.0, f64::max);
     let lost = frequencies.first().map_or(0.0, |first_hz| rounding(&body, frame_stiffness, *first_hz));
     if lost > ROUNDING {
@@ -128,12 +128,11 @@ fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
     json(&CableData {
         name: &cable.name,
         attachment: state.attachment_w.into(),
-        mass: cable.material.mass_per_length * state.unstrained_length,
-        load: (at_rest.robot.line_load(i, &state.chord_w()).vector_w()
-            * (state.unstrained_length * chain.weight_factor))
+        mass: cable.material.mass_per_length * state.free_length(),
+        load: (at_rest.robot.line_load(i, &state.chord_w()).vector_w() * (state.free_length() * chain.weight_factor))
             .into(),
         axial_stiffness: cable.material.axial_stiffness,
-        unstrained_length: state.unstrained_length,
+        unstrained_length: state.free_length(),
         bar_length: chain.bar_length,
         nodes: chain.nodes_w[1..].iter().map(|node| (*node).into()).collect(),
     })

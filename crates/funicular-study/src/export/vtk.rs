@@ -86,7 +86,7 @@ impl Shape {
             let first = shape.points_w.len();
             let hanging = cable.hanging.as_ref().expect("cables hang in an export");
             for k in 0..=segments {
-                let s = cable.unstrained_length * k as f64 / segments as f64;
+                let s = cable.free_length() * k as f64 / segments as f64;
                 shape.points_w.push(hanging.point_w(s));
                 shape.tension.push(hanging.catenary.tension_at(s));
                 shape.arc_length.push(s);

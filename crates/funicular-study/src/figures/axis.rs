@@ -1,6 +1,6 @@
 //! Axes: ticks at round numbers, labels that do not overlap, powers of ten.
 
-use super::drawing::Label;
+use super::drawing::{Frame, Label, Point};
 
 /// Quantity along one side of a panel.
 #[derive(Debug, Clone)]
@@ -200,6 +200,21 @@ fn with_minus(value: f64, places: usize) -> String {
 
 fn signed(exponent: i32) -> String {
     exponent.to_string().replace('-', "−")
+}
+
+/// Panel on the page.
+pub(crate) struct Placed<'a> {
+    pub(crate) frame: Frame,
+    pub(crate) x: &'a Axis,
+    pub(crate) y: &'a Axis,
+}
+
+impl Placed<'_> {
+    /// Point of a pair of values.
+    pub(crate) fn at(&self, x: f64, y: f64) -> Point {
+        let Frame { left, bottom, .. } = self.frame;
+        [left + self.x.fraction(x) * self.frame.width(), bottom - self.y.fraction(y) * self.frame.height()]
+    }
 }
 
 #[cfg(test)]

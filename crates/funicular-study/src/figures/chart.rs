@@ -1,6 +1,6 @@
 //! Charts: panels one above the other with a common horizontal axis, and a legend above them.
 
-use super::axis::{Axis, Ticks};
+use super::axis::{Axis, Placed, Ticks};
 use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, Point, Stroke, WHITE, clipped, simplified};
 use super::map::{ColourBar, Map};
 use super::style::{AXIS_WIDTH, Symbol, Type};
@@ -64,21 +64,6 @@ pub(crate) const BAND: Colour = [0xdc, 0xdc, 0xdc];
 impl Panel {
     pub(crate) fn new(y: Axis, height: f64, layers: Vec<Layer>) -> Self {
         Self { y, height, equal_scales: false, bare: false, layers }
-    }
-}
-
-/// Panel on the page.
-pub(crate) struct Placed<'a> {
-    pub(crate) frame: Frame,
-    pub(crate) x: &'a Axis,
-    pub(crate) y: &'a Axis,
-}
-
-impl Placed<'_> {
-    /// Point of a pair of values.
-    pub(crate) fn at(&self, x: f64, y: f64) -> Point {
-        let Frame { left, bottom, .. } = self.frame;
-        [left + self.x.fraction(x) * self.frame.width(), bottom - self.y.fraction(y) * self.frame.height()]
     }
 }
 

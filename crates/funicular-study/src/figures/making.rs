@@ -190,7 +190,7 @@ fn moved(at_rest: &AtRest, dynamics: &Dynamics, mode: &Mode) -> Result<Shape> {
         }
     }
     let everything: Vec<Vec3> = points.iter().flatten().copied().collect();
-    let diagonal = crate::pages::figure::robot::extent(&everything);
+    let diagonal = super::view::extent(&everything);
     let limit = |most: f64, of: f64| if of > 0.0 { most / of } else { f64::INFINITY };
     let amplitude = limit(REACH * diagonal, largest).min(limit(MAX_SLOPE, steepest)).min(limit(MAX_TURN, turn.norm()));
     let amplitude = if amplitude.is_finite() { amplitude } else { 0.0 };

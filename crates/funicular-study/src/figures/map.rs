@@ -1,7 +1,7 @@
 //! Maps of a quantity over two axes: coloured cells, contours with labels, hatched infeasible cells, a colour bar.
 
+use super::axis::Placed;
 use super::axis::{Axis, nice_step, round_numbers};
-use super::chart::Placed;
 use super::contour::contours;
 use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, Point, Stroke, WHITE};
 use super::style::{AXIS_WIDTH, Type, lightness, of_map};

@@ -2,9 +2,9 @@
 
 use super::axis::{nice_step, round_numbers};
 use super::drawing::{Align, BLACK, Colour, Drawing, Label, Point, Stroke};
+use super::hull::faces;
 use super::style::{AXIS_WIDTH, BLUE, CURVE_WIDTH, GREY, Type, VERMILION, around};
-use crate::pages::figure::hull::faces;
-use crate::pages::figure::robot::{EYE, extent, joined, ranges, sides};
+use super::view::{EYE, extent, joined, ranges, sides};
 use crate::text::decimals;
 use funicular::math::Vec3;
 use funicular::robot::Robot;
@@ -42,7 +42,7 @@ impl Shape {
     fn at_rest(robot: &Robot, equilibrium: &Equilibrium) -> Self {
         let fraction = |k: u32| f64::from(k) / f64::from(INTERVALS);
         let cables = equilibrium.cables.iter().map(|state| match &state.hanging {
-            Some(hanging) => (0..=INTERVALS).map(|k| hanging.point_w(fraction(k) * state.unstrained_length)).collect(),
+            Some(hanging) => (0..=INTERVALS).map(|k| hanging.point_w(fraction(k) * state.free_length())).collect(),
             None => vec![state.attachment_w, state.anchor_w],
         });
         Self {

@@ -10,8 +10,8 @@ mod bodies;
 mod cables;
 
 use super::draft::{Draft, DraftPlatform, DraftState};
-use super::text::clean;
 use super::xml::Xml;
+use crate::text::clean;
 use anyhow::Result;
 use funicular::math::Vec3;
 

@@ -78,6 +78,17 @@ pub(crate) struct DraftCable {
     pub(crate) limits: [Option<f64>; 2],
     /// Unstrained length [m].
     pub(crate) unstrained_length: Option<f64>,
+    /// Pulley at the anchor, whose entry point is the anchor.
+    pub(crate) pulley: Option<DraftPulley>,
+}
+
+/// Pulley of a draft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DraftPulley {
+    /// Radius of the wheel [m].
+    pub(crate) radius: f64,
+    /// Direction of travel at the entry point towards the platform, of any length, world axes.
+    pub(crate) entry_direction_w: Vec3,
 }
 
 /// Rope of a draft, with the properties that the source gives.

@@ -9,7 +9,8 @@ mod objects;
 mod sections;
 
 use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState};
-use super::text::{SourceFile, clean};
+use crate::request::SourceFile;
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 use objects::{Holder, MoorDynLine, MoorDynModel, MoorDynPoint};
@@ -78,19 +79,19 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
 
 /// Object of the file that is the platform: a body or a point.
 #[derive(Clone, Copy)]
-enum On {
+enum PlatformObject {
     Body(usize),
     Point(usize),
 }
 
-fn holds(on: On, point: &MoorDynPoint) -> bool {
+fn holds(on: PlatformObject, point: &MoorDynPoint) -> bool {
     match on {
-        On::Body(id) => point.holder == Holder::Body(id),
-        On::Point(id) => point.id == id,
+        PlatformObject::Body(id) => point.holder == Holder::Body(id),
+        PlatformObject::Point(id) => point.id == id,
     }
 }
 
-fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, On)> {
+fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, PlatformObject)> {
     let moving: Vec<&objects::MoorDynBody> = model.bodies.iter().filter(|body| body.is_free).collect();
     if let [body] = moving[..] {
         if let Some(held) = model.bodies.iter().find(|body| !body.is_free) {
@@ -116,7 +117,7 @@ fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, O
             motion: DraftMotion::Rigid,
             place: body.row.place(file),
         };
-        return Ok((platform, On::Body(body.id)));
+        return Ok((platform, PlatformObject::Body(body.id)));
     }
     if let [_, second, ..] = moving[..] {
         let message = format!("the file has {} bodies; a robot has one platform", moving.len());
@@ -134,7 +135,7 @@ fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, O
                 motion: DraftMotion::PointMass,
                 place: point.row.place(file),
             };
-            Ok((platform, On::Point(point.id)))
+            Ok((platform, PlatformObject::Point(point.id)))
         }
         [] => bail!("{}: there is no body and no free point: the file has no platform", file.path),
         [_, second, ..] => {
@@ -182,6 +183,7 @@ fn cable(
         },
         limits: [None; 2],
         unstrained_length: Some(line.unstrained_length),
+        pulley: None,
     })
 }
 

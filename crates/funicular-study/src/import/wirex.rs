@@ -6,8 +6,8 @@
 //! them (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
 
 use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState, listed};
-use super::text::clean;
 use super::xml::{Xml, children, tag};
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 use roxmltree::Node;
@@ -238,6 +238,7 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
             rope: rope.clone(),
             limits: [minimum, max_force(xml, root, chain)?],
             unstrained_length: None,
+            pulley: None,
         });
     }
     if cables.is_empty() {

@@ -1,6 +1,7 @@
 //! Reading of XML with errors that name file, line, element and value.
 
-use super::text::{self, SourceFile};
+use super::text;
+use crate::request::SourceFile;
 use anyhow::{Error, Result, anyhow, bail};
 use funicular::math::Vec3;
 use roxmltree::{Document, Node, ParsingOptions};

@@ -205,7 +205,9 @@ impl NewFile<'_> {
                 if i == 0 { section.value(key, value) } else { section.plain(key, value) }
             }
             if i == 0 {
-                section.rest(&["name", "material", "anchor_m", "attachment_m"]);
+                // Pulleys and winches need tables of their own.
+                let drives = ["pulley", "entry_direction", "winch"];
+                section.rest(&[&["name", "material", "anchor_m", "attachment_m"][..], &drives[..]].concat());
             }
         }
     }

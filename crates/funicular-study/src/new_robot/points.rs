@@ -2,8 +2,8 @@
 
 use super::{LengthUnit, NewMotion};
 use crate::csv_lines::line_at;
-use crate::import::SourceFile;
 use crate::names::{Named, suggestion};
+use crate::request::SourceFile;
 use crate::values::number;
 use anyhow::{Result, anyhow, bail};
 use funicular::math::Vec3;

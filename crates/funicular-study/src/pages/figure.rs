@@ -4,7 +4,6 @@
 //! (empty values in a line, several legends) and would be three times as long; the crate only provides the library
 //! plotly.js.
 
-pub(crate) mod hull;
 pub(crate) mod models;
 pub(crate) mod response;
 pub(crate) mod robot;

@@ -13,7 +13,7 @@ use super::table::{PageTable, fixed, significant};
 use crate::analyses::check::{LoadRow, WindRow};
 use crate::analyses::modes::FirstPlatformMode;
 use crate::at_rest::AtRest;
-use crate::text::short;
+use crate::text::{counted, short};
 use anyhow::Context as _;
 use askama::Template;
 use funicular::cable::CableModel;
@@ -122,7 +122,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         state: state_text(equilibrium),
         robot_figure: drawing::complete(robot, equilibrium),
         platform_figure: drawing::close_up(robot, equilibrium),
-        tension_table: parts::tension_table(robot, equilibrium),
+        tension_table: parts::tension_table(at_rest),
         tension_figure: parts::tension_figure(robot, equilibrium),
         sag_figure: parts::sag_figure(robot, equilibrium),
         stiffness_table: parts::stiffness_table(robot, equilibrium),
@@ -259,11 +259,11 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
         )
     };
     format!(
-        "Cable model: {}; {assembly}{plane}. {certified}. Kinds: {} platform modes, {} cable modes, {} mixed modes.",
+        "Cable model: {}; {assembly}{plane}. {certified}. Kinds: {}, {}, {}.",
         linearisation.cable_model.name(),
-        of(Kind::Platform),
-        of(Kind::Cable),
-        of(Kind::Mixed)
+        counted(of(Kind::Platform), "platform mode"),
+        counted(of(Kind::Cable), "cable mode"),
+        counted(of(Kind::Mixed), "mixed mode")
     )
 }
 

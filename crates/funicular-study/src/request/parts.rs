@@ -1,7 +1,7 @@
 //! Groups of keys that several commands share.
 
+use super::steps::Steps;
 use crate::names::{TensionRuleName, optional};
-use crate::sweep::Steps;
 use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
@@ -303,6 +303,10 @@ impl Axis {
     }
 }
 
+/// Default of the upper limit of the search for natural frequencies [Hz]: far above the first frequency of any cable
+/// robot, and low enough that a search ends.
+pub const MAX_HZ: f64 = 1000.0;
+
 /// Quantities and options of every point of a map or sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EachPoint {
@@ -337,7 +341,7 @@ impl EachPoint {
 }
 
 fn default_up_to_hz() -> f64 {
-    crate::sweep::MAX_HZ
+    MAX_HZ
 }
 
 /// Rope values that files of other programs may lack. A value given here takes precedence over the files.

@@ -1,6 +1,6 @@
 //! Lowest natural frequencies of a robot at equilibrium.
 
-use super::plan::Options;
+use super::options::Options;
 use super::points::Point;
 use super::status::Status;
 use funicular::cable_motion::WeightedMotions;

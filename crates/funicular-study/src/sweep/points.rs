@@ -1,8 +1,9 @@
 //! Points of a sweep: grids and lists of poses, or robots that the caller supplies.
 
 use super::columns::{Column, ColumnKind};
-use super::plan::{Options, SweepError};
-use super::steps::{Steps, digits};
+use super::error::SweepError;
+use super::options::Options;
+use crate::request::{Steps, digits};
 use funicular::math::rotation;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics::{self, Solution, StaticsError};
@@ -51,11 +52,11 @@ pub struct Poses {
     robot: Robot,
     /// Robot whose unstrained lengths at each pose are held.
     holder: Option<Robot>,
-    which: Which,
+    which: PoseSet,
 }
 
 #[derive(Debug, Clone)]
-enum Which {
+enum PoseSet {
     /// Grid of all combinations of values along axes.
     Grid { axes: Box<[Steps; 6]>, turns: bool, base: Pose },
     /// List of poses: position [m] and roll, pitch, yaw [degrees].
@@ -112,12 +113,12 @@ impl Poses {
             let value = at_base.next().unwrap_or(0.0);
             steps.unwrap_or_else(|| Steps::List(vec![value]))
         }));
-        Ok(Self { robot, holder: None, which: Which::Grid { axes, turns, base } })
+        Ok(Self { robot, holder: None, which: PoseSet::Grid { axes, turns, base } })
     }
 
     /// List of poses in the given order: position [m] and roll, pitch, yaw [degrees].
     pub fn list(robot: Robot, poses: Vec<[f64; 6]>) -> Self {
-        Self { robot, holder: None, which: Which::List(poses) }
+        Self { robot, holder: None, which: PoseSet::List(poses) }
     }
 
     /// These poses with held lengths: those with which `holder` rests at each pose.
@@ -129,8 +130,8 @@ impl Poses {
     /// Values along the six axes of a grid, including axes with one value; `None` for a list.
     pub fn axes(&self) -> Option<&[Steps; 6]> {
         match &self.which {
-            Which::Grid { axes, .. } => Some(axes),
-            Which::List(_) => None,
+            PoseSet::Grid { axes, .. } => Some(axes),
+            PoseSet::List(_) => None,
         }
     }
 
@@ -164,8 +165,8 @@ fn refuse_missing_freedom(motion: &PlatformMotion, axis: usize) -> Result<(), Sw
 impl Points for Poses {
     fn count(&self) -> usize {
         match &self.which {
-            Which::Grid { axes, .. } => axes.iter().fold(1, |count, steps| count.saturating_mul(steps.count())),
-            Which::List(poses) => poses.len(),
+            PoseSet::Grid { axes, .. } => axes.iter().fold(1, |count, steps| count.saturating_mul(steps.count())),
+            PoseSet::List(poses) => poses.len(),
         }
     }
 
@@ -188,11 +189,11 @@ impl Points for Poses {
 
     fn point(&self, i: usize) -> Point<'_> {
         let (mut at, pose) = match &self.which {
-            Which::List(poses) => {
+            PoseSet::List(poses) => {
                 let [x, y, z, roll, pitch, yaw] = poses[i];
                 (poses[i], Pose::new([x, y, z], [roll, pitch, yaw]))
             }
-            Which::Grid { axes, turns, base } => {
+            PoseSet::Grid { axes, turns, base } => {
                 let mut at = [0.0; 6];
                 for ((value, steps), digit) in
                     at.iter_mut().zip(axes.iter()).zip(digits(i, axes.iter().map(Steps::count)))

@@ -5,12 +5,12 @@
 //! quantity.
 
 use super::columns::{Column, ColumnKind, Value};
+use super::evaluation::{PointEvaluation, has_ideal_pose};
 use super::points::AXES;
-use super::row::PointEvaluation;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
 use funicular::robot::Robot;
-use funicular::statics::{self, Stability, StaticModel, TensionRange};
+use funicular::statics::{self, StaticModel, TensionRange};
 use funicular::suggest::nearest;
 use std::fmt;
 use thiserror::Error;
@@ -23,8 +23,8 @@ struct Definition {
     about: &'static str,
     /// Columns and their meaning, in the words of docs/sweeps.md.
     documentation: &'static str,
-    takes: Takes,
-    needs: Needs,
+    takes: ParameterKind,
+    needs: RequiredModel,
     /// Number of the lowest natural frequencies that it shows, with the cable model of the options.
     frequencies: fn(Parameter) -> usize,
     columns: fn(&Robot, Parameter) -> Vec<Column>,
@@ -33,7 +33,7 @@ struct Definition {
 }
 
 /// Kind of parameter after the colon of a name.
-enum Takes {
+enum ParameterKind {
     Nothing,
     /// Number from 1 to [`MAX_FREQUENCIES`].
     Count,
@@ -42,7 +42,7 @@ enum Takes {
 }
 
 /// Static models for which a quantity exists.
-enum Needs {
+enum RequiredModel {
     Anything,
     /// Models whose cables stretch.
     Elastic,
@@ -63,13 +63,13 @@ enum Parameter {
 pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
-static TABLE: [Definition; 20] = [
+static TABLE: [Definition; 22] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
         documentation: "`first_frequency_hz`: lowest natural frequency, undamped, with the requested cable model",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 1,
         columns: |_, _| one("first_frequency_hz", "Hz", "lowest natural frequency, undamped"),
         values: |row, _, out| row.frequencies(1, out),
@@ -80,8 +80,8 @@ static TABLE: [Definition; 20] = [
         documentation: "`first_platform_frequency_hz`: lowest natural frequency of a mode with at least \
                         `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the requested \
                         cable model; the modes below it are all found, however many they are",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
             one("first_platform_frequency_hz", "Hz", "lowest natural frequency of a mode of the platform, undamped")
@@ -95,8 +95,8 @@ static TABLE: [Definition; 20] = [
         name: "first-kind",
         about: "kind of the first mode: platform, cable or mixed",
         documentation: "`first_kind`: kind of the first mode by kinetic energy: platform, cable or mixed",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 1,
         columns: |_, _| {
             let about = "kind of the first mode by kinetic energy: platform, cable or mixed";
@@ -111,8 +111,8 @@ static TABLE: [Definition; 20] = [
         name: "frequencies:N",
         about: "lowest N natural frequencies",
         documentation: "`frequency_1_hz` …: lowest N natural frequencies, ascending, undamped",
-        takes: Takes::Count,
-        needs: Needs::Anything,
+        takes: ParameterKind::Count,
+        needs: RequiredModel::Anything,
         frequencies: Parameter::count,
         columns: |_, parameter| {
             let about = "natural frequency, ascending, undamped";
@@ -124,8 +124,8 @@ static TABLE: [Definition; 20] = [
         name: "tension-max",
         about: "maximum tension anywhere in a cable",
         documentation: "`tension_max_n`: maximum tension anywhere in any cable",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| one("tension_max_n", "N", "maximum tension anywhere in a cable"),
         values: |row, _, out| out.push(Value::real(row.tensions().map(|(_, max)| max).reduce(f64::max))),
@@ -134,8 +134,8 @@ static TABLE: [Definition; 20] = [
         name: "tension-max-cable",
         about: "name of the cable with the maximum tension",
         documentation: "`tension_max_cable`: name of the cable with the maximum tension; text",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
             let about = "name of the cable with the maximum tension anywhere";
@@ -153,8 +153,8 @@ static TABLE: [Definition; 20] = [
         name: "tension-min",
         about: "minimum tension anywhere in a cable",
         documentation: "`tension_min_n`: minimum tension anywhere in any cable",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| one("tension_min_n", "N", "minimum tension anywhere in a cable"),
         values: |row, _, out| out.push(Value::real(row.tensions().map(|(min, _)| min).reduce(f64::min))),
@@ -163,18 +163,43 @@ static TABLE: [Definition; 20] = [
         name: "tensions",
         about: "tension of every cable at its platform end",
         documentation: "`tension_platform_NAME_n`: tension of every cable at its platform end",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at its platform end"),
         values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_platform)))),
     },
     Definition {
+        name: "drum-tensions",
+        about: "tension of every cable at its drum",
+        documentation: "`tension_drum_NAME_n`: tension of every cable at its drum; without pulley and winch that at its \
+                        anchor",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |robot, _| each_cable(robot, "tension_drum", "n", "N", "tension of a cable at its drum"),
+        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_drum())))),
+    },
+    Definition {
+        name: "wrap-max",
+        about: "maximum wrap angle on a pulley",
+        documentation: "`wrap_max_deg`: maximum wrap angle of a cable on its pulley; empty without pulleys and with \
+                        `ideal` cables",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("wrap_max_deg", "degrees", "maximum wrap angle on a pulley"),
+        values: |row, _, out| {
+            let wraps = row.rest.cables.iter().filter_map(|cable| cable.drive.as_ref()?.contact);
+            out.push(Value::real(wraps.map(|contact| contact.wrap.to_degrees()).reduce(f64::max)));
+        },
+    },
+    Definition {
         name: "lengths",
         about: "unstrained length of every cable",
         documentation: "`unstrained_length_NAME_m`: unstrained length of every cable",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |robot, _| each_cable(robot, "unstrained_length", "m", "m", "unstrained length of a cable"),
         values: |row, _, out| {
@@ -186,8 +211,8 @@ static TABLE: [Definition; 20] = [
         about: "minimum distance of a tension from its limits, negative beyond them",
         documentation: "`tension_margin_n`: minimum distance of a tension from its limits (the limits that \
                         `--tension-rule` uses), negative beyond them",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| one("tension_margin_n", "N", "minimum distance of a tension from its limits"),
         values: |row, _, out| {
@@ -203,8 +228,8 @@ static TABLE: [Definition; 20] = [
         documentation: "`payload_max_kg`: maximum mass in addition to the platform, with its centre at \
                         `--payload-center-m`, over all tensions within their limits, whatever the rule; `payload_limits`: \
                         cables at their limits then, as `1 maximum at anchor`",
-        takes: Takes::Nothing,
-        needs: Needs::HeldPose,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::HeldPose,
         frequencies: |_| 0,
         columns: |_, _| {
             let about = "cables at their limits with the maximum payload";
@@ -220,15 +245,12 @@ static TABLE: [Definition; 20] = [
         about: "minimum eigenvalue of the static stiffness, rotations scaled by the platform's size",
         documentation: "`stiffness_min_n_per_m`: minimum eigenvalue of the static stiffness, rotations scaled by the \
                         platform's size; in wind, of the symmetric part of the stiffness",
-        takes: Takes::Nothing,
-        needs: Needs::Elastic,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Elastic,
         frequencies: |_| 0,
         columns: |_, _| one("stiffness_min_n_per_m", "N/m", "minimum eigenvalue of the scaled static stiffness"),
         values: |row, _, out| {
-            out.push(Value::real(match row.rest.stability {
-                Stability::Stable { min_stiffness } | Stability::Unstable { min_stiffness, .. } => Some(min_stiffness),
-                Stability::Rigid => None,
-            }));
+            out.push(Value::real(row.rest.stability.min_stiffness()));
         },
     },
     Definition {
@@ -237,8 +259,8 @@ static TABLE: [Definition; 20] = [
         documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: static stiffness along one coordinate \
                         while the platform is free to move along the others: 1/(K⁻¹)_ii of the 6×6 stiffness K, not its \
                         entry K_ii; in wind the drag turns with the cables",
-        takes: Takes::Nothing,
-        needs: Needs::Elastic,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Elastic,
         frequencies: |_| 0,
         columns: |robot, _| stiffness_columns(robot),
         values: |row, _, out| {
@@ -255,8 +277,8 @@ static TABLE: [Definition; 20] = [
                         models. All models get the unstrained lengths of the catenaries. The first two columns need as \
                         many cables as degrees of freedom. A distance is empty if the other model has no equilibrium \
                         nearby, for example if all springs are slack",
-        takes: Takes::Nothing,
-        needs: Needs::Catenary,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Catenary,
         frequencies: |_| 0,
         columns: |robot, _| pose_error_columns(robot),
         values: |row, _, out| row.pose_error(out),
@@ -265,8 +287,8 @@ static TABLE: [Definition; 20] = [
         name: "sag-max",
         about: "maximum ratio of sag to chord",
         documentation: "`sag_ratio_max`: maximum ratio of sag to chord",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| one("sag_ratio_max", "1", "maximum ratio of sag to chord"),
         values: |row, _, out| {
@@ -280,8 +302,8 @@ static TABLE: [Definition; 20] = [
         about: "relative error of the first frequency with a simpler cable model",
         documentation: "`model_error_MODEL`: first frequency with a simpler cable model divided by the one with \
                         `catenary-dynamic`, minus one; without MODEL `shallow-dynamic`",
-        takes: Takes::Model(CableModel::ShallowDynamic),
-        needs: Needs::Catenary,
+        takes: ParameterKind::Model(CableModel::ShallowDynamic),
+        needs: RequiredModel::Catenary,
         frequencies: |_| 0,
         columns: |_, parameter| {
             let about = "first frequency with this cable model divided by the one with catenary-dynamic, minus one";
@@ -297,8 +319,8 @@ static TABLE: [Definition; 20] = [
         about: "relative error of the minimum stiffness with a simpler cable model",
         documentation: "`stiffness_error_MODEL`: minimum static stiffness with a simpler cable model divided by the \
                         one with `catenary-static`, minus one; without MODEL `spring`",
-        takes: Takes::Model(CableModel::Spring),
-        needs: Needs::Catenary,
+        takes: ParameterKind::Model(CableModel::Spring),
+        needs: RequiredModel::Catenary,
         frequencies: |_| 0,
         columns: |_, parameter| {
             let about =
@@ -315,8 +337,8 @@ static TABLE: [Definition; 20] = [
         about: "inverse condition number of the cables' directions: 0 at a singular pose, at most 1",
         documentation: "`inverse_condition`: minimum divided by maximum singular value of the cables' directions \
                         (moments divided by the platform's size); 0 at a singular pose",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
             one("inverse_condition", "1", "minimum divided by maximum singular value of the cables' scaled directions")
@@ -328,8 +350,8 @@ static TABLE: [Definition; 20] = [
         about: "potential energy of platform, load and cables",
         documentation: "`potential_energy_j`: potential energy of platform, load and cables, heights from the world's \
                         origin",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| one("potential_energy_j", "J", "potential energy of platform, load and cables"),
         values: |row, _, out| out.push(Value::real(Some(statics::energy(row.robot, row.rest)))),
@@ -338,8 +360,8 @@ static TABLE: [Definition; 20] = [
         name: "pose",
         about: "pose of the equilibrium",
         documentation: "`pose_x_m` … `pose_yaw_deg`: pose of the equilibrium, which a `sweep` from lengths computes",
-        takes: Takes::Nothing,
-        needs: Needs::Anything,
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
             let axes = AXES.iter().enumerate().map(|(i, axis)| (axis, if i < 3 { "m" } else { "deg" }));
@@ -430,15 +452,15 @@ impl Quantity {
     /// True if it does not exist for a static model.
     pub(super) fn excludes(&self, model: StaticModel) -> bool {
         match self.definition.needs {
-            Needs::Anything | Needs::HeldPose => false,
-            Needs::Elastic => model == StaticModel::Ideal,
-            Needs::Catenary => model != StaticModel::Catenary,
+            RequiredModel::Anything | RequiredModel::HeldPose => false,
+            RequiredModel::Elastic => model == StaticModel::Ideal,
+            RequiredModel::Catenary => model != StaticModel::Catenary,
         }
     }
 
     /// True if it does not exist for a robot with so few cables.
     pub(super) fn needs_more_cables(&self, robot: &Robot) -> bool {
-        matches!(self.definition.needs, Needs::HeldPose) && robot.cables.len() < robot.platform.motion.count()
+        matches!(self.definition.needs, RequiredModel::HeldPose) && robot.cables.len() < robot.platform.motion.count()
     }
 
     /// Adds the values of the quantity at a point.
@@ -468,14 +490,16 @@ impl Definition {
     /// Parameter after the colon of a name; `None` if this quantity has no such parameter.
     fn parameter(&self, text: Option<&str>) -> Option<Parameter> {
         match (&self.takes, text) {
-            (Takes::Nothing, None) => Some(Parameter::None),
-            (Takes::Count, Some(text)) => {
+            (ParameterKind::Nothing, None) => Some(Parameter::None),
+            (ParameterKind::Count, Some(text)) => {
                 let count = text.parse().ok().filter(|count| (1..=MAX_FREQUENCIES).contains(count));
                 count.map(Parameter::Count)
             }
-            (Takes::Model(default), None) => Some(Parameter::Model(*default)),
-            (Takes::Model(_), Some(text)) => simpler_models().find(|model| model.name() == text).map(Parameter::Model),
-            (Takes::Nothing, Some(_)) | (Takes::Count, None) => None,
+            (ParameterKind::Model(default), None) => Some(Parameter::Model(*default)),
+            (ParameterKind::Model(_), Some(text)) => {
+                simpler_models().find(|model| model.name() == text).map(Parameter::Model)
+            }
+            (ParameterKind::Nothing, Some(_)) | (ParameterKind::Count, None) => None,
         }
     }
 }
@@ -526,10 +550,10 @@ impl std::str::FromStr for Quantity {
 fn hint(text: &str) -> String {
     let head = text.split(':').next().unwrap_or(text);
     match TABLE.iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
-        Some(Takes::Count) => {
+        Some(ParameterKind::Count) => {
             return format!(": give a whole number from 1 to {MAX_FREQUENCIES} after the colon, as in {head}:3");
         }
-        Some(Takes::Model(_)) if text.contains(':') => {
+        Some(ParameterKind::Model(_)) if text.contains(':') => {
             let models: Vec<&str> = simpler_models().map(CableModel::name).collect();
             let parameter = text.split_once(':').map_or("", |(_, parameter)| parameter);
             if let Some(near) = nearest(parameter, models.iter().copied()) {
@@ -571,11 +595,6 @@ fn stiffness_columns(robot: &Robot) -> Vec<Column> {
             column(format!("stiffness_{name}_{suffix}"), unit, about)
         })
         .collect()
-}
-
-/// True if rigid cables of given lengths have a pose: only with as many cables as degrees of freedom.
-pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
-    robot.cables.len() == robot.platform.motion.count()
 }
 
 fn pose_error_columns(robot: &Robot) -> Vec<Column> {

@@ -16,7 +16,7 @@ pub(super) struct Status {
 pub const CODES: [(&str, &str); 17] = [
     ("ok", "all requested quantities are there"),
     ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
-    ("coinciding-ends", "infeasible: a cable has no length between its ends"),
+    ("coinciding-ends", "infeasible: a cable has no length between its ends, or ends inside the wheel of its pulley"),
     ("singular", "infeasible: the cables' directions are linearly dependent"),
     (
         "negative-tension",
@@ -49,6 +49,7 @@ impl Status {
         let code = match error.code() {
             "limits-exclude" => "tension-limits",
             "not-nearest" => "not-converged",
+            "inside-pulley" => "coinciding-ends",
             code if CODES.iter().any(|known| known.0 == code) => code,
             _ => "invalid-state",
         };

@@ -51,6 +51,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
             tension_platform: hanging.catenary.tension_at_start(),
             tension_anchor: hanging.catenary.tension_at_end(),
             hanging: Some(hanging),
+            drive: None,
         });
     }
 

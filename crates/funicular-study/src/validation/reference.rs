@@ -458,3 +458,100 @@ pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
         other => return Err(anyhow!("the comparisons use no robot {other}")),
     })
 }
+
+/// Content of drives.json.
+pub(super) fn drives() -> Result<Drives> {
+    serde_json::from_str(include_str!("../../reference/drives.json")).context("drives.json")
+}
+
+/// Content of drives.json.
+#[derive(Deserialize)]
+pub(super) struct Drives {
+    pub(super) straight: ReferenceTable<StraightOverPulley>,
+    pub(super) sagging: ReferenceTable<SaggingOverPulley>,
+    pub(super) cables: ReferenceTable<CableToWinch>,
+    pub(super) robots: ReferenceTable<RobotWithWinches>,
+}
+
+/// Straight cable without mass over a pulley.
+#[derive(Deserialize)]
+pub(super) struct StraightOverPulley {
+    pub(super) case: String,
+    pub(super) radius_m: f64,
+    pub(super) entry_direction: [f64; 3],
+    pub(super) entry_point_m: [f64; 3],
+    pub(super) platform_point_m: [f64; 3],
+    pub(super) wrap_rad: f64,
+    pub(super) exit_point_m: [f64; 3],
+    pub(super) length_m: f64,
+    /// Size of the last printed digit.
+    pub(super) printed_digits: f64,
+}
+
+/// Sagging cable over a pulley at the origin, in the plane of x and z.
+#[derive(Deserialize)]
+pub(super) struct SaggingOverPulley {
+    pub(super) case: String,
+    pub(super) platform_point_along_up_m: [f64; 2],
+    pub(super) radius_m: f64,
+    pub(super) weight_n_per_m: f64,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) unstrained_length_m: f64,
+    pub(super) force_at_platform_along_up_n: [f64; 2],
+    pub(super) tension_platform_n: f64,
+    pub(super) tension_exit_n: f64,
+    pub(super) tension_drum_n: f64,
+    pub(super) wrap_rad: f64,
+    pub(super) exit_point_along_up_m: [f64; 2],
+    pub(super) free_length_m: f64,
+    /// Entries xx, xz, zz and yy.
+    pub(super) stiffness_n_per_m: [f64; 4],
+}
+
+/// Cable over a pulley to a winch.
+#[derive(Deserialize)]
+pub(super) struct CableToWinch {
+    pub(super) case: String,
+    pub(super) entry_point_m: [f64; 3],
+    pub(super) entry_direction: [f64; 3],
+    pub(super) radius_m: f64,
+    pub(super) drum_side_length_m: f64,
+    pub(super) winch_stiffness_n_per_m: Option<f64>,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) unstrained_length_m: f64,
+    pub(super) platform_point_m: [f64; 3],
+    pub(super) tension_exit_n: f64,
+    pub(super) tension_drum_n: f64,
+    pub(super) wrap_rad: f64,
+    pub(super) exit_point_m: [f64; 3],
+    pub(super) kink_rad: f64,
+    /// Unstrained lengths of free span, arc and drum side.
+    pub(super) lengths_m: [f64; 3],
+    pub(super) force_on_platform_n: [f64; 3],
+    pub(super) stiffness_n_per_m: [[f64; 3]; 3],
+    pub(super) force_per_unstrained_length_n_per_m: [f64; 3],
+    pub(super) energy_j: f64,
+}
+
+/// Robot whose cables run over equal pulleys to equal winches.
+#[derive(Deserialize)]
+pub(super) struct RobotWithWinches {
+    pub(super) case: String,
+    pub(super) mass_kg: f64,
+    pub(super) center_of_mass_m: [f64; 3],
+    pub(super) inertia_kg_m2: [[f64; 3]; 3],
+    pub(super) axial_stiffness_n: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) radius_m: f64,
+    pub(super) drum_side_length_m: f64,
+    pub(super) winch_stiffness_n_per_m: Option<f64>,
+    pub(super) anchors_m: Vec<[f64; 3]>,
+    pub(super) attachments_m: Vec<[f64; 3]>,
+    pub(super) unstrained_lengths_m: Vec<f64>,
+    pub(super) position_m: [f64; 3],
+    pub(super) roll_pitch_yaw_deg: [f64; 3],
+    pub(super) tension_exit_n: Vec<f64>,
+    pub(super) tension_drum_n: Vec<f64>,
+    pub(super) stiffness_6x6: [[f64; 6]; 6],
+}

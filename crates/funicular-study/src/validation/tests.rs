@@ -1,7 +1,7 @@
 //! Tests of each section: every comparison passes and has a source.
 
 use super::*;
-use crate::validation::reference::{damped, exact, independent, published};
+use crate::validation::reference::{damped, drives, exact, independent, published};
 
 /// Fails with the rows that do not pass, in the form of docs/validation.md.
 fn check(section: Result<Section>) {
@@ -55,4 +55,9 @@ fn a_point_mass_on_eight_strings_has_every_published_frequency_with_its_multipli
 #[test]
 fn what_the_paper_prints_of_itself_follows_where_it_can() {
     check(paper::section(&published().unwrap()));
+}
+
+#[test]
+fn cables_over_pulleys_and_on_winches_rest_as_in_other_programs() {
+    check(super::drives::section(&drives().unwrap()));
 }

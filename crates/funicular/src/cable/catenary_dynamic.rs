@@ -26,6 +26,7 @@ pub use poles::PoleResidue;
 use super::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
+use crate::drive::AnchorEnd;
 use crate::math::Complex;
 use crate::robot::Damping;
 use mesh::Mesh;
@@ -46,6 +47,65 @@ pub struct CatenaryDynamic {
     pub error: f64,
     /// Polynomial degree of each element.
     pub degrees: Vec<usize>,
+    /// Motion that the end has; `None` for an end that is held. The components of a moving end are zero in the
+    /// stiffness, the mass and the participations: it belongs to the inside of the cable.
+    pub end: Option<MovingEnd>,
+}
+
+/// End of a cable that can move: along the cable, as on a pulley with an elastic cable behind it, and out of plane, as
+/// on a pulley that swivels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovingEnd {
+    /// Direction along the cable: its components (horizontal, up).
+    pub along: [f64; 2],
+    /// Stiffness against motion in this direction [N/m].
+    pub stiffness: f64,
+    /// Stiffness against motion out of plane [N/m]; `None` if the end is held out of plane.
+    pub out_of_plane: Option<f64>,
+}
+
+/// Maximum component out of plane of the direction in which an end moves along the cable, and maximum coupling between
+/// its motions over their stiffness: rounding is 1e-15, and the frequencies change by the square of both.
+const IN_PLANE: f64 = 1e-8;
+
+impl MovingEnd {
+    /// Motion of the end of a hanging cable at its pulley and winch; `None` if it is held.
+    ///
+    /// # Errors
+    /// [`CatenaryDynamicError::Skew`]: the end moves in and out of plane at the same time.
+    fn of(hanging: &HangingCable, end: &AnchorEnd) -> Result<Option<Self>, CatenaryDynamicError> {
+        let Some(along_w) = end.along_w else { return Ok(None) };
+        let (horizontal_w, up_w) = hanging.axes_w();
+        let out_w = horizontal_w.cross(&up_w);
+
+        // The motions have to be in plane and out of plane.
+        let [[stiffness, coupling], [_, sideways]] = end.stiffness;
+        let skew = end.sideways_w.map_or(0.0, |sideways_w| {
+            let turned = (sideways_w - out_w * out_w.dot(&sideways_w)).norm();
+            turned.max(coupling.abs() / (stiffness * sideways).abs().sqrt())
+        });
+        if skew.max(out_w.dot(&along_w).abs()) > IN_PLANE {
+            return Err(CatenaryDynamicError::Skew);
+        }
+        let along = [horizontal_w.dot(&along_w), up_w.dot(&along_w)];
+        Ok(Some(Self { along, stiffness, out_of_plane: end.sideways_w.map(|_| sideways) }))
+    }
+
+    /// Static stiffness of the start in plane and out of plane, from those with the end held; zero for the end.
+    fn still(&self, [[hh, hv], [_, vv]]: [[f64; 2]; 2], o: f64) -> ([[f64; 4]; 4], [[f64; 2]; 2]) {
+        let [h, v] = self.along;
+        let pulled = [hh * h + hv * v, hv * h + vv * v];
+        let total = self.stiffness + h * pulled[0] + v * pulled[1];
+        let left = |held: f64, i: usize, j: usize| held - pulled[i] * pulled[j] / total;
+
+        let mut in_plane = [[0.0; 4]; 4];
+        (in_plane[0][0], in_plane[1][1]) = (left(hh, 0, 0), left(vv, 1, 1));
+        (in_plane[0][1], in_plane[1][0]) = (left(hv, 0, 1), left(hv, 0, 1));
+        match self.out_of_plane {
+            Some(sideways) => (in_plane, [[o - o * o / (o + sideways), 0.0], [0.0, 0.0]]),
+            None => (in_plane, [[o, -o], [-o, o]]),
+        }
+    }
 }
 
 /// Reason for which a cable has no catenary-dynamic stiffness.
@@ -54,6 +114,12 @@ pub enum CatenaryDynamicError {
     /// A point of the cable has no tension: a slack massless cable, or a loop that hangs straight down.
     #[error("the cable has no tension at its lowest point: it has no linear vibration")]
     NoTension,
+    /// The end of the cable moves in its plane and out of it at the same time.
+    #[error(
+        "the swivel axis of its pulley is not parallel to the load of the cable: the model exists for pulleys whose \
+         swivel axis is vertical, and without wind; choose the model `catenary-static`"
+    )]
+    Skew,
     /// The requested frequency needs too fine a discretisation.
     #[error(
         "the requested frequency limit needs at least {unknowns} unknowns for one cable, the maximum is {limit}: lower \
@@ -85,18 +151,22 @@ pub struct CatenaryDynamicEnd {
 }
 
 impl CatenaryDynamicEnd {
-    /// Platform end of a hanging cable, valid up to ω = `limit` [rad/s].
+    /// Platform end of a hanging cable, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley or the winch;
+    /// `None` for a fixed anchor.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
     pub fn new(
         hanging: &HangingCable,
+        end: Option<&AnchorEnd>,
         mass_per_length: f64,
         damping: Damping,
         in_plane_only: bool,
         limit: f64,
     ) -> Result<Self, CatenaryDynamicError> {
-        let cable = CatenaryDynamic::new(&hanging.catenary, mass_per_length, limit)?;
+        let end = end.map(|end| MovingEnd::of(hanging, end)).transpose()?.flatten();
+        let cable =
+            CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
         let (e, n) = hanging.axes_w();
         let axes = LocalAxes { e, n, b: e.cross(&n) };
         Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None })
@@ -263,22 +333,25 @@ impl CatenaryDynamic {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(catenary: &Catenary, mass_per_length: f64, limit: f64) -> Result<Self, CatenaryDynamicError> {
-        Ok(Self::with_stations(catenary, mass_per_length, limit, Vec::new(), false)?.0)
+        Ok(Self::with_stations(catenary, None, mass_per_length, limit, Vec::new(), false)?.0)
     }
 
     /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc
-    /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element.
+    /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element. An
+    /// `end` that can move is part of the inside of the cable.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
     pub fn with_stations(
         catenary: &Catenary,
+        end: Option<MovingEnd>,
         mass_per_length: f64,
         limit: f64,
         arc_lengths: Vec<f64>,
         loaded: bool,
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
-        let mut mesh = Mesh::new(catenary, mass_per_length, limit, if loaded { &arc_lengths } else { &[] })?;
+        let cuts = if loaded { &arc_lengths[..] } else { &[] };
+        let mut mesh = Mesh::new(catenary, mass_per_length, limit, cuts, end.is_some())?;
         loop {
             let unknowns = mesh.unknowns();
             if unknowns > MAX_UNKNOWNS {
@@ -288,12 +361,21 @@ impl CatenaryDynamic {
             // Static stiffness of both ends.
             let [[hh, hv], [_, vv]] = catenary.tangent();
             let o = catenary.out_of_plane_stiffness();
-            let still = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
+            let (still, still_out_of_plane) = match &end {
+                None => {
+                    let both = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
+                    (both, [[o, -o], [-o, o]])
+                }
+                Some(end) => end.still([[hh, hv], [hv, vv]], o),
+            };
 
             // Poles and residues of both families.
             let tables = mesh.tables();
-            let in_plane: Condensed<2, 4, 3> = mesh.condense(&tables, still, limit, &arc_lengths)?;
-            let out_of_plane: Condensed<1, 2, 1> = mesh.condense(&tables, [[o, -o], [-o, o]], limit, &arc_lengths)?;
+            let along = end.as_ref().map(|end| (&end.along, end.stiffness));
+            let in_plane: Condensed<2, 4, 3> = mesh.condense(&tables, still, along, limit, &arc_lengths)?;
+            let sideways = end.and_then(|end| end.out_of_plane).map(|stiffness| (&[1.0], stiffness));
+            let out_of_plane: Condensed<1, 2, 1> =
+                mesh.condense(&tables, still_out_of_plane, sideways, limit, &arc_lengths)?;
             let error = in_plane.error.max(out_of_plane.error);
 
             // Accept the discretisation if it is fine enough, otherwise refine it.
@@ -301,7 +383,7 @@ impl CatenaryDynamic {
                 let stations =
                     Stations { arc_lengths, in_plane: in_plane.stations, out_of_plane: out_of_plane.stations };
                 let (in_plane, out_of_plane) = (in_plane.ends, out_of_plane.ends);
-                let cable = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees() };
+                let cable = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees(), end };
                 return Ok((cable, stations));
             }
             mesh.refine();

@@ -35,7 +35,7 @@ impl<'a> WeightedMotions<'a> {
         let fractions: Vec<f64> = (0..STATIONS).map(|k| (k as f64 + 0.5) / STATIONS as f64).collect();
         let cables = (0..robot.cables.len())
             .map(|i| {
-                let mass = dynamics.moving_mass_per_length(i) * equilibrium.cables[i].unstrained_length;
+                let mass = dynamics.moving_mass_per_length(i) * equilibrium.cables[i].free_length();
                 let stations = CableStations::new(robot, equilibrium, dynamics, i, &fractions, false)?;
                 Ok((stations, (mass / STATIONS as f64).sqrt()))
             })

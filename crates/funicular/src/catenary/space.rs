@@ -1,7 +1,7 @@
 //! Catenary placed in space: end forces and stiffness in world axes.
 
 use super::{Catenary, CatenaryError, Rope};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, any_normal};
 
 /// Cable in static equilibrium between a platform point (its start) and an anchor (its end). World axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +70,11 @@ impl HangingCable {
         (self.along_w, self.up_w)
     }
 
+    /// Load of the cable per unstrained length, world axes [N/m].
+    pub fn load_w(&self) -> Vec3 {
+        self.up_w * -self.catenary.rope().weight_per_length
+    }
+
     /// Force of the cable on the body that holds its start, the platform [N].
     #[inline]
     pub fn force_on_start_w(&self) -> Vec3 {
@@ -105,18 +110,6 @@ impl HangingCable {
         let [x, z] = self.catenary.point_at(s);
         self.start_w + self.along_w * x + self.up_w * z
     }
-}
-
-/// Unit vector normal to the unit vector `v`.
-pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
-    let least = if v.x.abs() <= v.y.abs().min(v.z.abs()) {
-        Vec3::x()
-    } else if v.y.abs() <= v.z.abs() {
-        Vec3::y()
-    } else {
-        Vec3::z()
-    };
-    v.cross(&least).normalize()
 }
 
 /// Span over rise below which the horizontal direction of a chord is computed twice. Rounding of the first result is

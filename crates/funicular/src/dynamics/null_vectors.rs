@@ -75,41 +75,8 @@ impl Dynamics {
     /// Null vectors of the pencil in which each near pole is a separate unknown, for catenary-dynamic cables.
     fn null_vectors_beside_poles(&self, omega: f64, several: usize) -> Vec<NullVector> {
         let x = omega * omega;
-        let mut stiffness = self.constant - self.mass * x;
-        let mut mass = self.mass;
-
-        // Cables, without the poles near ω.
-        let (mut borders, mut cable_masses): (Vec<(NearMotion, Vec6, f64)>, Vec<Mat6>) = (Vec::new(), Vec::new());
-        for (t, term) in self.terms.iter().enumerate() {
-            let mut moving = Mat6::zeros();
-            if let DynamicCable::CatenaryDynamic(form) = &term.form {
-                let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
-                add_local(&mut stiffness, term, &regular, |k, product| k * product);
-                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION), |m, product| {
-                    m * product
-                });
-                borders.extend(poles.iter().map(|near| {
-                    let motion =
-                        NearMotion { term: t, out_of_plane: near.out_of_plane, pole: near.index, amplitude: 0.0 };
-                    (motion, term.vector(near.direction), near.pole)
-                }));
-            }
-            mass += moving;
-            cable_masses.push(moving);
-        }
-
-        // The pencil with each near pole as a separate unknown.
-        let (f, n) = (self.dof(), self.dof() + borders.len());
-        let (mut a, mut m) = (DMat::zeros(n, n), DMat::identity(n, n));
-        a.view_mut((0, 0), (f, f)).copy_from(&stiffness.view((0, 0), (f, f)));
-        m.view_mut((0, 0), (f, f)).copy_from(&mass.view((0, 0), (f, f)));
-        for (k, (_, g, pole)) in borders.iter().enumerate() {
-            a[(f + k, f + k)] = pole - x;
-            for i in 0..f {
-                (a[(i, f + k)], a[(f + k, i)]) = (-x * g[i], -x * g[i]);
-                (m[(i, f + k)], m[(f + k, i)]) = (g[i], g[i]);
-            }
-        }
+        let pencil = BorderedPencil::at(self, x);
+        let (a, m) = pencil.matrices(self.dof(), x);
 
         // The mass of platform and cables is positive definite, because the motions are independent.
         let Some(factor) = m.cholesky() else { return Vec::new() };
@@ -121,36 +88,103 @@ impl Dynamics {
         nearest_zero(all.eigenvalues.as_slice(), several)
             .map(|k| {
                 let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
-
-                // Motion of the platform and energies of the cables.
-                let platform = Vec6::from_fn(|i, _| if i < f { v[i] } else { 0.0 });
-                let mut cable_energies = vec![0.0; self.cable_count()];
-                for (term, moving) in self.terms.iter().zip(&cable_masses) {
-                    cable_energies[term.cable] = platform.dot(&(moving * platform));
-                }
-
-                let mut near = Vec::with_capacity(borders.len());
-                for (at, (motion, g, _)) in borders.iter().enumerate() {
-                    let amplitude = v[f + at];
-                    cable_energies[self.terms[motion.term].cable] += amplitude * (amplitude + 2.0 * g.dot(&platform));
-                    near.push(NearMotion { amplitude, ..*motion });
-                }
-
-                let platform_energy = platform.dot(&(self.mass * platform));
-                // The total is 1 except for rounding; dividing by it makes the sum of the fractions exactly 1.
-                let total = platform_energy + cable_energies.iter().sum::<f64>();
-                for energy in &mut cable_energies {
-                    *energy /= total;
-                }
-                NullVector {
-                    platform,
-                    near,
-                    platform_energy: platform_energy / total,
-                    cable_energies,
-                    residual: all.eigenvalues[k].abs() / x,
-                }
+                pencil.null_vector(self, v.as_slice(), all.eigenvalues[k].abs() / x)
             })
             .collect()
+    }
+}
+
+/// Pencil at x = ω² in which the amplitudes of the clamped modes with a pole near x are unknowns.
+struct BorderedPencil {
+    /// Stiffness of the platform at x, without the near poles [N/m].
+    stiffness: Mat6,
+    /// Minus its derivative by x [kg].
+    mass: Mat6,
+    /// Part of that mass that belongs to each cable whose stiffness depends on frequency [kg].
+    cable_masses: Vec<Mat6>,
+    /// Clamped modes with a pole near x.
+    near: Vec<NearMode>,
+}
+
+/// Clamped mode with a pole near x.
+struct NearMode {
+    /// Place of the mode; the amplitude is not known yet.
+    motion: NearMotion,
+    /// g_k in the platform's coordinates [√kg].
+    participation: Vec6,
+    /// ω_k² [rad²/s²].
+    pole: f64,
+}
+
+impl BorderedPencil {
+    fn at(dynamics: &Dynamics, x: f64) -> Self {
+        let mut stiffness = dynamics.constant - dynamics.mass * x;
+        let mut mass = dynamics.mass;
+        let (mut near, mut cable_masses) = (Vec::new(), Vec::new());
+
+        for (t, term) in dynamics.terms.iter().enumerate() {
+            let mut moving = Mat6::zeros();
+            if let DynamicCable::CatenaryDynamic(form) = &term.form {
+                let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
+                add_local(&mut stiffness, term, &regular, |k, product| k * product);
+                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION), |m, product| {
+                    m * product
+                });
+                near.extend(poles.iter().map(|near| NearMode {
+                    motion: NearMotion { term: t, out_of_plane: near.out_of_plane, pole: near.index, amplitude: 0.0 },
+                    participation: term.vector(near.direction),
+                    pole: near.pole,
+                }));
+            }
+            mass += moving;
+            cable_masses.push(moving);
+        }
+
+        Self { stiffness, mass, cable_masses, near }
+    }
+
+    /// A(x) and −dA/dx over the platform's `dof` coordinates and the near modes.
+    fn matrices(&self, dof: usize, x: f64) -> (DMat, DMat) {
+        let n = dof + self.near.len();
+        let (mut a, mut m) = (DMat::zeros(n, n), DMat::identity(n, n));
+        a.view_mut((0, 0), (dof, dof)).copy_from(&self.stiffness.view((0, 0), (dof, dof)));
+        m.view_mut((0, 0), (dof, dof)).copy_from(&self.mass.view((0, 0), (dof, dof)));
+        for (k, NearMode { participation, pole, .. }) in self.near.iter().enumerate() {
+            let at = dof + k;
+            a[(at, at)] = pole - x;
+            for i in 0..dof {
+                let g = participation[i];
+                (a[(i, at)], a[(at, i)]) = (-x * g, -x * g);
+                (m[(i, at)], m[(at, i)]) = (g, g);
+            }
+        }
+        (a, m)
+    }
+
+    /// Natural motion from a null vector `v` of A with unit modal mass.
+    fn null_vector(&self, dynamics: &Dynamics, v: &[f64], residual: f64) -> NullVector {
+        let dof = dynamics.dof();
+        let platform = Vec6::from_fn(|i, _| if i < dof { v[i] } else { 0.0 });
+
+        // Energies of the cables: those that follow the platform, and those of the near modes.
+        let mut cable_energies = vec![0.0; dynamics.cable_count()];
+        for (term, moving) in dynamics.terms.iter().zip(&self.cable_masses) {
+            cable_energies[term.cable] = platform.dot(&(moving * platform));
+        }
+        let mut near = Vec::with_capacity(self.near.len());
+        for (NearMode { motion, participation, .. }, &amplitude) in self.near.iter().zip(&v[dof..]) {
+            let cable = dynamics.terms[motion.term].cable;
+            cable_energies[cable] += amplitude * (amplitude + 2.0 * participation.dot(&platform));
+            near.push(NearMotion { amplitude, ..*motion });
+        }
+
+        // The total is 1 except for rounding; dividing by it makes the sum of the fractions exactly 1.
+        let platform_energy = platform.dot(&(dynamics.mass * platform));
+        let total = platform_energy + cable_energies.iter().sum::<f64>();
+        for energy in &mut cable_energies {
+            *energy /= total;
+        }
+        NullVector { platform, near, platform_energy: platform_energy / total, cable_energies, residual }
     }
 }
 

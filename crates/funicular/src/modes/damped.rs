@@ -69,6 +69,22 @@ const MAX_STEPS: f64 = 20.0;
 const MAX_ROUNDS: usize = 5;
 /// Relative step below which the search of a zero has converged.
 const SETTLED: f64 = 4e-15;
+/// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
+/// linear at first.
+const MAX_NEWTON_ROUNDS: usize = 60;
+/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its ω is imaginary except for an
+/// error of at most [`WANTED_ERROR`], while a frequency so near to critical damping that it lies below needs a damping
+/// ratio within 5e-15 of one.
+const IMAGINARY: f64 = 1e-7;
+/// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle of
+/// the first of them in units of the angle between them. The distance is below one, so that no start crosses the real
+/// axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
+const APART: f64 = 0.3;
+const FIRST_ANGLE: f64 = 0.3;
+/// Relative distance of a new start from the place of another zero: far more than the spread of a multiple zero
+/// ([`ONE_ZERO`]) and far less than [`MAX_STEP`]. Angle of that start [rad]: on no axis.
+const BESIDE: f64 = 1e-3;
+const BESIDE_ANGLE: f64 = 0.7;
 /// Ratio to the frequency limit up to which poles are divided out of det D, so that no remaining pole is near a zero.
 const POLES_BEYOND: f64 = 1.3;
 
@@ -118,7 +134,7 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     }
 
     // The ω of a motion without oscillation is imaginary, except for rounding.
-    let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= 1e-7 * mode.omega.norm()).count();
+    let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= IMAGINARY * mode.omega.norm()).count();
     let certified = undamped.certified
         && overdamped == 0
         && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0)
@@ -136,7 +152,7 @@ struct ZeroSearch<'a> {
 }
 
 /// Zero with the undamped modes that share it.
-struct Zero {
+struct DampedZero {
     omega: Complex,
     error: f64,
     members: Vec<usize>,
@@ -144,8 +160,8 @@ struct Zero {
 
 impl ZeroSearch<'_> {
     /// Start of each search: one per mode, or per multiple mode. Modes with the platform at rest have a closed form.
-    fn starts(&self, modes: &[Mode]) -> Vec<Zero> {
-        let mut zeros: Vec<Zero> = Vec::with_capacity(modes.len());
+    fn starts(&self, modes: &[Mode]) -> Vec<DampedZero> {
+        let mut zeros: Vec<DampedZero> = Vec::with_capacity(modes.len());
         let mut next = 0;
         while next < modes.len() {
             let mode = &modes[next];
@@ -153,11 +169,11 @@ impl ZeroSearch<'_> {
             next += members.len();
             let undamped = mode.frequency_hz * TAU;
             zeros.push(if let Some(omega) = self.of_cables_alone(mode) {
-                Zero { omega, error: 0.0, members }
+                DampedZero { omega, error: 0.0, members }
             } else {
                 let sum: f64 = members.iter().map(|i| modes[*i].damping_ratio).sum();
                 let zeta = self.losses * sum / members.len() as f64;
-                Zero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
+                DampedZero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
             });
         }
         zeros
@@ -175,7 +191,7 @@ impl ZeroSearch<'_> {
     }
 
     /// Moves the zeros from their places with less damping to those with the present damping.
-    fn follow(&self, zeros: &mut [Zero], modes: &[Mode]) {
+    fn follow(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
         for zero in &mut *zeros {
             match self.of_cables_alone(&modes[zero.members[0]]) {
                 Some(omega) => zero.omega = omega,
@@ -186,9 +202,8 @@ impl ZeroSearch<'_> {
     }
 
     /// Takes Newton steps on f, divided by all the other zeros, until no zero moves.
-    fn converge(&self, zeros: &mut [Zero]) {
-        // Usually four rounds; 60 is a guard for clusters, where convergence is linear at first.
-        for _ in 0..60 {
+    fn converge(&self, zeros: &mut [DampedZero]) {
+        for _ in 0..MAX_NEWTON_ROUNDS {
             let mut moved = false;
             for i in 0..zeros.len() {
                 if zeros[i].error <= SETTLED {
@@ -225,18 +240,20 @@ impl ZeroSearch<'_> {
     }
 
     /// Splits zeros that several modes share if damping has separated them.
-    fn separate(&self, zeros: &mut Vec<Zero>, modes: &[Mode]) {
-        let (apart, mut all): (Vec<Zero>, Vec<Zero>) =
+    fn separate(&self, zeros: &mut Vec<DampedZero>, modes: &[Mode]) {
+        let (apart, mut all): (Vec<DampedZero>, Vec<DampedZero>) =
             zeros.drain(..).partition(|zero| zero.members.len() > 1 && zero.error > 0.0 && !self.is_one(zero));
         let any = !apart.is_empty();
         for zero in apart {
             for (k, &member) in zero.members.iter().enumerate() {
                 // Separate starts around the undamped zero, at a distance in proportion to the damping.
                 let mode = &modes[member];
-                let turn =
-                    Complex::from_polar(0.3 * mode.damping_ratio, TAU * (k as f64 + 0.3) / zero.members.len() as f64);
+                let turn = Complex::from_polar(
+                    APART * mode.damping_ratio,
+                    TAU * (k as f64 + FIRST_ANGLE) / zero.members.len() as f64,
+                );
                 let omega = mode.frequency_hz * TAU * (Complex::new(1.0, mode.damping_ratio) + turn);
-                all.push(Zero { omega, error: f64::INFINITY, members: vec![member] });
+                all.push(DampedZero { omega, error: f64::INFINITY, members: vec![member] });
             }
         }
         *zeros = all;
@@ -247,14 +264,14 @@ impl ZeroSearch<'_> {
 
     /// Searches again for zeros that have left their region: from their own start, and from the starts of the zeros
     /// that have moved farthest, because one of these may have taken the zero of another. All others stay divided out.
-    fn bring_back(&self, zeros: &mut [Zero], modes: &[Mode]) {
-        let start = |zero: &Zero| {
+    fn bring_back(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
+        let start = |zero: &DampedZero| {
             let mode = &modes[zero.members[0]];
             mode.frequency_hz * TAU * Complex::new(1.0, mode.damping_ratio)
         };
         // Zeros without damping lie on the real axis, except for rounding.
-        let minimum = |zero: &Zero| -WANTED_ERROR * zero.omega.norm();
-        let is_lost = |zero: &Zero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < minimum(zero);
+        let minimum = |zero: &DampedZero| -WANTED_ERROR * zero.omega.norm();
+        let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < minimum(zero);
 
         for round in 0..MAX_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
@@ -263,14 +280,14 @@ impl ZeroSearch<'_> {
             }
 
             // Starts: the zero's own, then those of the zeros that have moved farthest.
-            let gone = |zero: &Zero| (zero.omega - start(zero)).norm() / zero.omega.norm();
+            let gone = |zero: &DampedZero| (zero.omega - start(zero)).norm() / zero.omega.norm();
             let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
             places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
 
             for (k, i) in lost.into_iter().enumerate() {
                 let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
                 // Start beside that place, because the zero there may belong to another mode.
-                let beside = Complex::from_polar(1e-3, 0.7 + k as f64);
+                let beside = Complex::from_polar(BESIDE, BESIDE_ANGLE + k as f64);
                 zeros[i].omega = start(&zeros[at]) * (1.0 + beside);
                 zeros[i].error = f64::INFINITY;
             }
@@ -280,9 +297,16 @@ impl ZeroSearch<'_> {
 
     /// True if all modes that share a zero really have one multiple zero. The logarithmic slope on a small circle
     /// around it gives the number of zeros inside and the moments of their places.
-    fn is_one(&self, zero: &Zero) -> bool {
+    fn is_one(&self, zero: &DampedZero) -> bool {
+        /// Points on the circle. The rule is exact for moments as high as the number of points allows: a single zero
+        /// at a distance d from the centre leaves an error of (d/radius)^8.
         const POINTS: usize = 8;
-        let radius = 1e-4 * zero.omega.norm();
+        /// Radius of the circle, relative to |ω|: ten thousand times [`ONE_ZERO`]. Another zero inside changes the
+        /// number, and the zeros are then sought one by one.
+        const RADIUS: f64 = 1e-4;
+        /// Maximum difference of the number of zeros inside from a whole number; anything well below a half would do.
+        const WHOLE: f64 = 0.1;
+        let radius = RADIUS * zero.omega.norm();
         let mut moments = [Complex::new(0.0, 0.0); 3];
         for k in 0..POINTS {
             let at = Complex::from_polar(radius, TAU * k as f64 / POINTS as f64);
@@ -297,7 +321,7 @@ impl ZeroSearch<'_> {
         let [count, first, second] = moments;
         let mean = first / many;
         let variance = second / many - mean * mean;
-        (count - many).norm() < 0.1 && variance.norm().sqrt() <= ONE_ZERO * zero.omega.norm()
+        (count - many).norm() < WHOLE && variance.norm().sqrt() <= ONE_ZERO * zero.omega.norm()
     }
 
     /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
@@ -324,7 +348,7 @@ impl ZeroSearch<'_> {
         let max_im = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
 
         // Corners of the region, so far from all zeros that the phase changes slowly.
-        let margin = (2.0 * max_im).max(0.01 * limit);
+        let margin = (MARGIN * max_im).max(MIN_MARGIN * limit);
         let right = self.free_of_modes(limit);
         let corner = |re, im| Complex::new(re, im);
         let corners = [
@@ -343,7 +367,7 @@ impl ZeroSearch<'_> {
             let mut last = (*from, phase(*from));
             // The phase changes over distances like those to the zeros; a longer piece might miss a full turn at a
             // cluster.
-            let pieces = ((to - from).norm() / (0.5 * margin)).ceil() as usize;
+            let pieces = ((to - from).norm() / (LONGEST_PIECE * margin)).ceil() as usize;
             for piece in 1..=pieces {
                 let point = from + (to - from) * (piece as f64 / pieces as f64);
                 let next = (point, phase(point));
@@ -364,6 +388,14 @@ const BEYOND: f64 = 0.05;
 /// Number of points of this range at which modes are counted.
 const LOOKS: usize = 64;
 
+/// Distance of the boundary of the counted region from the zeros: over the largest imaginary part of a zero, and its
+/// minimum over the frequency limit. Not tuned: the nearer the boundary, the more points its phase needs.
+const MARGIN: f64 = 2.0;
+const MIN_MARGIN: f64 = 0.01;
+/// Maximum length of a piece of the boundary, over its distance from the zeros: within it the phase of one zero changes
+/// by less than half a radian.
+const LONGEST_PIECE: f64 = 0.5;
+
 /// Maximum step of a search, relative to its frequency.
 const MAX_STEP: f64 = 0.1;
 
@@ -382,6 +414,13 @@ fn turn_between(
 ) -> Option<f64> {
     // Maximum number of halvings: a zero on the path itself would need infinitely many.
     const MAX_DEPTH: usize = 30;
+    // Maximum change of phase over an interval [rad]: a third of the half turn from which on it would be ambiguous.
+    const MAX_CHANGE: f64 = 1.0;
+    // Maximum difference between the change over the interval and the sum of its halves, which is zero or a full turn
+    // except for rounding.
+    const MAX_LOSS: f64 = 0.1;
+    // Maximum difference between the changes over the two halves: beyond it the phase bends within the interval.
+    const MAX_BEND: f64 = 0.5;
     let middle = 0.5 * (from.0 + to.0);
     let middle = (middle, phase(middle));
     let whole = wrapped(to.1 - from.1);
@@ -389,7 +428,7 @@ fn turn_between(
     if !(whole.is_finite() && first.is_finite()) || depth > MAX_DEPTH {
         return None;
     }
-    if whole.abs() < 1.0 && (first + second - whole).abs() < 0.1 && (first - second).abs() < 0.5 {
+    if whole.abs() < MAX_CHANGE && (first + second - whole).abs() < MAX_LOSS && (first - second).abs() < MAX_BEND {
         return Some(whole);
     }
     Some(turn_between(phase, from, middle, depth + 1)? + turn_between(phase, middle, to, depth + 1)?)

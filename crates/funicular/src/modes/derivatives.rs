@@ -223,6 +223,7 @@ impl CableMotion {
         let arc_lengths = nodes.iter().map(|(s, _)| *s).collect();
         let (_, stations) = CatenaryDynamic::with_stations(
             &hanging.catenary,
+            None,
             end.mass_per_length,
             end.cable.limit,
             arc_lengths,

@@ -7,7 +7,7 @@
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
 use super::reference::{Maximum, Reference};
-use super::selection::{Sum, chosen};
+use super::selection::{RemainingDifference, Size, chosen};
 use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
@@ -21,15 +21,6 @@ use crate::response::Signal;
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
-
-/// Wanted size of a state space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Size {
-    /// Maximum number of states.
-    Order(usize),
-    /// Maximum error of every response, relative to its peak; the model has as few states as it allows.
-    Tolerance(f64),
-}
 
 /// Requirements for a state space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -216,7 +207,7 @@ pub fn control_model(
     for ratio in REPLACED_FROM {
         let added = sets_from(ratio, &reference)?;
         if cut.has_damping_ratios() {
-            damping_error = Sum::of_all(&reference, &added[0]).largest();
+            damping_error = RemainingDifference::of_all(&reference, &added[0]).largest();
         }
         sets.extend(added);
     }

@@ -1,21 +1,29 @@
 //! Choice of the modes of a state space: as few as a tolerance allows, or the best for a number of states.
 
 use super::ReductionError;
-use super::control_model::Size;
 use super::reference::Reference;
 use super::terms::Term;
 use crate::math::Complex;
+
+/// Wanted size of a state space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Size {
+    /// Maximum number of states.
+    Order(usize),
+    /// Maximum error of every response, relative to its peak; the model has as few states as it allows.
+    Tolerance(f64),
+}
 
 /// Fraction of the tolerance that the choice uses; the rest is for maxima between the frequencies.
 const USED: f64 = 0.995;
 
 /// Difference between the full responses and those of some terms, at all frequencies of the reference.
-pub(super) struct Sum<'a> {
+pub(super) struct RemainingDifference<'a> {
     reference: &'a Reference<'a>,
     differences: Vec<Complex>,
 }
 
-impl<'a> Sum<'a> {
+impl<'a> RemainingDifference<'a> {
     /// Difference without any term: the static displacement is the feedthrough.
     fn of_none(reference: &'a Reference<'a>) -> Self {
         let pairs = reference.pairs();
@@ -93,7 +101,7 @@ pub(super) fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> R
 fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term>, f64) {
     let mut terms: Vec<Term> = Vec::new();
     let mut left = states;
-    let mut sum = Sum::of_none(reference);
+    let mut sum = RemainingDifference::of_none(reference);
     for term in ranked {
         if term.states() <= left {
             left -= term.states();
@@ -108,7 +116,7 @@ fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term
 /// The first terms in the order of their size that keep the tolerance, without those that turn out not to be needed; or
 /// all terms if these do not keep it. With their error.
 fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>, f64) {
-    let mut sum = Sum::of_none(reference);
+    let mut sum = RemainingDifference::of_none(reference);
     let mut count = 0;
     let mut error = f64::INFINITY;
     for term in ranked {

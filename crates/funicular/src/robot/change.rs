@@ -1,6 +1,6 @@
 //! Direction of change of a robot: the rate of each of its numbers with respect to one parameter.
 
-use super::{Anchor, Robot, State};
+use super::{Robot, State};
 use crate::math::{Mat3, Vec3};
 
 /// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with the
@@ -41,7 +41,7 @@ pub struct RobotChange {
 /// Rates of change of the numbers of one cable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CableChange {
-    /// Fixed point of the anchor, world axes.
+    /// Point of the anchor, world axes.
     pub anchor_w: Vec3,
     /// Attachment, platform frame.
     pub attachment_p: Vec3,
@@ -93,8 +93,7 @@ impl Robot {
         robot.load.point_p += change.point_p * step;
 
         for (cable, change) in robot.cables.iter_mut().zip(&change.cables) {
-            let Anchor::Fixed { point_w } = &mut cable.anchor;
-            *point_w += change.anchor_w * step;
+            cable.anchor.point_w += change.anchor_w * step;
             cable.attachment_p += change.attachment_p * step;
             cable.material.axial_stiffness += change.axial_stiffness * step;
             cable.material.mass_per_length += change.mass_per_length * step;

@@ -10,72 +10,11 @@ use super::spec::{Numbers, SpecError, TABLES, TOP, from_tree, parsed};
 use super::{PlatformMotion, Robot, RobotChange};
 use crate::math::Vec3;
 use std::borrow::Cow;
-use std::fmt;
 use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeTable, DeValue};
 
-/// Maximum magnitude of any number of a robot file: products of four such numbers stay far inside the range of `f64`.
-pub(super) const MAX_NUMBER: f64 = 1e12;
-/// Minimum of a quantity that has to be positive, so that quotients stay inside the range of `f64`, too.
-pub(super) const MIN_NUMBER: f64 = 1e-12;
-
-/// Range of the values that a parameter may take.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Range {
-    /// Any number, up to 1e12 in magnitude.
-    Any,
-    /// Zero, or from 1e-12 to 1e12.
-    NotNegative,
-    /// From 1e-12 to 1e12.
-    Positive,
-    /// Zero, or from 1e-12 to below a limit.
-    Below(f64),
-    /// Component of a vector whose magnitude is at most this.
-    Magnitude(f64),
-}
-
-impl Range {
-    /// Minimum. For a component of a vector with limited magnitude: the minimum if the other components are zero.
-    pub fn minimum(self) -> f64 {
-        match self {
-            Self::Any => -MAX_NUMBER,
-            Self::NotNegative | Self::Below(_) => 0.0,
-            Self::Positive => MIN_NUMBER,
-            Self::Magnitude(limit) => -limit,
-        }
-    }
-
-    /// Maximum, or the limit that a number has to stay below.
-    pub fn maximum(self) -> f64 {
-        match self {
-            Self::Any | Self::NotNegative | Self::Positive => MAX_NUMBER,
-            Self::Below(limit) | Self::Magnitude(limit) => limit,
-        }
-    }
-
-    /// True if zero is the minimum.
-    pub(super) fn is_not_negative(self) -> bool {
-        matches!(self, Self::NotNegative | Self::Below(_))
-    }
-
-    /// True if negative numbers, and positive numbers below 1e-12, are out of range.
-    pub(super) fn is_one_sided(self) -> bool {
-        self == Self::Positive || self.is_not_negative()
-    }
-}
-
-impl fmt::Display for Range {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Any => f.write_str("any"),
-            Self::NotNegative => f.write_str("not negative"),
-            Self::Positive => f.write_str("positive"),
-            Self::Below(limit) => write!(f, "from 0 to below {limit}"),
-            Self::Magnitude(limit) => write!(f, "magnitude of the vector up to {limit}"),
-        }
-    }
-}
+pub use super::spec::range::Range;
 
 /// Part of the robot that a parameter belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,6 +25,10 @@ pub enum RobotPart {
     Platform,
     /// A rope; its name is the second key of the path.
     Material,
+    /// A pulley; its name is the second key of the path.
+    Pulley,
+    /// A winch; its name is the second key of the path.
+    Winch,
     /// The cable at this index in file order, from 0.
     Cable(usize),
     /// The load on the platform.
@@ -387,7 +330,7 @@ fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
     (1..=path.len()).rev().find_map(|count| {
         let (header, key) = match path[..count] {
             [key] => (TOP.to_owned(), key),
-            ["materials", _, key] => ("[materials.NAME]".to_owned(), key),
+            [kind @ ("materials" | "pulleys" | "winches"), _, key] => (format!("[{kind}.NAME]"), key),
             ["cables", _, key] => ("[[cables]]".to_owned(), key),
             [table, key] => (format!("[{table}]"), key),
             _ => return None,
@@ -550,10 +493,12 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
         table(RobotPart::Platform, "[platform]", &["platform"], platform);
     }
-    if let Some(DeValue::Table(materials)) = root.get("materials").map(Spanned::get_ref) {
-        for (name, material) in materials {
-            if let DeValue::Table(material) = material.get_ref() {
-                table(RobotPart::Material, "[materials.NAME]", &["materials", name.get_ref()], material);
+    let named = [("materials", RobotPart::Material), ("pulleys", RobotPart::Pulley), ("winches", RobotPart::Winch)];
+    for (kind, part) in named {
+        let Some(DeValue::Table(tables)) = root.get(kind).map(Spanned::get_ref) else { continue };
+        for (name, entry) in tables {
+            if let DeValue::Table(entry) = entry.get_ref() {
+                table(part, &format!("[{kind}.NAME]"), &[kind, name.get_ref()], entry);
             }
         }
     }

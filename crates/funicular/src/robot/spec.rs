@@ -9,19 +9,21 @@
 //! comes near these limits, and within them no product in the analyses overflows.
 
 mod cables;
+mod drives;
 mod issue;
 pub mod key;
 mod limits;
 mod materials;
 mod platform;
+pub(super) mod range;
 mod read;
 
-use super::parameters::Range;
 use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
 use key::{Absent, Key, KeyValue, Shape, Table};
+use range::Range;
 use read::{DECIMAL_POINT, Reader, Section, is_zero};
 pub(super) use read::{Numbers, TOP, parsed};
 use toml::de::DeTable;
@@ -45,6 +47,10 @@ const ROOT: &[Key] = &[
     .or(DEFAULT_GRAVITY),
     Key::other("platform", "[platform]", KeyValue::Table, "moving platform"),
     Key::other("materials", "[materials.rope]", KeyValue::NamedTables, "ropes, one or more, each with a name"),
+    Key::other("pulleys", "[pulleys.wheel]", KeyValue::NamedTables, "pulleys that cables refer to, each with a name")
+        .without(Absent::Means("no pulleys")),
+    Key::other("winches", "[winches.drum]", KeyValue::NamedTables, "winches that cables refer to, each with a name")
+        .without(Absent::Means("no winches: all cables end at their anchors")),
     Key::other("cables", "[[cables]]", KeyValue::Tables, "cables, one or more"),
     Key::other("loads", "[loads]", KeyValue::Table, "load on the platform besides its weight, fixed in the world")
         .without(Absent::Means("no load")),
@@ -143,6 +149,8 @@ pub const TABLES: &[Table] = &[
     Table { header: TOP, keys: ROOT },
     Table { header: "[platform]", keys: platform::KEYS },
     Table { header: "[materials.NAME]", keys: materials::KEYS },
+    Table { header: "[pulleys.NAME]", keys: drives::PULLEY },
+    Table { header: "[winches.NAME]", keys: drives::WINCH },
     Table { header: "[[cables]]", keys: cables::KEYS },
     Table { header: "[loads]", keys: LOADS },
     Table { header: "[wind]", keys: WIND },
@@ -259,7 +267,8 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let load = read_load(reader, &root, motion);
     let wind = read_wind(reader, &root);
     let materials = materials::read(reader, &root);
-    let cables = cables::read(reader, &root, materials.as_ref(), motion);
+    let drives = drives::read(reader, &root);
+    let cables = cables::read(reader, &root, materials.as_ref(), &drives, motion);
     let state = read_state(reader, &root, cables.as_deref(), motion);
 
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;

@@ -29,6 +29,14 @@ pub enum StaticDerivativeError {
         /// Name of the cable.
         cable: String,
     },
+    /// Cable over a pulley or on a winch.
+    #[error(
+        "cable \"{cable}\" runs over a pulley or to a winch: derivatives exist for cables that end at fixed points"
+    )]
+    Drive {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Some motion meets no resistance, or some wrench cannot be balanced by a change of the lengths.
     #[error("the equilibrium is indifferent: some small change of the robot moves it without limit")]
     Singular,
@@ -248,6 +256,9 @@ impl DirectCable {
     ) -> Result<Self, StaticDerivativeError> {
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
         let material = &robot.cables[i].material;
+        if state.drive.is_some() {
+            return Err(StaticDerivativeError::Drive { cable: robot.cables[i].name.clone() });
+        }
         if state.is_slack() {
             return Err(StaticDerivativeError::Slack { cable: robot.cables[i].name.clone() });
         }

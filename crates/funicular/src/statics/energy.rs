@@ -1,7 +1,7 @@
 //! Potential energy of a robot at a pose.
 
 use super::equilibrium::Equilibrium;
-use crate::catenary::space::HangingCable;
+use crate::drive::CableAtRest;
 use crate::robot::{Pose, Robot};
 
 /// Potential energy [J] of cables, platform and load at an equilibrium, up to a constant: weights are measured from the
@@ -18,13 +18,16 @@ use crate::robot::{Pose, Robot};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn energy(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
-    of_parts(robot, &equilibrium.pose, equilibrium.cables.iter().filter_map(|cable| cable.hanging.as_ref()))
+    let cables: Vec<CableAtRest> = (equilibrium.cables.iter())
+        .filter_map(|cable| Some(CableAtRest { span: cable.hanging.clone()?, drive: cable.drive.clone() }))
+        .collect();
+    of_parts(robot, &equilibrium.pose, cables.iter())
 }
 
 /// Potential energy [J] of cables that hang at a pose, in equilibrium or not, with platform and load.
-pub(super) fn of_parts<'a>(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = &'a HangingCable>) -> f64 {
+pub(super) fn of_parts<'a>(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = &'a CableAtRest>) -> f64 {
     let com_w = pose.point_w(&robot.platform.center_of_mass_p);
     let loaded_w = pose.point_w(&robot.load.point_p);
     let of_loads = robot.force_at_mass_centre_w().dot(&com_w) + robot.load.force_w.dot(&loaded_w);
-    cables.map(HangingCable::energy).sum::<f64>() - of_loads
+    cables.map(CableAtRest::energy).sum::<f64>() - of_loads
 }

@@ -66,6 +66,7 @@ impl Candidates {
 /// some are missing), and maximum number of starts. With catenaries, 400 starts give the same lists, up to 50 long, for
 /// all robots of the library as 4,000. Springs, whose stiffness jumps when they go slack, may need some 10,000 starts.
 const IDLE: usize = 400;
+const MORE_WHILE_WANTING: usize = 10;
 const MAX_STARTS: usize = 20_000;
 
 /// Number of starts of the search for another stable equilibrium.
@@ -79,6 +80,18 @@ const SAME: f64 = 1e-5;
 
 /// Eigenvalue, relative to the largest, below which a direction is indifferent.
 const INDIFFERENT: f64 = 1e-9;
+
+/// Difference of two energies, over their size, below which the platform moves from one pose to the other without work:
+/// far above the rounding of an energy, which is a sum of a few products. Not tuned: it only merges points of plateaus.
+const LEVEL: f64 = 1e-9;
+
+/// Minimum curvature in Newton's method, relative to the largest: a direction of lower stiffness is stepped along as if
+/// it had this one. Without a minimum, a stiffness of zero would have an infinite step; its length is limited besides.
+const MIN_CURVATURE: f64 = 1e-6;
+
+/// Maximum number of Newton steps from one start. Not tuned: a guard against wandering, after which the next start
+/// follows.
+const MAX_NEWTON_STEPS: usize = 80;
 
 /// All equilibria for given unstrained lengths [m], one per cable in file order, that a search finds. Stable ones are
 /// found by descent of the energy, unstable ones by Newton's method, from orientations spread over the space of
@@ -120,7 +133,7 @@ pub fn all_equilibria(
 
     while starts < max_starts && search.found.len() < MAX_FOUND {
         let wanting = search.expected().is_some_and(|expected| expected != search.index_sum());
-        if starts >= last_find + if wanting { 10 * IDLE } else { IDLE } {
+        if starts >= last_find + if wanting { MORE_WHILE_WANTING * IDLE } else { IDLE } {
             break;
         }
         starts += 1;
@@ -236,7 +249,7 @@ impl<'a> EquilibriumSearch<'a> {
         while here.residual > CONVERGED {
             // Newton's step, limited in directions of very low stiffness.
             let (values, vectors) = symmetric::eigen(&search.stiffness(&here), search.coordinates.count());
-            let least = 1e-6 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let least = MIN_CURVATURE * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if least == 0.0 {
                 return None;
             }
@@ -257,7 +270,7 @@ impl<'a> EquilibriumSearch<'a> {
             }
             here = next;
             steps += 1;
-            if steps > 80 || !here.residual.is_finite() {
+            if steps > MAX_NEWTON_STEPS || !here.residual.is_finite() {
                 return None;
             }
         }
@@ -297,7 +310,7 @@ impl<'a> EquilibriumSearch<'a> {
     /// True if two energies [J] are equal to rounding.
     fn level(&self, a: f64, b: f64) -> bool {
         let scale = load_size(self.robot) * self.size;
-        (a - b).abs() <= 1e-9 * (a.abs() + b.abs() + scale)
+        (a - b).abs() <= LEVEL * (a.abs() + b.abs() + scale)
     }
 
     /// True if an equilibrium has the energy of an indifferent one: the platform gets there without work.

@@ -2,6 +2,7 @@
 
 use super::model::StaticModel;
 use crate::catenary::space::HangingCable;
+use crate::drive::{self, DriveAtRest};
 use crate::math::{Mat3, Vec3};
 use crate::robot::Pose;
 
@@ -12,18 +13,21 @@ pub struct CableState {
     pub attachment_w: Vec3,
     /// Lever arm from the platform origin to the attachment, world axes [m].
     pub lever_w: Vec3,
-    /// Point at which the cable leaves its anchor, in the world [m].
+    /// Point at which the cable leaves its anchor, with a pulley the exit point, in the world [m].
     pub anchor_w: Vec3,
-    /// Unstrained length [m]; for an ideal cable its length.
+    /// Unstrained length [m], from the attachment to the anchor or, with a winch, to the drum; for an ideal cable its
+    /// length.
     pub unstrained_length: f64,
     /// Force of the cable on the platform, world axes [N].
     pub force_on_platform_w: Vec3,
     /// Tension at the platform end [N].
     pub tension_platform: f64,
-    /// Tension at the anchor [N].
+    /// Tension at the anchor, with a pulley at the exit point [N].
     pub tension_anchor: f64,
-    /// Curve of the cable; none for an ideal cable.
+    /// Curve of the free span; none for an ideal cable.
     pub hanging: Option<HangingCable>,
+    /// State of pulley, drum side and winch; none for a fixed anchor and for an ideal cable.
+    pub drive: Option<Box<DriveAtRest>>,
 }
 
 impl CableState {
@@ -37,9 +41,25 @@ impl CableState {
         self.chord_w().norm()
     }
 
+    /// Unstrained length of the free span [m]: without arc and drum side.
+    pub fn free_length(&self) -> f64 {
+        self.hanging.as_ref().map_or(self.unstrained_length, |hanging| hanging.catenary.rope().unstrained_length)
+    }
+
+    /// Tension at the drum [N]; that at the anchor without a drive.
+    pub fn tension_drum(&self) -> f64 {
+        self.drive.as_ref().map_or(self.tension_anchor, |drive| drive.tension_drum)
+    }
+
     /// Static stiffness of the platform end, 3×3, world axes [N/m]; none for an ideal cable.
     pub fn tangent_w(&self) -> Option<Mat3> {
-        self.hanging.as_ref().map(HangingCable::tangent_w)
+        self.hanging.as_ref().map(|span| drive::tangent_w(span, self.drive.as_deref()))
+    }
+
+    /// Derivative of the force on the platform with respect to the unstrained length, world axes [N/m]; none for an
+    /// ideal cable.
+    pub fn force_by_length_w(&self) -> Option<Vec3> {
+        self.hanging.as_ref().map(|span| drive::force_by_length_w(span, self.drive.as_deref()))
     }
 
     /// True if the cable carries no force between its ends: a massless cable longer than its chord, or one that hangs

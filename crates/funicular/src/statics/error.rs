@@ -3,7 +3,7 @@
 use super::equilibrium::RESIDUAL_LIMIT;
 use super::limits::LimitViolation;
 use super::loaded_cable::MAX_LENGTH_RATIO;
-use super::tension::Obstacle;
+use super::obstacle::Obstacle;
 use crate::robot::OutOfPlane;
 use thiserror::Error;
 
@@ -83,6 +83,19 @@ pub enum StaticsError {
     CoincidingEnds {
         /// Name of the cable.
         cable: String,
+    },
+    /// The attachment of a cable is inside the wheel of its pulley.
+    #[error(
+        "cable \"{cable}\" ends inside the wheel of its pulley at this pose: its attachment is {distance:.4} m from the \
+         wheel's centre, the radius is {radius} m; move the platform away, or check `radius_m` and `anchor_m`"
+    )]
+    InsidePulley {
+        /// Name of the cable.
+        cable: String,
+        /// Distance of the attachment from the wheel's centre [m].
+        distance: f64,
+        /// Radius of the wheel [m].
+        radius: f64,
     },
     /// The pose is singular: the cables do not span the degrees of freedom.
     #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
@@ -329,6 +342,7 @@ impl StaticsError {
             Self::CableCount { .. } | Self::InverseCableCount { .. } => "cable-count",
             Self::OutOfPlane(_) => "out-of-plane",
             Self::CoincidingEnds { .. } => "coinciding-ends",
+            Self::InsidePulley { .. } => "inside-pulley",
             Self::Singular => "singular",
             Self::NegativeTension { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "negative-tension",
             Self::BeyondLimits(_) => "tension-limits",

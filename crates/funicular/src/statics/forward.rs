@@ -8,7 +8,7 @@ use super::model::StaticModel;
 use super::residual::{check_lengths, elastic_rounding, scaled_residual};
 use super::stiffness::assembled;
 use super::{energy, ideal, initial_pose};
-use crate::catenary::space::HangingCable;
+use crate::drive::CableAtRest;
 use crate::math::{Mat6, Vec6, symmetric};
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
@@ -64,7 +64,7 @@ pub fn forward(
 /// State of the search at one pose.
 pub(super) struct TrialPose {
     pub(super) pose: Pose,
-    pub(super) cables: Vec<HangingCable>,
+    pub(super) cables: Vec<CableAtRest>,
     /// Wrench on the platform in its coordinates, scaled.
     pub(super) wrench: Vec6,
     pub(super) residual: f64,
@@ -96,9 +96,9 @@ impl<'a> EnergySearch<'a> {
     }
 
     pub(super) fn at(&self, pose: Pose) -> TrialPose {
-        let cables: Vec<HangingCable> =
+        let cables: Vec<CableAtRest> =
             self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length)).collect();
-        let forces = cables.iter().map(|cable| (cable.force_on_start_w(), cable.start_w - pose.position_w));
+        let forces = cables.iter().map(|cable| (cable.force_w(), cable.span.start_w - pose.position_w));
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
         let energy = energy::of_parts(self.robot, &pose, cables.iter());
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
@@ -143,8 +143,7 @@ impl<'a> EnergySearch<'a> {
 
     /// Symmetric part of the tangent stiffness in the platform's coordinates, scaled; a unit diagonal beyond them.
     pub(super) fn stiffness(&self, trial: &TrialPose) -> Mat6 {
-        let parts =
-            trial.cables.iter().map(|c| (c.tangent_w(), c.force_on_start_w(), c.start_w - trial.pose.position_w));
+        let parts = trial.cables.iter().map(|c| (c.tangent_w(), c.force_w(), c.span.start_w - trial.pose.position_w));
         let total = assembled(self.robot, &trial.pose, parts);
         let mut total = self.coordinates.reduce_symmetric(&total);
         let motion = self.coordinates.motion();
@@ -233,7 +232,7 @@ impl EnergySearch<'_> {
     /// cable or a tenth of the mean distance.
     pub(super) fn limited(&self, from: &TrialPose, step: &Vec6) -> (Vec6, f64) {
         let lengths: f64 = self.lengths.iter().sum();
-        let chords: f64 = from.cables.iter().map(|cable| cable.chord_w().norm()).sum();
+        let chords: f64 = from.cables.iter().map(|cable| cable.span.chord_w().norm()).sum();
         let reach = (REACH * lengths).max(FAR_REACH * chords) / self.lengths.len() as f64;
         let motion = self.coordinates.expand(step);
         let length = (motion.fixed_rows::<3>(0).norm() / reach)

@@ -154,6 +154,7 @@ pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: u
                 tension_platform: tension,
                 tension_anchor: tension,
                 hanging: None,
+                drive: None,
             }
         })
         .collect();

@@ -6,17 +6,29 @@ mod starts;
 use super::collect::collect;
 use super::equilibrium::{Equilibrium, RESIDUAL_LIMIT};
 use super::error::StaticsError;
+use super::exit_points;
 use super::ideal::{self, most_negative, straight_tensions};
 use super::loaded_cable::{LoadedCable, MAX_LENGTH_RATIO};
 use super::model::StaticModel;
 use super::residual::scaled_residual;
 use super::tension::Obstacle;
 use crate::catenary::space::HangingCable;
+use crate::drive::CableAtRest;
 use crate::math::{Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, balance, load_size, load_wrench, wrench_of};
 use crate::robot::{Pose, Robot};
 
-/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom.
+/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom; pulleys
+/// turn towards the cables.
+///
+/// # Errors
+/// [`StaticsError`], as `at_exit_points`; an attachment inside a wheel.
+pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+    exit_points::equilibrium(robot, pose, model, |held| at_exit_points(held, pose, model))
+}
+
+/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom, which end
+/// at fixed points.
 ///
 /// Straight cables have a linear solution. Sagging cables start from it, with half of each cable's weight on the
 /// platform. A Newton iteration on the lengths follows. Its steps are taken in the tension parallel to the chord, in
@@ -26,7 +38,7 @@ use crate::robot::{Pose, Robot};
 /// # Errors
 /// [`StaticsError`]: a singular pose, a straight cable that would need negative tension, no tensions found for sagging
 /// cables, coinciding ends, or no convergence.
-pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+fn at_exit_points(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
     let cables = robot.cables.len();
     robot.platform.motion.check(pose)?;
 
@@ -68,8 +80,7 @@ pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
                     chord / (1.0 + tensions[i] / cable.material.axial_stiffness)
                 })
                 .collect();
-            let hanging = hang_all(&loaded, pose, &lengths);
-            Ok(collect(robot, *pose, model, hanging, &lengths, 0))
+            Ok(collect(robot, *pose, model, hang_all(&loaded, pose, &lengths), &lengths, 0))
         }
         StaticModel::Catenary => sagging_cables(robot, pose, &loaded, &tensions),
     }
@@ -132,7 +143,7 @@ fn weakest(tensions: &[f64]) -> Option<usize> {
     (0..tensions.len()).min_by(|&i, &j| tensions[i].total_cmp(&tensions[j]))
 }
 
-fn hang_all(loaded: &[LoadedCable<'_>], pose: &Pose, lengths: &[f64]) -> Vec<HangingCable> {
+fn hang_all(loaded: &[LoadedCable<'_>], pose: &Pose, lengths: &[f64]) -> Vec<CableAtRest> {
     loaded.iter().zip(lengths).map(|(cable, &length)| cable.hang(pose, length)).collect()
 }
 
@@ -257,7 +268,8 @@ impl CableSearch {
 
     fn collected(self, robot: &Robot, pose: &Pose) -> Equilibrium {
         let lengths: Vec<f64> = self.hanging.iter().map(|cable| cable.catenary.rope().unstrained_length).collect();
-        collect(robot, *pose, StaticModel::Catenary, self.hanging, &lengths, self.iterations)
+        let cables = self.hanging.into_iter().map(CableAtRest::fixed).collect();
+        collect(robot, *pose, StaticModel::Catenary, cables, &lengths, self.iterations)
     }
 }
 

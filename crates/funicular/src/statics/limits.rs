@@ -1,7 +1,7 @@
 //! Limits of a cable's tension: their defaults, and the distance of a state from them.
 
 use super::equilibrium::CableState;
-use super::tension::Obstacle;
+use super::obstacle::Obstacle;
 use crate::math::Vec3;
 use crate::robot::Robot;
 use std::fmt;
@@ -50,7 +50,8 @@ impl TensionRange {
     /// Distances of a cable's tensions from these limits.
     pub fn margin(&self, state: &CableState) -> TensionMargin {
         let (min, max) = state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
-            (hanging.catenary.min_tension(), hanging.catenary.max_tension())
+            let drum = state.tension_drum();
+            (hanging.catenary.min_tension().min(drum), hanging.catenary.max_tension().max(drum))
         });
         TensionMargin { range: *self, min, max }
     }

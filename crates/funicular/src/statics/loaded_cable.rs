@@ -3,6 +3,7 @@
 use super::model::StaticModel;
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
+use crate::drive::CableAtRest;
 use crate::math::Vec3;
 use crate::robot::{Cable, LineLoad, Pose, Robot};
 
@@ -45,15 +46,13 @@ impl<'a> LoadedCable<'a> {
         self.cable.chord_w(pose)
     }
 
-    /// Cable hung from the platform at a pose with an unstrained length [m].
-    pub(super) fn hang(&self, pose: &Pose, unstrained_length: f64) -> HangingCable {
-        let (weight_per_length, axial_stiffness) = (self.load.size, self.axial_stiffness());
-        let rope = Rope { unstrained_length, weight_per_length, axial_stiffness };
-        let start_w = pose.point_w(&self.cable.attachment_p);
-        HangingCable::between(start_w, self.cable.anchor.exit_w(&start_w), self.load.up_w, rope)
+    /// Cable hung from the platform at a pose with an unstrained length [m], drum side included.
+    pub(super) fn hang(&self, pose: &Pose, unstrained_length: f64) -> CableAtRest {
+        CableAtRest::hang(pose.point_w(&self.cable.attachment_p), self.cable, &self.load, unstrained_length)
     }
 
-    /// Cable hung with this tension parallel to its chord [N], which must not be far below its weight.
+    /// Free span hung with this tension parallel to its chord [N], which must not be far below its weight. A pulley is
+    /// where a straight cable would turn it.
     pub(super) fn hang_with_tension(&self, pose: &Pose, tension: f64) -> HangingCable {
         let start_w = pose.point_w(&self.cable.attachment_p);
         let exit_w = self.cable.anchor.exit_w(&start_w);
@@ -64,5 +63,13 @@ impl<'a> LoadedCable<'a> {
             axial_stiffness: self.axial_stiffness(),
         };
         HangingCable::with_parallel_tension(start_w, exit_w, self.load.up_w, rope, tension)
+    }
+
+    /// Unstrained length [m], drum side included, with which the free span has this tension parallel to its chord [N].
+    pub(super) fn length_with_tension(&self, pose: &Pose, tension: f64) -> f64 {
+        let start_w = pose.point_w(&self.cable.attachment_p);
+        let anchor = &self.cable.anchor;
+        let span = self.hang_with_tension(pose, tension);
+        CableAtRest::with_span(span, anchor, anchor.contact(&start_w)).unstrained_length()
     }
 }

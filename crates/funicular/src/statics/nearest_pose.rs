@@ -129,57 +129,20 @@ pub fn nearest_equilibrium(
     }
     robot.platform.motion.check(requested)?;
 
-    // Reach the surface by a first guess of the lengths.
-    let coordinates = Coordinates::of(robot);
-    let mut lengths = first_lengths(robot, requested, model)?;
-    let mut here = forward(robot, &lengths, model, Some(requested))?;
-    let mut iterations = here.iterations;
-    let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
-    let mut surface = Surface::at(robot, &here);
-    let mut missing = gap(robot, &here.pose, requested);
-
-    let (mut bend, mut damping) = (Mat6::identity(), 0.0);
+    // Reach the surface by a first guess of the lengths, then move along it.
+    let mut search = SurfaceSearch::new(robot, requested, model)?;
+    let size = search.size;
     for _ in 0..MAX_STEPS {
-        let could = surface.along(&missing);
-        if could.norm() <= NEAREST * size {
+        if search.could_move() <= NEAREST * size {
             break;
         }
-
-        // Step along the surface, and back to it.
-        let (motion, by_length) = surface.step(&missing, &bend, damping);
-        let trial: Vec<f64> = lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(MIN_SHORTENED * l)).collect();
-        let start = coordinates.moved(&here.pose, &motion);
-        if let Ok(next) = forward(robot, &trial, model, Some(&start)) {
-            iterations += next.iterations;
-            let next_missing = gap(robot, &next.pose, requested);
-            let next_surface = Surface::at(robot, &next);
-            let next_could = next_surface.along(&next_missing);
-
-            // Take the step if it is a gain.
-            let nearer = next_missing.norm() < missing.norm();
-            // Near the end the distance drowns in rounding; then the direction decides.
-            let straighter =
-                could.norm() < NEARLY_SQUARE * missing.norm() && next_could.norm() < STRAIGHTER * could.norm();
-            if nearer || straighter {
-                let moved = gap(robot, &here.pose, &next.pose);
-                update(&mut bend, &next_surface.along(&moved), &(could - next_could));
-                (here, lengths, missing, surface) = (next, trial, next_missing, next_surface);
-                damping = if damping < NO_DAMPING { 0.0 } else { damping * (1.0 / DAMPING_FACTOR) };
-                continue;
-            }
-        }
-
-        // Otherwise try a shorter step; the learnt curvature may be wrong.
-        if damping == 0.0 {
-            bend = Mat6::identity();
-        }
-        damping = (DAMPING_FACTOR * damping).max(FIRST_DAMPING);
-        if damping > MAX_DAMPING {
+        if !search.step() && !search.shorten() {
             break;
         }
     }
 
-    let could = surface.along(&missing).norm();
+    let could = search.could_move();
+    let SurfaceSearch { mut here, missing, iterations, .. } = search;
     if could > NEAR * size {
         let p = here.pose.position_w;
         let (residual, limit) = (could / size, NEAR);
@@ -194,6 +157,98 @@ pub fn nearest_equilibrium(
 
     here.iterations = iterations;
     Ok(NearestEquilibrium { equilibrium: here, distance: missing.norm() })
+}
+
+/// Search for the nearest pose: steps along the surface of the poses that the cables can hold.
+struct SurfaceSearch<'a> {
+    robot: &'a Robot,
+    requested: &'a Pose,
+    model: StaticModel,
+    coordinates: Coordinates,
+    /// Reference for distances: size of the platform plus the longest cable [m].
+    size: f64,
+    /// Last equilibrium, with its lengths [m].
+    here: Equilibrium,
+    lengths: Vec<f64>,
+    surface: Surface,
+    /// Scaled motion from there to the requested pose.
+    missing: Vec6,
+    /// Curvature of the surface, learnt from the steps.
+    bend: Mat6,
+    /// Damping that shortens steps; zero while they succeed.
+    damping: f64,
+    /// Iterations of forward statics so far.
+    iterations: usize,
+}
+
+impl<'a> SurfaceSearch<'a> {
+    fn new(robot: &'a Robot, requested: &'a Pose, model: StaticModel) -> Result<Self, StaticsError> {
+        let coordinates = Coordinates::of(robot);
+        let lengths = first_lengths(robot, requested, model)?;
+        let here = forward(robot, &lengths, model, Some(requested))?;
+        let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
+        let surface = Surface::at(robot, &here);
+        let missing = gap(robot, &here.pose, requested);
+        let iterations = here.iterations;
+        let (bend, damping) = (Mat6::identity(), 0.0);
+        Ok(Self {
+            robot,
+            requested,
+            model,
+            coordinates,
+            size,
+            here,
+            lengths,
+            surface,
+            missing,
+            bend,
+            damping,
+            iterations,
+        })
+    }
+
+    /// Part of the missing motion that the surface allows; zero at the nearest pose [m].
+    fn could_move(&self) -> f64 {
+        self.surface.along(&self.missing).norm()
+    }
+
+    /// Steps along the surface and back to it. True if the step is a gain and was taken.
+    fn step(&mut self) -> bool {
+        let could = self.surface.along(&self.missing);
+        let (motion, by_length) = self.surface.step(&self.missing, &self.bend, self.damping);
+        let lengths = self.lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(MIN_SHORTENED * l));
+        let lengths: Vec<f64> = lengths.collect();
+        let start = self.coordinates.moved(&self.here.pose, &motion);
+        let Ok(next) = forward(self.robot, &lengths, self.model, Some(&start)) else { return false };
+
+        self.iterations += next.iterations;
+        let missing = gap(self.robot, &next.pose, self.requested);
+        let surface = Surface::at(self.robot, &next);
+        let next_could = surface.along(&missing);
+
+        // Near the end the distance drowns in rounding; then the direction decides.
+        let nearer = missing.norm() < self.missing.norm();
+        let straighter =
+            could.norm() < NEARLY_SQUARE * self.missing.norm() && next_could.norm() < STRAIGHTER * could.norm();
+        if !nearer && !straighter {
+            return false;
+        }
+
+        let moved = gap(self.robot, &self.here.pose, &next.pose);
+        update(&mut self.bend, &surface.along(&moved), &(could - next_could));
+        (self.here, self.lengths, self.missing, self.surface) = (next, lengths, missing, surface);
+        self.damping = if self.damping < NO_DAMPING { 0.0 } else { self.damping * (1.0 / DAMPING_FACTOR) };
+        true
+    }
+
+    /// Makes the next step shorter; false if it is short enough to give up. The learnt curvature may be wrong.
+    fn shorten(&mut self) -> bool {
+        if self.damping == 0.0 {
+            self.bend = Mat6::identity();
+        }
+        self.damping = (DAMPING_FACTOR * self.damping).max(FIRST_DAMPING);
+        self.damping <= MAX_DAMPING
+    }
 }
 
 /// Lengths of cables whose tensions balance the platform's load as well as straight cables can, none below its minimum.
@@ -225,7 +280,7 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         let chord = chord_w.norm();
         // Limit the slackness, so that the length is not all sag.
         let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * cable.load.size * chord);
-        cable.hang_with_tension(pose, balanced[i].max(least)).catenary.rope().unstrained_length
+        cable.length_with_tension(pose, balanced[i].max(least))
     });
     Ok(lengths.collect())
 }
@@ -258,8 +313,8 @@ impl Surface {
         let mut equations = DMat::zeros(n + m, n + m);
         equations.view_mut((0, 0), (n, n)).copy_from(&stiffness.view((0, 0), (n, n)));
         for (i, cable) in equilibrium.cables.iter().enumerate() {
-            let hanging = cable.hanging.as_ref().expect("an elastic cable hangs");
-            let column = coordinates.reduce_force(&hanging.force_by_length_w(), &cable.lever_w);
+            let by_length = cable.force_by_length_w().expect("an elastic cable hangs");
+            let column = coordinates.reduce_force(&by_length, &cable.lever_w);
             equations.view_mut((0, n + i), (n, 1)).copy_from(&-column.rows(0, n));
         }
 

@@ -17,7 +17,7 @@ pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -
     check_lengths(robot, lengths)?;
     let forces = lengths.iter().enumerate().map(|(i, &length)| {
         let cable = LoadedCable::at(robot, i, pose, model).hang(pose, length);
-        (cable.force_on_start_w(), cable.start_w - pose.position_w)
+        (cable.force_w(), cable.span.start_w - pose.position_w)
     });
     Ok(balance(robot, pose, forces).0)
 }

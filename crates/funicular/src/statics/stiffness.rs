@@ -37,6 +37,26 @@ pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item =
     total
 }
 
+impl Stability {
+    /// True if every small displacement meets resistance; `None` for ideal cables, which are rigid, so that stability
+    /// has no meaning for them.
+    pub fn is_stable(&self) -> Option<bool> {
+        match self {
+            Self::Stable { .. } => Some(true),
+            Self::Unstable { .. } => Some(false),
+            Self::Rigid => None,
+        }
+    }
+
+    /// Minimum eigenvalue of the scaled stiffness [N/m]; `None` for ideal cables.
+    pub fn min_stiffness(&self) -> Option<f64> {
+        match *self {
+            Self::Stable { min_stiffness } | Self::Unstable { min_stiffness, .. } => Some(min_stiffness),
+            Self::Rigid => None,
+        }
+    }
+}
+
 pub(super) fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let coordinates = Coordinates::of(robot);
     let values = symmetric::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());

@@ -7,12 +7,10 @@
 //! balance, which has one or two dimensions for most robots: this takes microseconds, a general solver a tenth of a
 //! millisecond. With many cables it is solved in the space of the cables instead, see [`feasible_set`].
 
-mod active_set;
 mod bounds;
 mod cable_at_pose;
 mod feasible_set;
 mod null_space;
-mod obstacle;
 mod payload;
 mod proof;
 mod search;
@@ -21,21 +19,23 @@ mod stiffest;
 use super::collect::collect;
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
+use super::exit_points;
 use super::ideal;
 use super::model::StaticModel;
+pub(super) use super::obstacle::Obstacle;
+use crate::drive::CableAtRest;
 use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot};
 use cable_at_pose::CableAtPose;
 pub use cable_at_pose::TensionPlace;
-pub(crate) use obstacle::spread;
-pub use obstacle::{Obstacle, OneSidedCause};
 pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 use search::TensionSearch;
 
 /// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
 ///
 /// The rules compare the tension τ of each cable parallel to its chord, (10a), which is between those of its ends. The
-/// limits hold for the complete cable, both ends included.
+/// limits hold for the complete cable, both ends and the drum included. Over a pulley τ is that of the free span, and the
+/// rule compares tensions at the exit points of its result.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum TensionRule {
     /// Lowest tensions: minimum sum of squares of the excess over the minimum, (38).
@@ -96,6 +96,16 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
+    exit_points::equilibrium(robot, pose, model, |held| at_exit_points(held, pose, model, rule))
+}
+
+/// Tensions by [`distribute_tensions`] of cables that end at fixed points.
+fn at_exit_points(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    rule: &TensionRule,
+) -> Result<Equilibrium, StaticsError> {
     let cables = robot.cables.len();
     let mut search = TensionSearch::new(robot, pose, model, cables_at(robot, pose, model, rule)?);
 
@@ -120,7 +130,7 @@ pub fn distribute_tensions(
     }
 
     let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
-    let hanging = held.into_iter().map(|cable| cable.hanging).collect();
+    let hanging = held.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
     Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
 }
 

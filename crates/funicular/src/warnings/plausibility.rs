@@ -31,8 +31,8 @@ pub enum Implausible {
         /// Likely slip.
         slip: String,
     },
-    /// Coordinates of one cable that differ from those of the others by a sign.
-    Sign {
+    /// Observation without a range, such as a coordinate whose sign differs from that of the other cables.
+    Odd {
         /// Observation.
         what: String,
         /// Likely slip.
@@ -43,7 +43,7 @@ pub enum Implausible {
 impl fmt::Display for Implausible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Sign { what, slip } => write!(f, "{what}: {slip}"),
+            Self::Odd { what, slip } => write!(f, "{what}: {slip}"),
             Self::OutOfRange { what, value, unit, usual, slip } => {
                 let with_unit = |value: f64| {
                     let number = number(value);

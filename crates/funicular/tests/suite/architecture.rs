@@ -1,5 +1,7 @@
 //! Rules of ARCHITECTURE.md that the sources can be read for.
 
+mod circles;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -185,4 +187,20 @@ fn the_map_of_architecture_names_what_exists_and_every_room() {
     for (room, _) in direction_table() {
         assert!(map.contains(&format!("{room}.rs")), "{room} is missing on the map of ARCHITECTURE.md");
     }
+}
+
+#[test]
+fn the_row_of_a_cable_model_names_every_file_with_an_arm_for_one() {
+    let text = fs::read_to_string(root().join("../../ARCHITECTURE.md")).unwrap();
+    let row = text.lines().find(|line| line.starts_with("| a cable model |")).unwrap();
+    let src = root().join("src");
+    let mut named = 0;
+    for file in sources(&src) {
+        if code(&file).contains("DynamicCable::") {
+            let path = file.strip_prefix(&src).unwrap().display().to_string();
+            assert!(row.contains(&format!("`{path}`")), "{path} is missing in the row of a cable model");
+            named += 1;
+        }
+    }
+    assert!(named > 5, "{named}");
 }

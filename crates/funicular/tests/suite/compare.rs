@@ -1,8 +1,12 @@
 //! Cable models side by side.
 
 use funicular::cable::CableModel;
+use funicular::cable::catenary_dynamic::CatenaryDynamicError;
+use funicular::catenary::Rope;
+use funicular::catenary::space::HangingCable;
 use funicular::compare::{self, Criterion};
-use funicular::dynamics::Linearisation;
+use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
+use funicular::math::Vec3;
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, StaticModel};
 
@@ -22,4 +26,27 @@ fn the_reference_is_shallow_dynamic_if_catenary_dynamic_cables_need_too_many_unk
     assert_eq!(slack.reference, CableModel::ShallowDynamic);
     let catenary_dynamic = slack.models.iter().find(|m| m.model == CableModel::CatenaryDynamic).unwrap();
     assert!(catenary_dynamic.modes.as_ref().unwrap_err().to_string().contains("unknowns for one cable"));
+}
+
+#[test]
+fn a_cable_without_tension_is_reported_and_not_hidden_behind_another_reference() {
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+    let mut rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+
+    // A loop that hangs straight down: its chord is 1 m high and 1 nm wide, its length 3 m. The horizontal force is
+    // 1e-11 of the weight, and parallel to the chord there still is a tension, so that the shallow-dynamic model exists.
+    let rope = Rope { unstrained_length: 3.0, ..rest.cables[0].hanging.as_ref().unwrap().catenary.rope() };
+    let start_w = rest.cables[0].attachment_w;
+    let end_w = start_w + Vec3::new(1e-9, 0.0, 1.0);
+    rest.cables[0].anchor_w = end_w;
+    rest.cables[0].hanging = Some(HangingCable::new(start_w, end_w, Vec3::z(), rope).unwrap());
+    let linearised = |cable_model| {
+        Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Linearisation::default() }, 1.0).map(|_| ())
+    };
+    assert_eq!(linearised(CableModel::ShallowDynamic), Ok(()));
+
+    let refused = compare::compare(&robot, &rest, 1.0, Linearisation::default(), Criterion::default()).unwrap_err();
+    let reason = CatenaryDynamicError::NoTension;
+    assert_eq!(refused, DynamicsError::CatenaryDynamic { cable: robot.cables[0].name.clone(), reason });
+    assert_eq!(linearised(CableModel::CatenaryDynamic), Err(refused));
 }

@@ -10,6 +10,7 @@ mod catenary;
 mod compare;
 mod control_model;
 mod derivatives;
+mod drive;
 mod dynamics;
 mod library;
 mod modes;

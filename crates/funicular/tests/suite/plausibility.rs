@@ -149,7 +149,11 @@ fn slips_of_units_and_signs_are_named() {
     slip("E in GPa", times("youngs_modulus_pa", 1e-9), &["Young's modulus", "GPa given as Pa", "strain of cable"]);
     slip("E in MPa", times("youngs_modulus_pa", 1e-6), &["MPa (N/mm²) given as Pa"]);
     slip("E in kPa", times("youngs_modulus_pa", 1e-3), &["kPa given as Pa"]);
-    slip("E of the metal with the full circle", circle("0.006"), &["full circle", "Give `area_m2`"]);
+    slip(
+        "E of the metal with the full circle",
+        circle("0.006"),
+        &["full circle", "Give the area of the metal as `area_m2`"],
+    );
     slip("diameter in mm", circle("6.0"), &["axial stiffness", "check the units"]);
     slip("diameter in cm", circle("0.6"), &["diameter in cm given as m"]);
     slip("radius for diameter", circle("0.003"), &["radius given as diameter"]);
@@ -206,7 +210,7 @@ fn slips_of_units_and_signs_are_named() {
     );
     slip("all in cm", scaled(&scaled(&anchors(1e2), "attachment_m", 1e2), "position_m", 1e2), &["mm or cm"]);
     slip("ends swapped", swapped(&hall), &["swapped", "no cable pulls against the load"]);
-    slip("position in mm", times("position_m", 1e3), &["position in mm given as m"]);
+    slip("position in mm", times("position_m", 1e3), &["position in mm or cm given as m"]);
     slip(
         "yaw in rad",
         changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, 0.0, 0.5236]")]),
@@ -257,7 +261,7 @@ fn slips_of_units_and_signs_are_named() {
                 ("force_n = [0.0, 0.0, -100.0]", "force_n = [0.0, 0.0, 0.0]"),
             ],
         ),
-        &["no cable can", "pull the platform along"],
+        &["perpendicular to z", "gravity along -z meant?", "no cable can", "pull the platform along"],
     );
     slip("force up", changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, 1000.0]")]), &["the load lifts the platform"]);
     slip("force in mN", times("force_n", 1e3), &["force in mN"]);
@@ -269,6 +273,170 @@ fn slips_of_units_and_signs_are_named() {
 
     assert!(misses.is_empty(), "{}", misses.join("\n"));
     assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "", "the robot itself is plausible");
+}
+
+/// Slips at one cable, values in another frame, weights counted twice, and other slips of one key.
+#[test]
+#[expect(clippy::too_many_lines, reason = "one list of slips")]
+fn slips_of_single_values_are_named() {
+    let hall = hall();
+    let mut misses = Vec::new();
+    let mut slip = |slip: &str, text: String, expected: &[&str]| check(slip, &text, expected, &mut misses);
+
+    // Ropes.
+    let circle = |modulus: &str| {
+        changed(
+            &hall,
+            &[(
+                "youngs_modulus_pa = 100e9\narea_m2 = 14e-6",
+                &format!("youngs_modulus_pa = {modulus}\narea_m2 = 28.27e-6"),
+            )],
+        )
+    };
+    slip(
+        "area of the full circle with E of the metal",
+        circle("100e9"),
+        &["full circle of `area_m2`", "Give the area"],
+    );
+    slip(
+        "mass of the complete cable",
+        scaled(&hall, "mass_kg_per_m", 12.0),
+        &["density", "mass of the complete cable given per metre"],
+    );
+    let load = |load: &str| {
+        changed(&hall, &[("damping_ratio = 0.003", &format!("damping_ratio = 0.003\nload_n_per_m = {load}"))])
+    };
+    slip("rope's weight twice", load("[0.0, 0.0, -1.2753]"), &["weight of the rope: weight counted twice"]);
+    slip("ice upwards", load("[0.0, 0.0, 4.0]"), &["upward load", "wrong sign of `load_n_per_m`"]);
+
+    // One cable.
+    let (anchor, attachment) = ("anchor_m = [10.0, 6.0, 8.0]", "attachment_m = [0.5, -0.4, -0.25]");
+    slip(
+        "ends of one cable swapped",
+        changed(
+            &hall,
+            &[(&format!("{anchor}\n{attachment}"), "anchor_m = [0.5, -0.4, -0.25]\nattachment_m = [10.0, 6.0, 8.0]")],
+        ),
+        &["the attachment of cable \"1\" is among the anchors", "of this cable swapped"],
+    );
+    slip(
+        "one attachment in mm",
+        changed(&hall, &[(attachment, "attachment_m = [500.0, -400.0, -250.0]")]),
+        &["attachment of cable \"1\"", "`attachment_m` of this cable in mm"],
+    );
+    slip(
+        "one anchor in mm",
+        changed(&hall, &[(anchor, "anchor_m = [10000.0, 6000.0, 8000.0]")]),
+        &["anchor of cable \"1\"", "`anchor_m` of this cable in mm"],
+    );
+    slip(
+        "a copied cable",
+        changed(
+            &hall,
+            &[("anchor_m = [-10.0, 6.0, 8.0]\nattachment_m = [-0.5, -0.4, -0.25]", &format!("{anchor}\n{attachment}"))],
+        ),
+        &["cables \"1\" and \"3\" have the same `anchor_m` and the same `attachment_m`", "copied cable"],
+    );
+
+    // Another frame or another point.
+    let mut in_world = hall.clone();
+    for (x, y) in [("0.5", "0.4"), ("0.5", "-0.4"), ("-0.5", "0.4"), ("-0.5", "-0.4")] {
+        for (z, there) in [("-0.25", "2.75"), ("0.25", "3.25")] {
+            in_world = in_world
+                .replace(&format!("attachment_m = [{x}, {y}, {z}]"), &format!("attachment_m = [{x}, {y}, {there}]"));
+        }
+    }
+    slip("attachments in the world frame", in_world, &["position of the platform in the world", "in the world frame?"]);
+    let higher = changed(&hall, &[("position_m = [0.0, 0.0, 3.0]", "position_m = [8.0, 3.0, 5.0]")]);
+    slip(
+        "centre of mass in the world frame",
+        changed(&higher, &[("[0.0, 0.0, 0.02]", "[8.0, 3.0, 5.02]")]),
+        &["`center_of_mass_m` given in the world frame?"],
+    );
+    slip(
+        "inertia about the origin of the world",
+        changed(&hall, &[("[4.45, 6.25, 8.2]", "[544.45, 546.25, 8.2]")]),
+        &["inertia about the origin of the world"],
+    );
+    slip("inertia in g cm²", scaled(&hall, "inertia_kg_m2", 1e7), &["inertia in g cm²"]);
+    slip("inertia over mass", scaled(&hall, "inertia_kg_m2", 1.0 / 60.0), &["inertia divided by the mass"]);
+    let damped = |key: &str, value: &str| {
+        changed(&hall, &[("drag_area_m2 = 0.5", &format!("drag_area_m2 = 0.5\n{key} = [{value}, {value}, {value}]"))])
+    };
+    slip(
+        "damping ratio in N s/m",
+        damped("translational_damping_n_s_m", "0.003"),
+        &["`translational_damping_n_s_m`", "a damping ratio given as damping?"],
+    );
+    slip(
+        "stiffness as damping",
+        damped("rotational_damping_n_m_s", "5000.0"),
+        &["`rotational_damping_n_m_s`", "a stiffness", "given as damping?"],
+    );
+
+    // Loads.
+    slip(
+        "weight twice",
+        changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, -588.4]")]),
+        &["weight of the platform: weight counted twice"],
+    );
+    slip("moment in N mm", scaled(&hall, "moment_n_m", 5e3), &["moment in N mm"]);
+
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+
+    // Values near these slips that are right.
+    for (what, text) in [
+        ("modulus and area of the full circle", circle("50e9")),
+        ("ice", load("[0.0, 0.0, -4.0]")),
+        ("a rope that floats", load("[0.0, 0.0, 0.2]")),
+        ("damping of guides", damped("translational_damping_n_s_m", "30.0")),
+        ("payload", changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, -500.0]")])),
+    ] {
+        assert_eq!(said(&Robot::from_toml(&text).unwrap()), "", "{what}");
+    }
+}
+
+/// At a pose that straight cables cannot hold, cables of 17 times the distance of their ends balance the platform.
+#[test]
+fn cables_that_balance_only_far_below_their_ends_are_named() {
+    let text = r#"
+name = "camera on three pairs of cables"
+
+[platform]
+mass_kg = 45.0
+inertia_kg_m2 = [2.1, 2.3, 1.6]
+center_of_mass_m = [0.0, 0.0, -0.25]
+
+[materials.hmpe]
+axial_stiffness_n = 0.9e6
+mass_kg_per_m = 0.021
+
+[state]
+position_m = [0.0, 5.0, 12.0]
+"#;
+    let vertices = |y: f64, front: f64| [[-0.6, y], [0.0, front], [0.0, front], [0.6, y], [0.6, y], [-0.6, y]];
+    let masts = [[-45.0, 30.0], [-45.0, 30.0], [45.0, 30.0], [45.0, 30.0], [0.0, -35.0], [0.0, -35.0]];
+    let file = |vertices: [[f64; 2]; 6]| {
+        let cables = masts.iter().zip(vertices).enumerate().map(|(i, ([x, y], [u, v]))| {
+            format!(
+                "\n[[cables]]\nname = \"{i}\"\nmaterial = \"hmpe\"\nanchor_m = [{x:.1}, {y:.1}, 28.0]\n\
+                 attachment_m = [{u:.2}, {v:.2}, 0.3]\n"
+            )
+        });
+        format!("{text}{}", cables.collect::<String>())
+    };
+
+    // The centre of mass lies outside the triangle of the attachments, then inside.
+    let hanging = said(&Robot::from_toml(&file(vertices(0.15, 0.5))).unwrap());
+    assert!(hanging.contains("over the distance of its ends is 17"), "{hanging}");
+    assert!(hanging.contains("straight it would be slack or have to push"), "{hanging}");
+    assert_eq!(said(&Robot::from_toml(&file(vertices(-0.35, 0.7))).unwrap()), "");
+
+    // One length in feet.
+    let feet =
+        changed(funicular_robots::YUAN2014_4MM, &[("unstrained_length_m = 6.863", "unstrained_length_m = 22.516")]);
+    let said = said(&Robot::from_toml(&feet).unwrap());
+    assert!(said.contains("unstrained length of cable \"1\"") && said.contains("too long"), "{said}");
 }
 
 #[test]

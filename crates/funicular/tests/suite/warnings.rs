@@ -2,7 +2,9 @@
 
 use crate::library::at_rest;
 use funicular::cable::{CableModel, EndStiffness};
+use funicular::math::Vec3;
 use funicular::robot::Robot;
+use funicular::statics::StaticModel;
 use funicular::warnings::{self, Warning};
 use std::f64::consts::TAU;
 
@@ -31,4 +33,40 @@ fn cables_are_warned_about_outside_the_models_range() {
     assert!(warnings::of_dynamics(&robot, &rest, CableModel::CatenaryStatic, 20.0).is_empty());
     let axial = warnings::of_dynamics(&robot, &rest, CableModel::Spring, 60.0);
     assert!(matches!(&axial[..], [Warning::AxialWaves { .. }]), "{axial:?}");
+}
+
+#[test]
+fn warnings_about_one_cable_are_those_of_the_robot_that_name_it() {
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_8MM).unwrap();
+    for (model, below_hz) in [(CableModel::ShallowDynamic, 20.0), (CableModel::Spring, 60.0)] {
+        let rest = at_rest(&robot);
+        let of_robot = warnings::of_dynamics(&robot, &rest, model, below_hz);
+        let of_cables: Vec<Vec<Warning>> =
+            (0..robot.cables.len()).map(|i| warnings::of_cable(&robot, &rest, i, model, below_hz)).collect();
+        assert!(!of_robot.is_empty());
+        for warning in &of_robot {
+            match warning {
+                Warning::DeepSag { cables, .. } => {
+                    let single = of_cables.iter().flatten().filter_map(|warning| match warning {
+                        Warning::DeepSag { cables, .. } => Some(cables.clone()),
+                        _ => None,
+                    });
+                    assert_eq!(&single.flatten().collect::<Vec<_>>(), cables);
+                }
+                Warning::AxialWaves { .. } => assert!(of_cables.iter().flatten().any(|single| single == warning)),
+                other => panic!("{other}"),
+            }
+        }
+    }
+
+    // A cable without force. The remedy, its own weight, is one that ideal cables do not have.
+    for (model, warned) in [(StaticModel::Spring, true), (StaticModel::Ideal, false)] {
+        let mut rest = at_rest(&robot);
+        rest.model = model;
+        (rest.cables[2].hanging, rest.cables[2].tension_platform, rest.cables[2].tension_anchor) = (None, 0.0, 0.0);
+        rest.cables[2].force_on_platform_w = Vec3::zeros();
+        let slack = Warning::Slack { cable: robot.cables[2].name.clone() };
+        assert_eq!(warnings::of_cable(&robot, &rest, 2, CableModel::Spring, 1.0).contains(&slack), warned, "{model:?}");
+        assert_eq!(warnings::of_statics(&robot, &rest).contains(&slack), warned, "{model:?}");
+    }
 }

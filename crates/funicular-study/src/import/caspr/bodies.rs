@@ -1,8 +1,9 @@
 //! CASPR's file of bodies: one link with its joint, inertia and pose.
 
 use crate::import::draft::{DraftMotion, rotation_xyz};
-use crate::import::text::{self, clean};
+use crate::import::text;
 use crate::import::xml::{Xml, children, tag};
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Rotation, Vec3};
 use funicular::robot::Pose;

@@ -1,8 +1,8 @@
 //! CASPR's file of cables, of which one set is read.
 
-use crate::import::draft::{DraftCable, DraftRope, listed};
-use crate::import::text::clean;
+use crate::import::draft::{DraftCable, DraftPulley, DraftRope, listed};
 use crate::import::xml::{Xml, children, tag};
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
 use funicular::suggest::nearest;
@@ -142,9 +142,9 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, losses: &mut Caspr
         }
         rope.axial_stiffness = Some(value);
     }
-    let [anchor_w, attachment_p] = ends(xml, xml.required(node, "attachments")?, &name, losses)?;
+    let Ends { anchor_w, pulley, attachment_p } = ends(xml, xml.required(node, "attachments")?, &name, losses)?;
     let attachment_p = if from_center { attachment_p + center_of_mass_p } else { attachment_p };
-    Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None })
+    Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None, pulley })
 }
 
 /// Tension limit; an infinite one counts as none.
@@ -154,8 +154,18 @@ fn limit(xml: &Xml, properties: Node, name: &str) -> Result<Option<f64>> {
     if infinite { Ok(None) } else { xml.number(node).map(Some) }
 }
 
-/// Anchor of a cable in world axes, and its attachment in platform axes.
-fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> Result<[Vec3; 2]> {
+/// Ends of a cable.
+struct Ends {
+    /// Anchor, world frame.
+    anchor_w: Vec3,
+    /// Pulley at the anchor.
+    pulley: Option<DraftPulley>,
+    /// Attachment, platform frame.
+    attachment_p: Vec3,
+}
+
+/// Anchor of a cable in world axes with its pulley, and its attachment in platform axes.
+fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> Result<Ends> {
     let points: Vec<Node> = attachments.children().filter(Node::is_element).collect();
     let [first, second] = points[..] else {
         let count = points.len();
@@ -169,6 +179,7 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> 
     };
     let mut base = None;
     let mut platform = None;
+    let mut pulley = None;
     for node in [first, second] {
         let (is_platform, point) = match tag(node) {
             "attachment" => {
@@ -186,7 +197,14 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> 
                 };
                 (is_platform, xml.child_vector(node, "location")?)
             }
-            "base_rotating_pulley" => (false, losses.pulley(xml, node, cable, "fixed_location")?),
+            "base_rotating_pulley" => {
+                pulley = rotating_pulley(xml, node)?;
+                let point = match pulley {
+                    Some(_) => xml.child_vector(node, "fixed_location")?,
+                    None => losses.pulley(xml, node, cable, "fixed_location")?,
+                };
+                (false, point)
+            }
             "screw_base_rotating_pulley" => (false, losses.pulley(xml, node, cable, "constant_winch_point")?),
             other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is an unknown kind of attachment"))),
         };
@@ -204,11 +222,28 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> 
     let (Some(anchor_w), Some(attachment_p)) = (base, platform) else {
         bail!(xml.error(attachments, format!("cable \"{cable}\" does not run from the base to the platform")));
     };
-    Ok([anchor_w, attachment_p])
+    Ok(Ends { anchor_w, pulley, attachment_p })
+}
+
+/// Swivelling pulley at the base; `None` without a radius, or without the vector along which the cable enters.
+fn rotating_pulley(xml: &Xml, node: Node) -> Result<Option<DraftPulley>> {
+    let (Some(radius), Some(_)) = (xml.optional(node, "pulley_radius")?, xml.optional(node, "cable_entry_vector")?)
+    else {
+        return Ok(None);
+    };
+    let value = xml.number(radius)?;
+    let entry_direction_w = xml.child_vector(node, "cable_entry_vector")?;
+    if value <= 0.0 {
+        bail!(xml.error(radius, format!("<pulley_radius> is {value} m, it must be positive")));
+    }
+    if entry_direction_w == Vec3::zeros() {
+        bail!(xml.error(node, "<cable_entry_vector> has no length".to_owned()));
+    }
+    Ok(Some(DraftPulley { radius: value, entry_direction_w }))
 }
 
 /// Data of the cables that are not read, collected so that each kind is reported once. Only the fixed point of a pulley
-/// is read.
+/// with a screw is read.
 #[derive(Default)]
 struct CasprLosses {
     /// Names of cables that run over pulleys.
@@ -250,7 +285,7 @@ impl CasprLosses {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::import::text::SourceFile;
+    use crate::request::SourceFile;
 
     #[test]
     fn an_infinite_limit_counts_as_none() {

@@ -1,7 +1,7 @@
 //! Text of the robot file of a draft.
 
-use super::{Draft, DraftCable, DraftMotion, DraftRope, DraftState};
-use crate::import::text::clean;
+use super::{Draft, DraftCable, DraftMotion, DraftPulley, DraftRope, DraftState};
+use crate::text::clean;
 use anyhow::{Result, anyhow};
 use funicular::math::{Mat3, Vec3, rotation};
 use funicular::robot::Robot;
@@ -88,9 +88,15 @@ impl Draft {
                 line(format!("breaking_load_n = {}", float(load)));
             }
         }
+        let pulleys = self.pulleys();
+        for (name, pulley) in &pulleys {
+            line(format!("\n[pulleys.{name}]\nradius_m = {}", float(pulley.radius)));
+            line(format!("entry_direction = {}", vector(&pulley.entry_direction_w)));
+        }
         for cable in &self.cables {
             let material = ropes.iter().find(|(_, rope)| same(rope, &cable.rope)).map_or("", |(name, _)| name);
-            line(self.cable(cable, material));
+            let pulley = cable.pulley.and_then(|own| pulleys.iter().find(|(_, pulley)| *pulley == own));
+            line(self.cable(cable, material, pulley.map(|(name, _)| name)));
         }
         if let DraftState::Pose(pose) = &self.state {
             line("\n[state]".to_owned());
@@ -102,7 +108,19 @@ impl Draft {
         }
     }
 
-    fn cable(&self, cable: &DraftCable, material: &str) -> String {
+    /// Distinct pulleys, each with a name.
+    fn pulleys(&self) -> Vec<(String, DraftPulley)> {
+        let mut pulleys: Vec<(String, DraftPulley)> = Vec::new();
+        for pulley in self.cables.iter().filter_map(|cable| cable.pulley) {
+            if pulleys.iter().all(|(_, known)| *known != pulley) {
+                let number = pulleys.len() + 1;
+                pulleys.push((if number == 1 { "wheel".to_owned() } else { format!("wheel-{number}") }, pulley));
+            }
+        }
+        pulleys
+    }
+
+    fn cable(&self, cable: &DraftCable, material: &str, pulley: Option<&String>) -> String {
         let mut text = format!(
             "\n[[cables]]\nname = {}\nmaterial = {}\nanchor_m = {}",
             quoted(&cable.name),
@@ -112,6 +130,9 @@ impl Draft {
         let mut line = |key: &str, value: String| {
             let _ = write!(text, "\n{key} = {value}");
         };
+        if let Some(pulley) = pulley {
+            line("pulley", quoted(pulley));
+        }
         if self.platform.motion != DraftMotion::PointMass {
             line("attachment_m", vector(&cable.attachment_p));
         }

@@ -1,7 +1,9 @@
 //! Bodies, points, lines and line types of a MoorDyn input file.
 
 use super::sections::{self, SectionKind, SourceRow};
-use crate::import::text::{self, SourceFile, clean};
+use crate::import::text;
+use crate::request::SourceFile;
+use crate::text::clean;
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 

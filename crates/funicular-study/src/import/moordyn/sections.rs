@@ -1,7 +1,8 @@
 //! Sections of a MoorDyn input file and the rows of their tables.
 
 use super::SourceFile;
-use crate::import::text::{self, clean};
+use crate::import::text;
+use crate::text::clean;
 use anyhow::{Result, bail};
 
 /// SectionKind of a section.

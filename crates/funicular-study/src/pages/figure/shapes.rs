@@ -4,9 +4,9 @@
 //! are integer multiples of a scale, with one scale per mode. Along a cable they are stored as second differences:
 //! small numbers, which pack to half the size. The script of the view (`templates/shapes.js`) reads this format.
 
-use super::hull::faces;
-use super::robot::{EYE, extent, joined, ranges, sides};
 use super::rounded;
+use crate::figures::hull::faces;
+use crate::figures::view::{EYE, extent, joined, ranges, sides};
 use crate::pages::packed;
 use crate::pages::table::{fixed, significant};
 use askama::Template;
@@ -200,7 +200,7 @@ fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
         .map(|(i, state)| {
             let chord_w = state.anchor_w - state.attachment_w;
             let at = |k: usize| match &state.hanging {
-                Some(hanging) => hanging.point_w(part(k) * state.unstrained_length),
+                Some(hanging) => hanging.point_w(part(k) * state.free_length()),
                 None => state.attachment_w + chord_w * part(k),
             };
             let rest: Vec<Vec3> = (0..=AT_REST).map(at).collect();

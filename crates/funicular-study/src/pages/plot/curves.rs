@@ -7,7 +7,7 @@ use crate::sweep::CODES;
 use serde_json::{Value, json};
 
 /// Horizontal axis of the figures.
-pub(super) struct Along {
+pub(super) struct HorizontalAxis {
     pub(super) title: String,
     pub(super) x: Vec<f64>,
     /// Short name in front of the value in tooltips.
@@ -98,10 +98,10 @@ pub(super) fn family(series: &Series) -> String {
 
 /// Horizontal axis of the rows: the value that varies. For a list of poses it is the length of the path, or the number
 /// of the row if all positions are equal.
-pub(super) fn along(rows: &Rows) -> Along {
+pub(super) fn along(rows: &Rows) -> HorizontalAxis {
     if let [axis] = &rows.axes[..] {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
-        return Along { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
+        return HorizontalAxis { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
     }
     let positions: Vec<&Vec<f64>> = rows
         .coordinates
@@ -118,15 +118,15 @@ pub(super) fn along(rows: &Rows) -> Along {
         })
         .collect();
     if rows.is_list && length > 0.0 {
-        Along { title: "length of the path [m]".to_owned(), x: path, short: "path".to_owned() }
+        HorizontalAxis { title: "length of the path [m]".to_owned(), x: path, short: "path".to_owned() }
     } else {
         let x = rows.places.iter().map(|place| *place as f64 + 1.0).collect();
-        Along { title: "row".to_owned(), x, short: "row".to_owned() }
+        HorizontalAxis { title: "row".to_owned(), x, short: "row".to_owned() }
     }
 }
 
 /// Ranges of infeasible rows, from half way to the row before to half way to the row after.
-pub(super) fn infeasible_ranges(rows: &Rows, along: &Along) -> Vec<(f64, f64)> {
+pub(super) fn infeasible_ranges(rows: &Rows, along: &HorizontalAxis) -> Vec<(f64, f64)> {
     let infeasible =
         |i: usize| CODES.get(usize::from(rows.status[i])).is_some_and(|code| code.1.starts_with("infeasible"));
     let x = &along.x;
@@ -150,7 +150,7 @@ pub(super) fn infeasible_ranges(rows: &Rows, along: &Along) -> Vec<(f64, f64)> {
 }
 
 /// Grey bands at infeasible rows.
-fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
+fn bands(rows: &Rows, along: &HorizontalAxis) -> Vec<Value> {
     let band = |(from, to): (f64, f64)| {
         json!({
             "type": "rect", "x0": from, "x1": to, "yref": "paper", "y0": 0, "y1": 1, "layer": "below",
@@ -160,7 +160,7 @@ fn bands(rows: &Rows, along: &Along) -> Vec<Value> {
     infeasible_ranges(rows, along).into_iter().map(band).collect()
 }
 
-fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
+fn layout(rows: &Rows, along: &HorizontalAxis, y: &str, more: Value) -> Value {
     let ends = [
         along.x.iter().copied().fold(f64::INFINITY, f64::min),
         along.x.iter().copied().fold(f64::NEG_INFINITY, f64::max),
@@ -175,12 +175,12 @@ fn layout(rows: &Rows, along: &Along, y: &str, more: Value) -> Value {
     with(base, more)
 }
 
-fn shading(rows: &Rows, along: &Along) -> &'static str {
+fn shading(rows: &Rows, along: &HorizontalAxis) -> &'static str {
     if bands(rows, along).is_empty() { "" } else { " Grey: infeasible." }
 }
 
 /// Markers for single values between two missing ones, where a line has no length.
-fn alone(along: &Along, series: &Series, colour: &str) -> Value {
+fn alone(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
     let there = |i: Option<usize>| i.and_then(|i| series.values.get(i)).is_some_and(|value| value.is_finite());
     let alone = (0..series.values.len()).filter(|&i| there(Some(i)) && !there(i.checked_sub(1)) && !there(Some(i + 1)));
     let (x, y): (Vec<f64>, Vec<f64>) = alone.map(|i| (along.x[i], series.values[i])).unzip();
@@ -191,7 +191,7 @@ fn alone(along: &Along, series: &Series, colour: &str) -> Value {
 }
 
 /// Lines through the values, with gaps where values are missing.
-fn curves(id: String, rows: &Rows, along: &Along, members: &[&Series]) -> Figure {
+fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) -> Figure {
     let few = along.x.len() <= 60;
     let data: Vec<Value> = members
         .iter()
@@ -266,7 +266,7 @@ fn capitalised(text: &str) -> String {
 }
 
 /// Figure of the natural frequencies: one line per branch of modes, coloured by the platform's share of the energy.
-fn campbell(rows: &Rows, along: &Along, tracking: &Tracking) -> Figure {
+fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> Figure {
     let count = frequencies(rows).len();
     let branches = tracking.branches.iter().flatten().max().map_or(0, |last| last + 1);
     let mut data = Vec::new();

@@ -37,7 +37,7 @@ pub fn figure(file: &dyn SweepRows, place: &str, choice: &Choice) -> Result<Made
     refuse_no_rows(file, place)?;
     let rows = Rows::read(file)?;
     let name = robot_name(&file.record().plan);
-    let wanted = choice.quantity.as_ref().map(|text| Wanted::of(text, file));
+    let wanted = choice.quantity.as_ref().map(|text| ChosenColumns::of(text, file));
     if rows.axes.len() >= 2 {
         slice(&rows, &name, wanted.as_ref(), choice)
     } else {
@@ -46,13 +46,13 @@ pub fn figure(file: &dyn SweepRows, place: &str, choice: &Choice) -> Result<Made
 }
 
 /// Columns that a choice of a quantity means.
-struct Wanted {
+struct ChosenColumns {
     /// Text of the choice.
     text: String,
     columns: Vec<String>,
 }
 
-impl Wanted {
+impl ChosenColumns {
     /// Columns of a quantity such as `tension-max`, or the column with this name.
     fn of(text: &str, file: &dyn SweepRows) -> Self {
         let quantity = text.trim().parse::<Quantity>().ok().zip(Robot::from_toml(&file.record().robot_file).ok());
@@ -65,7 +65,7 @@ impl Wanted {
 }
 
 /// Series of the chosen quantity, out of groups that share a figure.
-fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&Wanted>) -> Result<Vec<&'a Series>> {
+fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&ChosenColumns>) -> Result<Vec<&'a Series>> {
     let names = |groups: &[Vec<&Series>]| -> String {
         groups.iter().map(|group| group[0].name.as_str()).collect::<Vec<_>>().join(", ")
     };
@@ -96,7 +96,7 @@ fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&Wanted>) -> Result<Vec
 }
 
 /// Curves of one group of quantities.
-fn lines(rows: &Rows, name: &str, wanted: Option<&Wanted>, choice: &Choice) -> Result<Made> {
+fn lines(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choice) -> Result<Made> {
     if choice.plane.is_some() || !choice.at.is_empty() {
         bail!("these rows have one axis: ⟪plane⟫ and ⟪at⟫ choose a slice of a grid with two or more");
     }
@@ -164,14 +164,20 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Slice of a grid.
-fn slice(rows: &Rows, name: &str, wanted: Option<&Wanted>, choice: &Choice) -> Result<Made> {
+fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choice) -> Result<Made> {
     let groups: Vec<Vec<&Series>> =
         rows.series.iter().filter(|series| series.count > 0).map(|series| vec![series]).collect();
     let series = chosen(&groups, wanted)?[0];
     let (h, v) = plane(rows, choice)?;
     let at = places(rows, choice, [h, v])?;
+
+    // A place that the user has given needs no note.
     let mut notes = Vec::new();
-    for (k, axis) in rows.axes.iter().enumerate().filter(|(k, _)| *k != h && *k != v) {
+    let mut given = Vec::new();
+    for (name, _) in &choice.at {
+        given.push(axis_of(rows, "at", name)?);
+    }
+    for (k, axis) in rows.axes.iter().enumerate().filter(|(k, _)| *k != h && *k != v && !given.contains(k)) {
         let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
         notes.push(format!(
             "the slice at {} = {}{unit} is drawn; ⟪at⟫ chooses another",

@@ -364,7 +364,8 @@ fn bin(value: f64, min: f64, max: f64) -> usize {
 
 /// Name of a quantity in a figure: `tension_max_n` becomes "tension max".
 pub(super) fn label(name: &str) -> String {
-    const SUFFIXES: [&str; 9] = ["_n_m_per_rad", "_n_per_m", "_n_per_rad", "_m", "_n", "_hz", "_deg", "_j", "_rad"];
+    const SUFFIXES: [&str; 10] =
+        ["_n_m_per_rad", "_n_per_m", "_n_per_rad", "_m", "_n", "_hz", "_deg", "_j", "_rad", "_kg"];
     let stem = SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix)).unwrap_or(name);
     stem.replace('_', " ")
 }

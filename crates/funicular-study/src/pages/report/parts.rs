@@ -1,7 +1,9 @@
 //! Tables and bar charts of a report.
 
 use super::prose;
-use crate::analyses::modes;
+use crate::analyses::statics::LimitNumbers;
+use crate::analyses::{modes, statics};
+use crate::at_rest::AtRest;
 use crate::pages::figure::{self, Figure, axis, colour, plain, rounded};
 use crate::pages::table::{PageTable, fixed, listed, significant};
 use crate::text::NONE;
@@ -21,41 +23,52 @@ fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
 }
 
 /// Table of lengths, tensions and sag of every cable.
-pub(crate) fn tension_table(robot: &Robot, equilibrium: &Equilibrium) -> PageTable {
-    let mut table = PageTable::new(
-        "table-tensions",
+pub(crate) fn tension_table(at_rest: &AtRest) -> PageTable {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    let limits: Vec<Option<LimitNumbers>> = statics::cable_rows(at_rest).into_iter().map(|row| row.limits).collect();
+    let limited = limits.iter().any(Option::is_some);
+
+    let columns = [
+        "<cable",
+        "<rope",
+        "unstrained length|m",
+        "chord|m",
+        "tension, platform|N",
+        "tension, anchor|N",
+        "sag d/l|–",
+        "λ²|–",
+        "string frequency|Hz",
+        "minimum|N",
+        "maximum|N",
+        "margin|N",
+    ];
+    let caption = format!(
         "Cables at equilibrium. d/l: sag divided by chord; the shallow models hold up to 0.05, tinted rows are beyond. \
          λ²: Irvine's parameter, which compares the stiffness of the sag with that of the rope. String frequency: \
-         √(τ/m)/(2l), the first natural frequency of the taut cable alone.",
-        &[
-            "<cable",
-            "<rope",
-            "unstrained length|m",
-            "chord|m",
-            "tension, platform|N",
-            "tension, anchor|N",
-            "sag d/l|–",
-            "λ²|–",
-            "string frequency|Hz",
-        ],
+         √(τ/m)/(2l), the first natural frequency of the taut cable alone.{}",
+        if limited { " Margin: distance of the tension from its nearest limit; negative beyond it." } else { "" }
     );
+    let mut table = PageTable::new("table-tensions", caption, &columns[..if limited { 12 } else { 9 }]);
     let straight = equilibrium.model != StaticModel::Catenary;
-    for ((cable, state), sag) in robot.cables.iter().zip(&equilibrium.cables).zip(sags(robot, equilibrium)) {
+    let cables = robot.cables.iter().zip(&equilibrium.cables);
+    for (((cable, state), sag), limits) in cables.zip(sags(robot, equilibrium)).zip(&limits) {
         let class = if sag.ratio() > SHALLOW_SAG_LIMIT && !straight { "flag" } else { "" };
-        table.marked_row(
-            class,
-            vec![
-                cable.name.clone(),
-                cable.material.name.clone(),
-                fixed(state.unstrained_length, 4),
-                fixed(state.chord(), 4),
-                fixed(state.tension_platform, 3),
-                fixed(state.tension_anchor, 3),
-                fixed(sag.ratio(), 5),
-                significant(sag.lambda2, 4),
-                significant(sag.string_frequency_hz(), 4),
-            ],
-        );
+        let mut cells = vec![
+            cable.name.clone(),
+            cable.material.name.clone(),
+            fixed(state.unstrained_length, 4),
+            fixed(state.chord(), 4),
+            fixed(state.tension_platform, 3),
+            fixed(state.tension_anchor, 3),
+            fixed(sag.ratio(), 5),
+            significant(sag.lambda2, 4),
+            significant(sag.string_frequency_hz(), 4),
+        ];
+        if let Some(limits) = limits {
+            let maximum = limits.maximum_tension_n.map_or_else(|| NONE.to_owned(), |value| significant(value, 4));
+            cells.extend([significant(limits.minimum_tension_n, 4), maximum, fixed(limits.tension_margin_n, 1)]);
+        }
+        table.marked_row(class, cells);
     }
     table
 }

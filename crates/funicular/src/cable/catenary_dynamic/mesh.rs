@@ -10,6 +10,8 @@ pub(super) struct Mesh<'a> {
     catenary: &'a Catenary,
     mass_per_length: f64,
     elements: Vec<Element>,
+    /// True if the end of the cable can move: its hat function is then an inner one.
+    free_end: bool,
     /// Number of refinements so far.
     pub(super) refined: usize,
 }
@@ -22,15 +24,15 @@ struct Element {
 }
 
 /// Gauss rule (ξ, weight), and the slopes d/dξ of hats and bubbles (rows) at its points (columns).
-pub(super) struct Table {
+pub(super) struct ElementTable {
     rule: Vec<(f64, f64)>,
     slopes: DMat,
 }
 
-impl Table {
+impl ElementTable {
     fn new(degree: usize) -> Self {
-        // A product of two slopes has degree 2p − 2; the additional points are for C.
-        let rule = legendre::gauss(degree + 8);
+        // A product of two slopes has degree 2p − 2.
+        let rule = legendre::gauss(degree + POINTS_FOR_TANGENT);
         let mut slopes = DMat::zeros(degree + 1, rule.len());
         for (mut column, (xi, _)) in slopes.column_iter_mut().zip(&rule) {
             column[0] = -0.5;
@@ -43,18 +45,51 @@ impl Table {
     }
 }
 
+/// Points of the Gauss rule beyond the degree of an element. Products of two slopes of degree p − 1 need p points; the
+/// additional ones are for C, whose coefficients fall by the size of the Bernstein ellipse per degree. The rule is exact
+/// up to twice the points, so that eight of them leave 1.5^-16 = 2e-3 of the highest products only, and those with the
+/// low modes far less.
+const POINTS_FOR_TANGENT: usize = 8;
+
+/// Degree per radian of a wave's phase over an element. A half wave needs π/2 degrees, 0.5 per radian (docs/theory.md,
+/// section 9); the rest is margin, fitted to the estimate of the error.
+const DEGREE_PER_RADIAN: f64 = 0.53;
+
+/// Degrees per cube root of half the phase: width of the transition after which the error of a resolved wave falls
+/// exponentially.
+const DEGREES_OF_TRANSITION: f64 = 2.2;
+
+/// Degrees that every element has besides, and the exponent of the decrease that the coefficients of C get: e^-13, whose
+/// square, 5e-12, is the error of a frequency. Fitted to the estimate of the error; 6 and 14 were the values before.
+const BASE_DEGREE: f64 = 4.0;
+const DECREASE_OF_TANGENT: f64 = 13.0;
+
+/// Maximum degree that is asked for: far above `MAX_UNKNOWNS`, so that the error names the number of unknowns, and a
+/// number that fits `usize`.
+const MAX_DEGREE: f64 = 1e6;
+
+/// Refinement of an element: the inverse fraction of its degree that is added, and the degrees that are added besides.
+/// Eight degrees divide the error of a smooth element by at least 1.5^16 = 660.
+const REFINED_PART: usize = 6;
+const REFINED_DEGREES: usize = 8;
+
+/// Minimum tension of a cable, over its largest: below it the stiffness of a taut string, and with it a vibration, is
+/// rounding of the forces at the ends.
+const MIN_TENSION: f64 = 1e-9;
+
 /// Number of degrees that the matrices of an element have beyond its own. The response of these additional functions
 /// estimates the error of the discretisation.
 const BEYOND: usize = 2;
 
 impl<'a> Mesh<'a> {
     /// Mesh for frequencies up to ω = `limit`, with nodes at the arc lengths `cuts`, where the motion has a kink under
-    /// a force.
+    /// a force. With `free_end` the end of the cable can move.
     pub(super) fn new(
         catenary: &'a Catenary,
         mass_per_length: f64,
         limit: f64,
         cuts: &[f64],
+        free_end: bool,
     ) -> Result<Self, CatenaryDynamicError> {
         let rope = catenary.rope();
         if !has_tension(catenary) {
@@ -86,25 +121,24 @@ impl<'a> Mesh<'a> {
             let mean = (slowness(from) + 4.0 * slowness(center) + slowness(to)) / 6.0;
             let phase = limit * mean * (to - from);
 
-            // A degree of 0.5 per radian resolves a wave; the cube root is the width of the transition to exponential
-            // convergence.
-            let waves = 0.53 * phase + 2.2 * (0.5 * phase).cbrt();
-            let degree = (waves + 4.0 + 13.0 / size.ln()).ceil().min(1e6) as usize;
+            // Degree for the waves, and for the variation of C along the element.
+            let waves = DEGREE_PER_RADIAN * phase + DEGREES_OF_TRANSITION * (0.5 * phase).cbrt();
+            let degree = (waves + BASE_DEGREE + DECREASE_OF_TANGENT / size.ln()).ceil().min(MAX_DEGREE) as usize;
             elements.push(Element { from, to, degree });
         }
-        Ok(Self { catenary, mass_per_length, elements, refined: 0 })
+        Ok(Self { catenary, mass_per_length, elements, free_end, refined: 0 })
     }
 
     pub(super) fn refine(&mut self) {
         self.refined += 1;
         for element in &mut self.elements {
-            element.degree += element.degree / 6 + 8;
+            element.degree += element.degree / REFINED_PART + REFINED_DEGREES;
         }
     }
 
     /// Quadrature and slopes of each element; all components share them.
-    pub(super) fn tables(&self) -> Vec<Table> {
-        self.elements.iter().map(|element| Table::new(element.degree + BEYOND)).collect()
+    pub(super) fn tables(&self) -> Vec<ElementTable> {
+        self.elements.iter().map(|element| ElementTable::new(element.degree + BEYOND)).collect()
     }
 
     /// Polynomial degree of each element.
@@ -114,7 +148,7 @@ impl<'a> Mesh<'a> {
 
     /// Number of inner unknowns in plane.
     pub(super) fn unknowns(&self) -> usize {
-        2 * self.inner_functions()
+        2 * self.inner_functions(self.free_end)
     }
 
     /// C at arc length s [N]: its entries in plane (hh, hv, vv) and the one out of plane.
@@ -131,23 +165,35 @@ impl<'a> Mesh<'a> {
     }
 
     /// Condenses D components per point onto the two ends (N = 2D), whose static stiffness is `still`, and finds the
-    /// displacements of the points at the arc lengths `stations`.
+    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside: it
+    /// moves along a direction, against a stiffness [N/m].
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
-        tables: &[Table],
+        tables: &[ElementTable],
         still: [[f64; N]; N],
+        end: Option<(&[f64; D], f64)>,
         limit: f64,
         stations: &[f64],
     ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
-        self.assemble::<D, N>(tables, stations).reduce(still, limit)
+        let mut partition = self.assemble::<D, N>(tables, stations, end.is_some());
+        if let Some((direction, stiffness)) = end {
+            partition.guide(self.elements.len() - 1, direction, stiffness);
+        }
+        partition.reduce(still, limit)
     }
 
     /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`].
-    fn assemble<const D: usize, const N: usize>(&self, tables: &[Table], stations: &[f64]) -> Partition<D, N> {
-        let mut partition = Partition::new(self.inner_functions(), BEYOND * self.elements.len(), stations.len());
+    fn assemble<const D: usize, const N: usize>(
+        &self,
+        tables: &[ElementTable],
+        stations: &[f64],
+        moves: bool,
+    ) -> Partition<D, N> {
+        let inner = self.inner_functions(moves);
+        let mut partition = Partition::new(inner, BEYOND * self.elements.len(), stations.len());
 
         for (e, (element, table)) in self.elements.iter().zip(tables).enumerate() {
-            let functions = self.functions_of(e);
+            let functions = self.functions_of(e, moves);
 
             let (stiffness, mass) = self.element_matrices::<D>(element, table);
             partition.add_inner(&functions, &stiffness, &mass);
@@ -163,16 +209,17 @@ impl<'a> Mesh<'a> {
         partition
     }
 
-    /// Number of inner functions; their order is nodes between elements, then bubbles.
-    fn inner_functions(&self) -> usize {
-        self.elements.iter().map(|e| e.degree).sum::<usize>() - 1
+    /// Number of inner functions; their order is nodes between elements, the end if it moves, then bubbles.
+    fn inner_functions(&self, moves: bool) -> usize {
+        self.elements.iter().map(|e| e.degree).sum::<usize>() - usize::from(!moves)
     }
 
     /// Indices of the functions of element `e` in the [`Partition`].
-    fn functions_of(&self, e: usize) -> Functions {
+    fn functions_of(&self, e: usize, moves: bool) -> Functions {
         let last = self.elements.len() - 1;
         let degree = self.elements[e].degree;
-        let first_bubble = last + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
+        let nodes = last + usize::from(moves);
+        let first_bubble = nodes + self.elements[..e].iter().map(|before| before.degree - 1).sum::<usize>();
 
         // Hats: those of nodes between elements are inner functions, the others belong to the ends of the cable.
         let (mut inner, mut ends) = (Vec::with_capacity(degree + 1), Vec::new());
@@ -181,7 +228,7 @@ impl<'a> Mesh<'a> {
             _ => inner.push((0, e - 1)),
         }
         match e {
-            _ if e == last => ends.push((1, 1)),
+            _ if e == last && !moves => ends.push((1, 1)),
             _ => inner.push((1, e)),
         }
 
@@ -200,10 +247,10 @@ impl<'a> Mesh<'a> {
 
     /// Stiffness per entry of C (hh, hv, vv, or one out of plane) and mass of an element over its hats and bubbles,
     /// [`BEYOND`] included.
-    fn element_matrices<const D: usize>(&self, element: &Element, table: &Table) -> (Vec<DMat>, DMat) {
+    fn element_matrices<const D: usize>(&self, element: &Element, table: &ElementTable) -> (Vec<DMat>, DMat) {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);
-        let Table { rule, slopes } = table;
+        let ElementTable { rule, slopes } = table;
 
         // C at the points of the rule.
         let entries = 2 * D - 1;
@@ -256,7 +303,7 @@ pub(crate) fn has_tension(catenary: &Catenary) -> bool {
     // The minimum is at the lowest point if the cable has one, otherwise at an end.
     let inside = w != 0.0 && (0.0..=catenary.rope().unstrained_length).contains(&(-va / w));
     let minimum = if inside { h } else { start.min(end) };
-    minimum > 1e-9 * end.max(start)
+    minimum > MIN_TENSION * end.max(start)
 }
 
 /// Size of the Bernstein ellipse of the element center ± half [m] through the singularity of C: the sum of its

@@ -130,6 +130,52 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
+    /// Restricts the inner function `node` to motion along a direction, and adds a stiffness [N/m] to it: an end on a
+    /// guide. Its D unknowns become one.
+    pub(super) fn guide(&mut self, node: usize, direction: &[f64; D], stiffness: f64) {
+        let (n, first) = (self.unknowns, D * node);
+        let kept: Vec<usize> = (0..n).filter(|i| !(first + 1..first + D).contains(i)).collect();
+
+        // Rows, then columns of the square matrices.
+        let restrict = |matrix: &[f64]| -> Vec<f64> {
+            let entry = |row: usize, column: usize| -> f64 {
+                let rows = if row == first { D } else { 1 };
+                let columns = if column == first { D } else { 1 };
+                let mut sum = 0.0;
+                for i in 0..rows {
+                    for j in 0..columns {
+                        let factor = if rows == 1 { 1.0 } else { direction[i] };
+                        sum +=
+                            factor * if columns == 1 { 1.0 } else { direction[j] } * matrix[(column + j) * n + row + i];
+                    }
+                }
+                sum
+            };
+            kept.iter()
+                .flat_map(|&column| kept.iter().map(move |&row| (row, column)))
+                .map(|(r, c)| entry(r, c))
+                .collect()
+        };
+        self.stiffness = restrict(&self.stiffness);
+        self.mass = restrict(&self.mass);
+        let length = self.row_length;
+        self.rows = (kept.iter())
+            .flat_map(|&row| {
+                let count = if row == first { D } else { 1 };
+                let rows = &self.rows;
+                (0..length).map(move |k| {
+                    (0..count)
+                        .map(|i| if count == 1 { 1.0 } else { direction[i] } * rows[(row + i) * length + k])
+                        .sum::<f64>()
+                })
+            })
+            .collect();
+
+        self.unknowns = kept.len();
+        let at = kept.iter().position(|&row| row == first).unwrap_or(0);
+        self.stiffness[at * self.unknowns + at] += stiffness;
+    }
+
     /// Poles and residues of the ends, whose static stiffness is `still`. All poles are found; the error is estimated
     /// for those below ω = `limit`.
     pub(super) fn reduce<const E: usize>(

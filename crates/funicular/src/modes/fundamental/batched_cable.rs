@@ -22,7 +22,7 @@ use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes};
 use element::{ElementBatch, ForceShapes};
 use mesh::GradedMesh;
-use node_elimination::Chain;
+use node_elimination::ElementChain;
 use pulp::Simd;
 use std::array::from_fn;
 
@@ -37,13 +37,13 @@ const TRUNCATION: f64 = 1e-13;
 
 /// Group of up to [`LANES`] cables, either all of one element or all of several.
 #[derive(Debug)]
-pub(super) struct Abreast {
+pub(super) struct CableGroup {
     /// Indices of the group's cables in the list given to [`groups`](Self::groups).
     members: Vec<usize>,
     /// Elements side by side; unused lanes repeat the last element.
     packs: Vec<ElementBatch>,
     /// Elimination of the nodes of each cable; empty for cables of one element.
-    chains: Vec<Chain>,
+    chains: Vec<ElementChain>,
     /// Number of Legendre terms of C.
     terms: usize,
     /// Components of e along the horizontal and up, per cable: along the chord, or vertical if the cable is slack.
@@ -57,14 +57,14 @@ pub(super) const OUT_OF_PLANE: usize = 2;
 
 /// Dynamic stiffness of the kept unknowns [N/m], lower triangles by rows.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Kept {
+pub(super) struct KeptStiffness {
     pub(super) in_plane: [Lane; 6],
     pub(super) out_of_plane: [Lane; 3],
     /// Minimum pivot of the elimination: positive if the eliminated unknowns have no natural frequency below.
     pub(super) min_pivot: Lane,
 }
 
-impl Default for Kept {
+impl Default for KeptStiffness {
     /// Zero stiffness without an elimination.
     fn default() -> Self {
         Self { in_plane: Default::default(), out_of_plane: Default::default(), min_pivot: [f64::INFINITY; LANES] }
@@ -75,7 +75,7 @@ impl Default for Kept {
 #[derive(Debug)]
 pub(super) struct FunctionMotion(Vec<[Lanes; 2]>);
 
-impl Abreast {
+impl CableGroup {
     /// Groups of all cables, each given with its mass m per unstrained length [kg/m]. `None` if a point of a cable has
     /// no tension.
     pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
@@ -96,7 +96,7 @@ impl Abreast {
         for i in members {
             let mesh = &meshes[*i];
             if mesh.kept > 0 {
-                chains.push(Chain::new(mesh, elements.len()));
+                chains.push(ElementChain::new(mesh, elements.len()));
             }
             elements.extend(mesh.nodes.windows(2).map(|ends| (*i, ends[0], ends[1])));
         }
@@ -141,7 +141,7 @@ impl Abreast {
     }
 
     /// Matrix K − xM of the kept unknowns at x = ω² [rad²/s²], from functions up to `degree`, which is at least 2.
-    pub(super) fn kept(&mut self, x: f64, degree: usize) -> Kept {
+    pub(super) fn kept(&mut self, x: f64, degree: usize) -> KeptStiffness {
         pulp::Arch::new().dispatch(FactoriseCables { cables: self, x, degree })
     }
 
@@ -179,24 +179,24 @@ impl pulp::WithSimd for Expand<'_> {
 
 /// Job for vector registers: eliminates all unknowns of a group but the kept ones.
 struct FactoriseCables<'a> {
-    cables: &'a mut Abreast,
+    cables: &'a mut CableGroup,
     x: f64,
     degree: usize,
 }
 
 impl pulp::WithSimd for FactoriseCables<'_> {
-    type Output = Kept;
+    type Output = KeptStiffness;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Kept {
-        let Self { cables: Abreast { packs, chains, .. }, x, degree } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> KeptStiffness {
+        let Self { cables: CableGroup { packs, chains, .. }, x, degree } = self;
 
         // Cables of one element.
         if chains.is_empty() {
             let mut min_pivot = [f64::INFINITY; LANES];
             let element = &mut packs[0];
             element.factorise::<S, 1>(simd, x, degree, (IN_PLANE, OUT_OF_PLANE), &mut min_pivot);
-            return Kept {
+            return KeptStiffness {
                 in_plane: from_fn(|k| element.in_plane_factor[k].0),
                 out_of_plane: from_fn(|k| element.out_of_plane_factor[k].0),
                 min_pivot,
@@ -216,7 +216,7 @@ impl pulp::WithSimd for FactoriseCables<'_> {
 
 /// Job for vector registers: motion of all functions from that of the kept unknowns.
 struct Substitute<'a> {
-    cables: &'a Abreast,
+    cables: &'a CableGroup,
     in_plane: [Lane; IN_PLANE],
     out_of_plane: [Lane; OUT_OF_PLANE],
 }
@@ -226,7 +226,7 @@ impl pulp::WithSimd for Substitute<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> FunctionMotion {
-        let Self { cables: Abreast { packs, chains, .. }, in_plane, out_of_plane } = self;
+        let Self { cables: CableGroup { packs, chains, .. }, in_plane, out_of_plane } = self;
         if chains.is_empty() {
             return FunctionMotion(vec![packs[0].moved(simd, &in_plane, &out_of_plane)]);
         }
@@ -240,7 +240,7 @@ impl pulp::WithSimd for Substitute<'_> {
 
 /// Job for vector registers: products with the mass.
 struct Mass<'a> {
-    cables: &'a Abreast,
+    cables: &'a CableGroup,
     a: &'a FunctionMotion,
     b: &'a FunctionMotion,
 }
@@ -250,7 +250,7 @@ impl pulp::WithSimd for Mass<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [Lane; 2] {
-        let Self { cables: Abreast { packs, chains, .. }, a, b } = self;
+        let Self { cables: CableGroup { packs, chains, .. }, a, b } = self;
         if chains.is_empty() {
             return packs[0].mass::<S, 1>(simd, &a.0[0], &b.0[0]);
         }
@@ -270,7 +270,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// Entries of one cable, in plane and out of plane.
-    fn of(kept: &Kept, lane: usize) -> ([f64; 6], [f64; 3]) {
+    fn of(kept: &KeptStiffness, lane: usize) -> ([f64; 6], [f64; 3]) {
         (from_fn(|entry| kept.in_plane[entry][lane]), from_fn(|entry| kept.out_of_plane[entry][lane]))
     }
 
@@ -299,20 +299,20 @@ mod tests {
             let first = |e: &CatenaryDynamic| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
             let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
             let pairs: Vec<_> = cables.iter().map(|c| (c, MASS)).collect();
-            let mut groups = Abreast::groups(&pairs).unwrap();
-            let kept: Vec<Kept> = groups.iter_mut().map(|group| group.kept(x, 30)).collect();
-            let lanes = |(k, group): (usize, &Abreast)| -> Vec<_> {
+            let mut groups = CableGroup::groups(&pairs).unwrap();
+            let kept: Vec<KeptStiffness> = groups.iter_mut().map(|group| group.kept(x, 30)).collect();
+            let lanes = |(k, group): (usize, &CableGroup)| -> Vec<_> {
                 group.members().iter().enumerate().map(|(lane, i)| (k, lane, *i)).collect()
             };
             let places: Vec<_> = groups.iter().enumerate().flat_map(lanes).collect();
             prop_assert_eq!(places.len(), cables.len());
             for (k, lane, i) in places {
-                let (abreast, kept, oracle) = (&groups[k], &kept[k], &oracles[i]);
+                let (group, kept, oracle) = (&groups[k], &kept[k], &oracles[i]);
                 let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
                 prop_assert!(kept.min_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
                 let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
                 let k = oracle.undamped(x.sqrt());
-                let [c, s] = abreast.axis(lane);
+                let [c, s] = group.axis(lane);
                 let theirs = [
                     k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
                     (k.normal - k.axial) * c * s + k.coupling * (c * c - s * s),
@@ -340,9 +340,9 @@ mod tests {
             let catenary = cable(shape);
             let oracle = CatenaryDynamic::new(&catenary, MASS, 20.0).unwrap();
             let x = part * oracle.in_plane.poles[0].min(oracle.out_of_plane.poles[0]);
-            let abreast = &mut Abreast::groups(&[(&catenary, MASS)]).unwrap()[0];
+            let group = &mut CableGroup::groups(&[(&catenary, MASS)]).unwrap()[0];
             let mut work = |x: f64| {
-                let ([nn, en, ee, ..], [oo, ..]) = of(&abreast.kept(x, 24), 0);
+                let ([nn, en, ee, ..], [oo, ..]) = of(&group.kept(x, 24), 0);
                 [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
             };
             let step = 1e-3 * x;
@@ -350,10 +350,10 @@ mod tests {
                 let (more, less) = (work(x + step), work(x - step));
                 [0, 1].map(|k| (less[k] - more[k]) / (2.0 * step))
             };
-            abreast.kept(x, 24);
+            group.kept(x, 24);
             let lanes = |value: f64| [value; LANES];
-            let motion = abreast.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
-            let mass = abreast.mass(&motion, &motion).map(|lane| lane[0]);
+            let motion = group.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
+            let mass = group.mass(&motion, &motion).map(|lane| lane[0]);
             for (mass, change) in mass.into_iter().zip(change) {
                 prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
             }
@@ -364,6 +364,6 @@ mod tests {
     fn a_loop_without_tension_is_left_to_others() {
         let rope = Rope { unstrained_length: 8.0, weight_per_length: 0.6, axial_stiffness: 1e5 };
         let slack = Catenary::between(0.0, 6.0, rope).unwrap();
-        assert!(Abreast::groups(&[(&slack, 0.06)]).is_none());
+        assert!(CableGroup::groups(&[(&slack, 0.06)]).is_none());
     }
 }

@@ -1,13 +1,13 @@
 //! Cables of a pencil, side by side in groups: as matrices condensed about one frequency, and with all unknowns.
 
-use super::batched_cable::{Abreast, IN_PLANE, Kept, MAX_DEGREES, OUT_OF_PLANE, place};
+use super::batched_cable::{CableGroup, IN_PLANE, KeptStiffness, MAX_DEGREES, OUT_OF_PLANE, place};
 use crate::math::simd::{LANES, Lane};
 use std::array::from_fn;
 
 /// Groups of cables, condensed onto their kept unknowns.
 pub(super) trait Cables {
     /// Matrices K − xM of the kept unknowns of each group.
-    fn kept(&mut self, x: f64, into: &mut Vec<Kept>);
+    fn kept(&mut self, x: f64, into: &mut Vec<KeptStiffness>);
 
     /// Products `aᵀ M b` per cable of a group for all pairs of motions of its kept unknowns, lower triangle by rows, at
     /// the x of the last call of `kept`.
@@ -23,33 +23,33 @@ pub(super) type KeptMotion = ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]);
 /// Stiffness and mass of each group with the eliminated unknowns following the kept ones as at one frequency, first at
 /// x = 0.
 pub(super) struct Reduced {
-    pub(super) stiffness: Vec<Kept>,
-    pub(super) mass: Vec<Kept>,
+    pub(super) stiffness: Vec<KeptStiffness>,
+    pub(super) mass: Vec<KeptStiffness>,
 }
 
 /// Cables with all unknowns. The degrees rise when the search comes near its result, so that its last step also checks
 /// the discretisation.
 pub(super) struct AllUnknowns<'a> {
-    pub(super) groups: &'a mut [Abreast],
+    pub(super) groups: &'a mut [CableGroup],
     pub(super) degrees: Vec<usize>,
 }
 
 /// Degree at the start of a search. It gives two digits for half a wave, and more degrees are needed where C varies;
 /// three additional degrees give nine digits. If a cable is divided, an element has only a fraction of the wave.
-pub(super) fn degree_of_start(group: &Abreast) -> usize {
+pub(super) fn degree_of_start(group: &CableGroup) -> usize {
     if group.is_divided() { 5 } else { 4 + group.terms() / 8 }
 }
 
 impl Reduced {
     /// Matrices condensed at x = 0.
-    pub(super) fn of(groups: &mut [Abreast]) -> Self {
+    pub(super) fn of(groups: &mut [CableGroup]) -> Self {
         let (stiffness, mass) = groups.iter_mut().map(|group| tangent(group, 0.0)).unzip();
         Self { stiffness, mass }
     }
 
     /// Condenses the groups of divided cables at x. If x is above a natural frequency of their eliminated unknowns, the
     /// matrices stay as they were and the result is false.
-    pub(super) fn follow(&mut self, groups: &mut [Abreast], x: f64) -> bool {
+    pub(super) fn follow(&mut self, groups: &mut [CableGroup], x: f64) -> bool {
         let divided = groups.iter_mut().enumerate().filter(|(_, group)| group.is_divided());
         let tangents: Vec<_> = divided.map(|(i, group)| (i, tangent(group, x))).collect();
         let below = tangents.iter().all(|(_, (stiffness, _))| stiffness.min_pivot.iter().all(|pivot| *pivot > 0.0));
@@ -63,7 +63,7 @@ impl Reduced {
 }
 
 /// Stiffness and mass of a group's kept unknowns such that K − xM and its derivative are correct at x.
-fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
+fn tangent(group: &mut CableGroup, x: f64) -> (KeptStiffness, KeptStiffness) {
     let mut stiffness = group.kept(x, degree_of_start(group));
 
     // Mass of the motions that follow a unit motion of each kept unknown.
@@ -73,7 +73,7 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
     };
     let units = [unit(0), unit(1), unit(2)];
 
-    let mut masses = Kept::default();
+    let mut masses = KeptStiffness::default();
     for (row, motion) in units.iter().enumerate() {
         for (column, other) in units[..=row].iter().enumerate() {
             let [in_plane, out_of_plane] = group.mass(motion, other);
@@ -99,9 +99,9 @@ fn tangent(group: &mut Abreast, x: f64) -> (Kept, Kept) {
 }
 
 impl Cables for Reduced {
-    fn kept(&mut self, x: f64, into: &mut Vec<Kept>) {
+    fn kept(&mut self, x: f64, into: &mut Vec<KeptStiffness>) {
         into.clear();
-        into.extend(self.stiffness.iter().zip(&self.mass).map(|(k, m)| Kept {
+        into.extend(self.stiffness.iter().zip(&self.mass).map(|(k, m)| KeptStiffness {
             in_plane: from_fn(|entry| from_fn(|i| k.in_plane[entry][i] - x * m.in_plane[entry][i])),
             out_of_plane: from_fn(|entry| from_fn(|i| k.out_of_plane[entry][i] - x * m.out_of_plane[entry][i])),
             min_pivot: k.min_pivot,
@@ -137,7 +137,7 @@ fn pairs<T>(all: &[T], form: impl Fn(&T, &T) -> Lane) -> Vec<Lane> {
 }
 
 impl Cables for AllUnknowns<'_> {
-    fn kept(&mut self, x: f64, into: &mut Vec<Kept>) {
+    fn kept(&mut self, x: f64, into: &mut Vec<KeptStiffness>) {
         into.clear();
         into.extend(self.groups.iter_mut().zip(&self.degrees).map(|(group, degree)| group.kept(x, *degree)));
     }

@@ -1,6 +1,6 @@
 //! Factorisation of the pencil at a shift: bubbles first, then the platform.
 
-use super::batched_cable::Kept;
+use super::batched_cable::KeptStiffness;
 use super::lever_axes::RobotMotion;
 use super::pencil::RobotPencil;
 use crate::math::Mat6;
@@ -30,7 +30,7 @@ struct Bubbles {
 /// Job for vector registers: factors the pencil.
 struct FactorisePencil<'a> {
     pencil: &'a RobotPencil,
-    kept: &'a [Kept],
+    kept: &'a [KeptStiffness],
     x: f64,
 }
 
@@ -44,7 +44,7 @@ impl pulp::WithSimd for FactorisePencil<'_> {
         let mut d = pencil.constant - pencil.mass * x;
         let mut negative = 0;
         let mut all = Vec::with_capacity(kept.len());
-        for ((k, arms), cables) in kept.iter().zip(&pencil.arms).zip(&pencil.members) {
+        for ((k, lever_axes), cables) in kept.iter().zip(&pencil.lever_axes).zip(&pencil.members) {
             // Signs of the pivots of each cable.
             for lane in 0..cables.len() {
                 let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.in_plane[5][lane], k.out_of_plane[2][lane]];
@@ -67,12 +67,12 @@ impl pulp::WithSimd for FactorisePencil<'_> {
 
                 let mut entry = entries.iter_mut();
                 for j in 0..6 {
-                    let (normal, along) = (part.of(&arms.normal[j]), part.of(&arms.along[j]));
+                    let (normal, along) = (part.of(&lever_axes.normal[j]), part.of(&lever_axes.along[j]));
                     let by_n = part.mul_add(nn, normal, part.mul(en, along));
                     let by_e = part.mul_add(en, normal, part.mul(ee, along));
-                    let by_b = part.mul(oo, part.of(&arms.out[j]));
+                    let by_b = part.mul(oo, part.of(&lever_axes.out[j]));
                     for (i, entry) in (j..6).zip(&mut entry) {
-                        part.set(entry, arms.wrench(part, i, [by_n, by_e, by_b]));
+                        part.set(entry, lever_axes.wrench(part, i, [by_n, by_e, by_b]));
                     }
                 }
 
@@ -119,7 +119,7 @@ fn not_positive(pivot: f64) -> bool {
 impl Factor {
     /// Factors a pencil at a shift, without pivoting: a positive definite pencil needs none, and for an indefinite one
     /// an approximate direction is enough.
-    pub(super) fn of(pencil: &RobotPencil, kept: &[Kept], x: f64) -> Self {
+    pub(super) fn of(pencil: &RobotPencil, kept: &[KeptStiffness], x: f64) -> Self {
         pulp::Arch::new().dispatch(FactorisePencil { pencil, kept, x })
     }
 
@@ -130,7 +130,7 @@ impl Factor {
         let mut v = *force.platform();
 
         // Eliminate the forces on the bubbles.
-        for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
+        for (group, (lever_axes, bubbles)) in pencil.lever_axes.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
             let mut wrench = [[0.0; LANES]; 6];
             for part in Part::all(simd) {
@@ -142,7 +142,7 @@ impl Factor {
                     part.mul(part.of(&bubbles.out), g),
                 ];
                 for (i, wrench) in wrench.iter_mut().enumerate() {
-                    part.set(wrench, arms.wrench(part, i, ends));
+                    part.set(wrench, lever_axes.wrench(part, i, ends));
                 }
             }
             for (v, wrench) in v.iter_mut().zip(&wrench) {
@@ -165,11 +165,11 @@ impl Factor {
 
         // Back substitution of the bubbles.
         *into.platform_mut() = v;
-        for (group, (arms, bubbles)) in pencil.arms.iter().zip(&self.bubbles).enumerate() {
+        for (group, (lever_axes, bubbles)) in pencil.lever_axes.iter().zip(&self.bubbles).enumerate() {
             let [f, g] = force.bubbles(group);
             let [q, p] = into.bubbles_mut(group);
             for part in Part::all(simd) {
-                let [n, e, b] = arms.ends(part, &v);
+                let [n, e, b] = lever_axes.ends(part, &v);
                 let left = part.mul_add(part.neg(n), part.of(&bubbles.normal), part.of(f));
                 let left = part.mul_add(part.neg(e), part.of(&bubbles.along), left);
                 part.set(q, part.mul(left, part.of(&bubbles.inverse)));

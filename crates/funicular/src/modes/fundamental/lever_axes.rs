@@ -8,13 +8,13 @@ use pulp::Simd;
 /// Axes of a group's cables as scaled vectors in the platform's coordinates. Each coordinate has the cables side by
 /// side, with zeros in lanes without a cable.
 #[derive(Debug, Default)]
-pub(super) struct Arms {
+pub(super) struct LeverAxes {
     pub(super) normal: [Lane; 6],
     pub(super) along: [Lane; 6],
     pub(super) out: [Lane; 6],
 }
 
-impl Arms {
+impl LeverAxes {
     /// Sets the axes of the cable in a lane.
     pub(super) fn set(&mut self, lane: usize, [normal, along, out]: [Vec6; 3]) {
         for i in 0..6 {
@@ -113,11 +113,16 @@ impl RobotMotion {
 
     /// Motion of the kept unknowns of a group.
     #[inline(always)]
-    pub(super) fn kept<S: Simd>(&self, simd: S, arms: &Arms, group: usize) -> ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]) {
+    pub(super) fn kept<S: Simd>(
+        &self,
+        simd: S,
+        lever_axes: &LeverAxes,
+        group: usize,
+    ) -> ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]) {
         let [q, p] = self.bubbles(group);
         let (mut in_plane, mut out_of_plane) = ([[0.0; LANES], [0.0; LANES], q.0], [[0.0; LANES], p.0]);
         for part in Part::all(simd) {
-            let [n, e, b] = arms.ends(part, self.platform());
+            let [n, e, b] = lever_axes.ends(part, self.platform());
             part.set(&mut in_plane[0], n);
             part.set(&mut in_plane[1], e);
             part.set(&mut out_of_plane[0], b);

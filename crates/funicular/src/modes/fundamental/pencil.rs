@@ -1,7 +1,7 @@
 //! Robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
-use super::batched_cable::{Abreast, Kept};
-use super::lever_axes::{Arms, RobotMotion};
+use super::batched_cable::{CableGroup, KeptStiffness};
+use super::lever_axes::{LeverAxes, RobotMotion};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
@@ -25,17 +25,18 @@ pub(super) struct RobotPencil {
     /// Columns of the mass.
     mass_columns: [Line; 6],
     /// Axes of the cables with mass, per group.
-    pub(super) arms: Vec<Arms>,
+    pub(super) lever_axes: Vec<LeverAxes>,
     /// Indices of the cables of each group.
     pub(super) members: Vec<Vec<usize>>,
     /// Cables side by side.
-    pub(super) groups: Vec<Abreast>,
+    pub(super) groups: Vec<CableGroup>,
     /// Number of cables of the robot, those without mass included.
     pub(super) cable_count: usize,
 }
 
 impl RobotPencil {
-    /// Pencil of a robot; `None` if a cable does not hang, has no tension, or has a point without tension.
+    /// Pencil of a robot; `None` if a cable does not hang, has no tension, has a point without tension, or runs over a
+    /// pulley or to a winch.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 
@@ -45,7 +46,7 @@ impl RobotPencil {
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let hanging = state.hanging.as_ref()?;
             let mass_per_length = robot.cables[i].material.mass_per_length;
-            if hanging.catenary.parallel_tension() <= 0.0 {
+            if hanging.catenary.parallel_tension() <= 0.0 || state.drive.is_some() {
                 return None;
             }
             if mass_per_length == 0.0 {
@@ -57,10 +58,10 @@ impl RobotPencil {
         }
 
         // Groups of cables side by side, with their axes.
-        let groups = Abreast::groups(&curves)?;
-        let (mut arms, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
+        let groups = CableGroup::groups(&curves)?;
+        let (mut lever_axes, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
         for group in &groups {
-            let mut axes = Arms::default();
+            let mut axes = LeverAxes::default();
             for (lane, at) in group.members().iter().enumerate() {
                 let (cable, hanging): (usize, &HangingCable) = massive[*at];
                 let (level_w, up_w) = hanging.axes_w();
@@ -69,19 +70,19 @@ impl RobotPencil {
                 let lever = &equilibrium.cables[cable].lever_w;
                 axes.set(lane, [n, e, e.cross(&n)].map(|u| coordinates.reduce_force(&u, lever)));
             }
-            arms.push(axes);
+            lever_axes.push(axes);
             members.push(group.members().iter().map(|at| massive[*at].0).collect());
         }
 
         let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
         let (dof, cable_count) = (coordinates.count(), robot.cables.len());
         let (motions, ell) = (coordinates.motion(), coordinates.ell());
-        Some(Self { dof, motions, ell, constant, mass, mass_columns, arms, members, groups, cable_count })
+        Some(Self { dof, motions, ell, constant, mass, mass_columns, lever_axes, members, groups, cable_count })
     }
 
     /// Start vector number `number`. Its fixed quasi-random entries make orthogonality to a mode practically
     /// impossible.
-    pub(super) fn any_motion(&self, masses: &[Kept], number: usize) -> RobotMotion {
+    pub(super) fn any_motion(&self, masses: &[KeptStiffness], number: usize) -> RobotMotion {
         // Entries evenly distributed over their range, with both signs except for number 0.
         let entry = |i: usize| {
             let even = ((i + 97 * number) as f64 * 0.754_877_666).fract();
@@ -105,7 +106,7 @@ impl RobotPencil {
 
     /// Computes B y with the masses of the condensed cables, for inverse iteration; any positive definite B would do.
     #[inline(always)]
-    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[Kept], y: &RobotMotion, into: &mut RobotMotion) {
+    pub(super) fn inertia<S: Simd>(&self, simd: S, masses: &[KeptStiffness], y: &RobotMotion, into: &mut RobotMotion) {
         let motion = y.platform();
         let mut platform = [0.0; LANES];
         for part in Part::all(simd) {
@@ -117,7 +118,7 @@ impl RobotPencil {
         }
 
         // Cables, and the forces of their ends on the platform.
-        for (group, (arms, mass)) in self.arms.iter().zip(masses).enumerate() {
+        for (group, (lever_axes, mass)) in self.lever_axes.iter().zip(masses).enumerate() {
             let [q, p] = y.bubbles(group);
             let [force_q, force_p] = into.bubbles_mut(group);
             let mut wrench = [[0.0; LANES]; 6];
@@ -130,7 +131,7 @@ impl RobotPencil {
                 let [oo, bo, bb] =
                     [part.of(&mass.out_of_plane[0]), part.of(&mass.out_of_plane[1]), part.of(&mass.out_of_plane[2])];
 
-                let ([n, e, b], q, p) = (arms.ends(part, motion), part.of(q), part.of(p));
+                let ([n, e, b], q, p) = (lever_axes.ends(part, motion), part.of(q), part.of(p));
 
                 let forces = [
                     part.mul_add(nn, n, part.mul_add(en, e, part.mul(qn, q))),
@@ -140,7 +141,7 @@ impl RobotPencil {
                 part.set(force_q, part.mul_add(qn, n, part.mul_add(qe, e, part.mul(qq, q))));
                 part.set(force_p, part.mul_add(bo, b, part.mul(bb, p)));
                 for (i, wrench) in wrench.iter_mut().enumerate() {
-                    part.set(wrench, arms.wrench(part, i, forces));
+                    part.set(wrench, lever_axes.wrench(part, i, forces));
                 }
             }
 

@@ -1,7 +1,7 @@
 //! Search for the lowest eigenvalue of a pencil, between a shift at which the pencil is positive definite and a
 //! Rayleigh quotient.
 
-use super::batched_cable::{Kept, place};
+use super::batched_cable::{KeptStiffness, place};
 use super::condensed_cables::{Cables, KeptMotion};
 use super::factor::Factor;
 use super::lever_axes::RobotMotion;
@@ -11,7 +11,7 @@ use crate::math::{DMat, symmetric_part};
 use pulp::Simd;
 
 /// Accuracy and effort of a search.
-pub(super) struct Aim {
+pub(super) struct SearchOptions {
     /// Relative width in ω² between the shift and the Rayleigh quotient.
     width: f64,
     /// Maximum number of steps of inverse iteration at one shift; they end when the quotient is constant.
@@ -22,14 +22,14 @@ pub(super) struct Aim {
 
 /// Final search. The rounding errors, those of the stiffest spring relative to the softest motion, are 1e-13 in usual
 /// robots.
-pub(super) const FINAL: Aim = Aim { width: 1e-9, steps: 6, checked: true };
+pub(super) const FINAL: SearchOptions = SearchOptions { width: 1e-9, steps: 6, checked: true };
 
 /// First search for cables of one element, whose steps cost little.
-pub(super) const NEAR: Aim = Aim { width: 0.1, steps: 10, checked: false };
+pub(super) const NEAR: SearchOptions = SearchOptions { width: 0.1, steps: 10, checked: false };
 
 /// First search for divided cables: one shift, zero or well below the result. More accuracy is useless while the
 /// eliminated unknowns follow as at another frequency.
-pub(super) const ROUGH: Aim = Aim { width: 2.0, steps: 6, checked: false };
+pub(super) const ROUGH: SearchOptions = SearchOptions { width: 2.0, steps: 6, checked: false };
 
 /// Maximum number of evaluations; beyond it the slow method is faster.
 const MAX_EVALUATIONS: usize = 40;
@@ -112,10 +112,10 @@ struct UnprovenPair {
 pub(super) fn lowest(
     pencil: &RobotPencil,
     cables: &mut impl Cables,
-    metric: &[Kept],
+    metric: &[KeptStiffness],
     mut x: f64,
     mut motions: Vec<RobotMotion>,
-    aim: &Aim,
+    options: &SearchOptions,
 ) -> Option<LowestPair> {
     let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, leading: f64::INFINITY };
     let mut kept = Vec::with_capacity(metric.len());
@@ -141,12 +141,12 @@ pub(super) fn lowest(
         if factor.negative > 1 {
             add_any_motions(pencil, metric, &mut motions, factor.negative.min(BLOCK));
         }
-        let mut found = improved(pencil, cables, metric, &factor, x, std::mem::take(&mut motions), aim);
+        let mut found = improved(pencil, cables, metric, &factor, x, std::mem::take(&mut motions), options);
         let quotient = found.square;
         if !quotient.is_finite() {
             return None;
         }
-        if !aim.checked && factor.negative == 0 && quotient - x <= aim.width * quotient {
+        if !options.checked && factor.negative == 0 && quotient - x <= options.width * quotient {
             return Some(found);
         }
 
@@ -160,14 +160,14 @@ pub(super) fn lowest(
         if !leads {
             add_any_motions(pencil, metric, &mut found.motions, BLOCK);
         }
-        x = if leads { quotient * (1.0 - 0.5 * aim.width) } else { bracket.inside() };
-        claim = Some(UnprovenPair { found, provable: aim.checked && close });
+        x = if leads { quotient * (1.0 - 0.5 * options.width) } else { bracket.inside() };
+        claim = Some(UnprovenPair { found, provable: options.checked && close });
     }
     None
 }
 
 /// Adds start vectors until there are `count` motions.
-fn add_any_motions(pencil: &RobotPencil, metric: &[Kept], motions: &mut Vec<RobotMotion>, count: usize) {
+fn add_any_motions(pencil: &RobotPencil, metric: &[KeptStiffness], motions: &mut Vec<RobotMotion>, count: usize) {
     motions.extend((motions.len()..count).map(|number| pencil.any_motion(metric, number)));
 }
 
@@ -178,14 +178,14 @@ const CLOSE: f64 = 0.1;
 fn improved(
     pencil: &RobotPencil,
     cables: &impl Cables,
-    metric: &[Kept],
+    metric: &[KeptStiffness],
     factor: &Factor,
     x: f64,
     motions: Vec<RobotMotion>,
-    aim: &Aim,
+    options: &SearchOptions,
 ) -> LowestPair {
     let Iterated { motions, work, ends } =
-        pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, aim });
+        pulp::Arch::new().dispatch(Iteration { pencil, metric, factor, x, motions, options });
     let count = motions.len();
 
     // Masses of the cables in groups, for each pair of motions.
@@ -211,11 +211,11 @@ fn improved(
 /// Job for vector registers: inverse iteration at a shift.
 struct Iteration<'a> {
     pencil: &'a RobotPencil,
-    metric: &'a [Kept],
+    metric: &'a [KeptStiffness],
     factor: &'a Factor,
     x: f64,
     motions: Vec<RobotMotion>,
-    aim: &'a Aim,
+    options: &'a SearchOptions,
 }
 
 /// Result of [`Iteration`].
@@ -232,7 +232,7 @@ impl pulp::WithSimd for Iteration<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Iterated {
-        let Self { pencil, metric, factor, x, mut motions, aim } = self;
+        let Self { pencil, metric, factor, x, mut motions, options } = self;
         let count = motions.len();
 
         // B y for each motion.
@@ -246,7 +246,7 @@ impl pulp::WithSimd for Iteration<'_> {
 
         // Inverse iteration until the minimum quotient is constant.
         let mut before = f64::INFINITY;
-        for _ in 0..aim.steps {
+        for _ in 0..options.steps {
             // A z = B y, so that zᵀ A z needs no other product.
             std::mem::swap(&mut images, &mut forces);
             let mut minimum = f64::INFINITY;
@@ -273,7 +273,7 @@ impl pulp::WithSimd for Iteration<'_> {
                 minimum = minimum.min(motion.dot(simd, image));
             }
 
-            if (minimum - before).abs() <= 0.01 * minimum.abs() + 0.1 * aim.width * (x + minimum).abs() {
+            if (minimum - before).abs() <= 0.01 * minimum.abs() + 0.1 * options.width * (x + minimum).abs() {
                 break;
             }
             before = minimum;
@@ -288,10 +288,10 @@ impl pulp::WithSimd for Iteration<'_> {
         }
 
         let mut ends = Vec::with_capacity(metric.len());
-        for (group, arms) in pencil.arms.iter().enumerate() {
+        for (group, lever_axes) in pencil.lever_axes.iter().enumerate() {
             let mut of_group = Vec::with_capacity(count);
             for motion in &motions {
-                of_group.push(motion.kept(simd, arms, group));
+                of_group.push(motion.kept(simd, lever_axes, group));
             }
             ends.push(of_group);
         }
@@ -301,13 +301,13 @@ impl pulp::WithSimd for Iteration<'_> {
 }
 
 /// Job for vector registers: the sum `Σ factor motion`.
-struct Sum<'a> {
+struct WeightedSum<'a> {
     motions: &'a [RobotMotion],
     factors: Vec<f64>,
     groups: usize,
 }
 
-impl pulp::WithSimd for Sum<'_> {
+impl pulp::WithSimd for WeightedSum<'_> {
     type Output = RobotMotion;
 
     #[inline(always)]
@@ -341,7 +341,7 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<RobotMotion>, masses:
     // Motions, ascending, and the masses of the cables in the first.
     let motion = |&k: &usize| {
         let factors = vectors.column(k).iter().copied().collect();
-        pulp::Arch::new().dispatch(Sum { motions: &motions, factors, groups })
+        pulp::Arch::new().dispatch(WeightedSum { motions: &motions, factors, groups })
     };
     let first = vectors.column(order[0]);
     let of_group = |group: usize| {

@@ -1,6 +1,6 @@
 //! Search for the first mode in stages: roughly with few unknowns, then with all of them.
 
-use super::batched_cable::Abreast;
+use super::batched_cable::CableGroup;
 use super::condensed_cables::{AllUnknowns, Reduced, degree_of_start};
 use super::pencil::RobotPencil;
 use super::search::{FINAL, LowestPair, NEAR, ROUGH, lowest};
@@ -29,7 +29,7 @@ const PLATFORM_AT_REST: f64 = 1e-15;
 /// First mode; `None` if the equilibrium is unstable or the search does not end.
 pub(super) fn first(mut pencil: RobotPencil) -> Option<First> {
     let mut groups = std::mem::take(&mut pencil.groups);
-    let divided = groups.iter().any(Abreast::is_divided);
+    let divided = groups.iter().any(CableGroup::is_divided);
 
     // A rough search with matrices condensed at x = 0.
     let mut start = Reduced::of(&mut groups);
@@ -57,7 +57,7 @@ fn nearer(
     pencil: &RobotPencil,
     mut near: LowestPair,
     start: &mut Reduced,
-    groups: &mut [Abreast],
+    groups: &mut [CableGroup],
 ) -> Option<LowestPair> {
     let mut x = BELOW_TOO_HIGH * near.square;
     for _ in 0..MAX_TANGENTS {

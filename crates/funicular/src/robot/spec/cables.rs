@@ -1,13 +1,13 @@
 //! `[[cables]]`: each cable, and the conditions between cables.
 
+use super::drives::{self, Drives};
 use super::key::{Absent, Key, KeyValue, Shape};
 use super::limits;
 use super::materials::Materials;
-use super::read::{Reader, Section, Value, is_zero, shortened};
+use super::read::{Reader, Section, is_zero, shortened};
 use crate::math::Vec3;
 use crate::robot::parameters::Range as Limits;
-use crate::robot::{Anchor, Cable, PlatformMotion, Pose};
-use crate::suggest::nearest;
+use crate::robot::{Cable, PlatformMotion, Pose};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::DeValue;
@@ -26,7 +26,8 @@ pub(super) const KEYS: &[Key] = &[
         "anchor_m = [5.0, 2.0, 4.0]",
         "m",
         Limits::Any,
-        "exit point of the cable, world frame",
+        "exit point of the cable, world frame; with a pulley the entry point, at which the cable coming from the winch \
+         touches the wheel",
     ),
     Key::numeric(
         Shape::Vector,
@@ -37,6 +38,20 @@ pub(super) const KEYS: &[Key] = &[
         "attachment of the cable, platform frame",
     )
     .without(Absent::Depends("required, except for a point mass, for which it is zero")),
+    Key::other("pulley", r#"pulley = "wheel""#, KeyValue::Name, "pulley at the anchor: a NAME of `[pulleys.NAME]`")
+        .without(Absent::Means("no pulley: the cable turns about its anchor point")),
+    Key::numeric(
+        Shape::Vector,
+        "entry_direction",
+        "entry_direction = [0.0, 0.0, 1.0]",
+        "1",
+        Limits::Any,
+        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; of \
+         any length",
+    )
+    .without(Absent::Means("that of its pulley")),
+    Key::other("winch", r#"winch = "drum""#, KeyValue::Name, "winch of the cable: a NAME of `[winches.NAME]`")
+        .without(Absent::Means("no winch: the cable ends at its anchor, or on a rigid drum beside it")),
     Key::numeric(
         Shape::Number,
         "minimum_tension_n",
@@ -70,7 +85,8 @@ pub(super) const KEYS: &[Key] = &[
         "unstrained_length_m = 6.5",
         "m",
         Limits::Positive,
-        "unstrained length of the cable",
+        "unstrained length of the cable from its attachment to its anchor; with a pulley or a winch to the drum, the arc \
+         on the wheel and the drum side included",
     )
     .without(Absent::Means("no length; all cables have one, or none has")),
 ];
@@ -93,6 +109,7 @@ pub(super) fn read(
     reader: &mut Reader,
     root: &Section,
     materials: Option<&Materials>,
+    drives: &Drives,
     motion: Option<PlatformMotion>,
 ) -> Option<Vec<CableEntry>> {
     let value = reader.required(root, "cables")?;
@@ -122,7 +139,7 @@ pub(super) fn read(
             _ => format!("[[cables]] number {}", i + 1),
         };
         let section = reader.open(label, value.span(), table, KEYS);
-        entries.push(read_one(reader, &section, materials, motion, &mut names));
+        entries.push(read_one(reader, &section, materials, drives, motion, &mut names));
     }
 
     (entries.len() == array.len()).then_some(entries)
@@ -132,6 +149,7 @@ fn read_one(
     reader: &mut Reader,
     section: &Section,
     materials: Option<&Materials>,
+    drives: &Drives,
     motion: Option<PlatformMotion>,
     names: &mut BTreeMap<String, Range<usize>>,
 ) -> CableEntry {
@@ -148,18 +166,12 @@ fn read_one(
         Some(name)
     });
 
-    let material = reader.required(section, "material").and_then(|value| {
-        let material = reader.text("material", value)?;
+    let material = reader.required(section, "material").and_then(|_| {
         // Without [materials] every cable would repeat an issue that has been reported once.
-        let materials = materials?;
-        let Some(known) = materials.get(&material) else {
-            unknown_material(reader, &material, materials, value);
-            return None;
-        };
-        known.clone()
+        reader.reference(section, "material", "materials", materials).flatten()
     });
 
-    let anchor = reader.required(section, "anchor_m").and_then(|value| reader.vector(section, "anchor_m", value));
+    let anchor = drives::anchor(reader, section, drives);
     let attachment = attachment(reader, section, motion);
 
     let own_limits = limits::read(reader, section);
@@ -178,7 +190,7 @@ fn read_one(
             load_per_length_w,
             name,
             material,
-            anchor: Anchor::from(Vec3::from(anchor)),
+            anchor,
             attachment_p: Vec3::from(attachment),
             tension_limits,
         },
@@ -193,16 +205,6 @@ fn read_one(
         length,
         length_mistyped: section.mistyped(&["unstrained_length_m"]),
     }
-}
-
-fn unknown_material(reader: &mut Reader, material: &str, materials: &Materials, value: &Value) {
-    let known = materials.keys().map(|name| format!("\"{}\"", shortened(name))).collect::<Vec<_>>().join(", ");
-    let suggestion = nearest(material, materials.keys().map(String::as_str))
-        .map(|near| format!("did you mean \"{}\"? ", shortened(near)))
-        .unwrap_or_default();
-    reader
-        .issue(value.span(), format!("there is no material \"{}\"", shortened(material)))
-        .help(format!("{suggestion}the file has {known}"));
 }
 
 /// Reads the attachment; it is the origin for a point mass.
@@ -249,6 +251,20 @@ pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry],
     for entry in cables {
         let Some(cable) = &entry.cable else { continue };
         let chord = cable.chord_w(pose).norm();
+        if let Some(pulley) = &cable.anchor.pulley {
+            let distance = pulley.distance_from_center(&(pose.point_w(&cable.attachment_p) - cable.anchor.point_w));
+            if distance < pulley.radius {
+                let message = format!(
+                    "{} ends inside the wheel of its pulley at this pose: {distance:.4} m from the wheel's centre, the \
+                     radius is {} m",
+                    entry.label, pulley.radius
+                );
+                reader.issue(entry.anchor_span.clone(), message).help(
+                    "check `radius_m` in [pulleys.NAME]; or move the anchor, the attachment or `position_m` in [state]",
+                );
+                continue;
+            }
+        }
         let size = cable.anchor.reference_w().norm() + pose.position_w.norm() + cable.attachment_p.norm();
         if chord <= COINCIDENT * size {
             reader

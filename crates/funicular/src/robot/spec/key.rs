@@ -3,7 +3,7 @@
 //! The reader checks files by this table. [`parameters`](crate::robot::parameters), the JSON Schema and the page of all
 //! keys are made from it.
 
-use crate::robot::parameters::Range;
+use super::range::Range;
 
 /// Table of a robot file.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +40,7 @@ pub enum KeyValue {
     Word(&'static [(&'static str, &'static str)]),
     /// Table of the file.
     Table,
-    /// Tables with names of the user's choice: `[materials.NAME]`.
+    /// Tables with names of the user's choice, as `[materials.NAME]`.
     NamedTables,
     /// List of tables: `[[cables]]`.
     Tables,

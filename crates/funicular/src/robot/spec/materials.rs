@@ -3,11 +3,10 @@
 
 use super::key::{Absent, Key, Shape};
 use super::limits;
-use super::read::{MAX_NUMBER, MIN_NUMBER, Reader, Section};
+use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
+use super::read::{Named, Reader, Section};
 use crate::math::Vec3;
-use crate::robot::parameters::Range;
 use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Damping ratio that must not be reached: from here on it is not material damping, and `ω² (1 − 2iξ)` is turned from
@@ -137,7 +136,7 @@ pub(super) const KEYS: &[Key] = &[
 const TWO_WAYS: &str = "give `youngs_modulus_pa` with one of `diameter_m` and `area_m2`, or `axial_stiffness_n` alone";
 
 /// Materials by name; `None` for a refused material, whose name is still known.
-pub(super) type Materials = BTreeMap<String, Option<Material>>;
+pub(super) type Materials = Named<Material>;
 
 /// Reads all materials.
 pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
@@ -150,17 +149,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
         return None;
     }
 
-    let mut materials = Materials::new();
-    for (key, value) in table {
-        let name: &str = key.get_ref();
-        let named = reader.check_name("material name", name, key.span());
-        let material = reader.table(name, &format!("[materials.{name}]"), value).and_then(|table| {
-            let section = reader.open(format!("[materials.{name}]"), value.span(), table, KEYS);
-            read_one(reader, name, &section)
-        });
-        materials.insert(name.to_owned(), named.and(material));
-    }
-    Some(materials)
+    reader.named_tables("materials", "material", value, KEYS, read_one)
 }
 
 fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Material> {

@@ -1,9 +1,9 @@
 //! `[platform]`: mass, motion, and an inertia tensor that a body can have.
 
 use super::key::{Absent, Key, KeyValue, Shape};
-use super::read::{MAX_NUMBER, MIN_NUMBER, Reader, Section, Value, is_zero, known, parsed, shortened};
+use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
+use super::read::{Reader, Section, Value, is_zero, known, parsed, shortened};
 use crate::math::{Mat3, Vec3, symmetric_part};
-use crate::robot::parameters::Range;
 use crate::robot::{Plane, Platform, PlatformMotion};
 use crate::suggest::nearest;
 use toml::de::DeValue;

@@ -1,14 +1,13 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every message points at the value.
 
 use super::key::{Key, Numeric};
+use super::range::{MAX_NUMBER, MIN_NUMBER, Range as Limits};
 use super::{Issue, TABLES};
-use crate::robot::parameters::Range as Limits;
 use crate::suggest::nearest;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-
-pub(super) use crate::robot::parameters::{MAX_NUMBER, MIN_NUMBER};
 
 /// Maximum number of characters of the user's text that a message repeats.
 const QUOTED: usize = 40;
@@ -26,6 +25,9 @@ pub(super) type Value<'t> = Spanned<DeValue<'t>>;
 pub(super) fn known(keys: &'static [Key], name: &str) -> &'static Key {
     keys.iter().find(|key| key.name == name).expect("the reader asks for keys of its tables only")
 }
+
+/// Values of tables with names of the user's choice, by name; `None` for a refused table, whose name is still known.
+pub(super) type Named<T> = BTreeMap<String, Option<T>>;
 
 /// Table with checked keys.
 pub(super) struct Section<'t> {
@@ -311,6 +313,63 @@ impl<'t> Reader<'t> {
         let code = u32::from(bad);
         self.issue(span, format!("`{key}` holds the control character U+{code:04X}, which would break tables"))
             .help("remove it");
+        None
+    }
+
+    /// Tables `[kind.NAME]` of a value that holds them, each read by `read_one` from its name and its keys. `singular` is
+    /// one of them in words.
+    pub(super) fn named_tables<'v, T>(
+        &mut self,
+        kind: &str,
+        singular: &str,
+        value: &'v Value<'v>,
+        keys: &'static [Key],
+        mut read_one: impl FnMut(&mut Self, &str, &Section<'v>) -> Option<T>,
+    ) -> Option<Named<T>> {
+        let table = self.table(kind, &format!("[{kind}.NAME]"), value)?;
+        let mut all = Named::new();
+        for (key, value) in table {
+            let name: &str = key.get_ref();
+            let named = self.check_name(&format!("{singular} name"), name, key.span());
+            let header = format!("[{kind}.{name}]");
+            let read = self.table(name, &header, value).and_then(|table| {
+                let section = self.open(header, value.span(), table, keys);
+                read_one(self, name, &section)
+            });
+            all.insert(name.to_owned(), named.and(read));
+        }
+        Some(all)
+    }
+
+    /// Value of the named table that a key refers to. The outer `None` is a refused value, the inner one a missing key.
+    #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
+    pub(super) fn reference<T: Clone>(
+        &mut self,
+        section: &Section,
+        key: &str,
+        kind: &str,
+        known: Option<&Named<T>>,
+    ) -> Option<Option<T>> {
+        let Some(value) = section.get(key) else {
+            return (!section.mistyped(&[key])).then_some(None);
+        };
+        let name = self.text(key, value)?;
+        // Tables that were refused as a whole have been reported once.
+        let known = known?;
+        if let Some(found) = known.get(&name) {
+            return found.clone().map(Some);
+        }
+
+        let all = known.keys().map(|name| format!("\"{}\"", shortened(name))).collect::<Vec<_>>().join(", ");
+        let suggestion = nearest(&name, known.keys().map(String::as_str))
+            .map(|near| format!("did you mean \"{}\"? ", shortened(near)))
+            .unwrap_or_default();
+        let help = if known.is_empty() {
+            format!("add a table [{kind}.{}]", shortened(&name))
+        } else {
+            format!("{suggestion}the file has {all}")
+        };
+        self.issue(value.span(), format!("there is no {key} \"{}\"", shortened(&name))).help(help);
         None
     }
 

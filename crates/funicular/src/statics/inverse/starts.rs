@@ -65,7 +65,7 @@ const SPREAD: [f64; 6] = [
 ];
 
 /// Result of the search.
-pub(super) struct Searched {
+pub(super) struct FoundStart {
     /// Accepted balance, or else the cables nearest to balance.
     pub best: CableSearch,
     /// Number of starts.
@@ -78,7 +78,7 @@ pub(super) fn search(
     pose: &Pose,
     loaded: &[LoadedCable<'_>],
     accept: impl Fn(&CableSearch) -> bool,
-) -> Option<Searched> {
+) -> Option<FoundStart> {
     // Without sag, straight cables decide.
     if loaded.iter().all(|cable| cable.load.size == 0.0) {
         return None;
@@ -108,7 +108,7 @@ pub(super) fn search(
 
         if accept(&found) {
             found.iterations = iterations;
-            return Some(Searched { best: found, starts });
+            return Some(FoundStart { best: found, starts });
         }
         if best.as_ref().is_none_or(|best| found.residual < best.residual) {
             best = Some(found);
@@ -116,7 +116,7 @@ pub(super) fn search(
     }
     let mut best = best?;
     best.iterations = iterations;
-    Some(Searched { best, starts })
+    Some(FoundStart { best, starts })
 }
 
 /// Cables of the `k`-th start: tensions from a fifth of their weight, which is a deep sag, up to the total weight of
@@ -135,7 +135,8 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
 
 /// Least squares of the remaining wrench by the method of Levenberg and Marquardt.
 ///
-/// The unknowns are logarithms, see [`Unit`]: so damping has the same meaning for a taut and for a slack cable.
+/// The unknowns are logarithms, see [`LogarithmicUnit`]: so damping has the same meaning for a taut and for a slack
+/// cable.
 fn levenberg_marquardt(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable>) -> CableSearch {
     let coordinates = Coordinates::of(robot);
     let (mut wrench, mut residual) = wrench_residual(robot, &coordinates, pose, &hanging);
@@ -147,7 +148,7 @@ fn levenberg_marquardt(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable
         // Derivatives of the wrench with respect to the logarithms.
         let mut columns = Mat6::zeros();
         for (i, cable) in hanging.iter().enumerate() {
-            let force = cable.force_by_length_w() * Unit::of(cable).length();
+            let force = cable.force_by_length_w() * LogarithmicUnit::of(cable).length();
             columns.set_column(i, &coordinates.reduce_force(&force, &(cable.start_w - pose.position_w)));
         }
 
@@ -159,8 +160,9 @@ fn levenberg_marquardt(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable
         let Some(factor) = normal.cholesky() else { break };
         let change = -factor.solve(&(columns.transpose() * left));
         let change = change * (MAX_CHANGE / change.amax()).min(1.0);
-        let next: Vec<HangingCable> =
-            (hanging.iter().zip(&change)).map(|(cable, change)| Unit::of(cable).moved(cable, *change)).collect();
+        let next: Vec<HangingCable> = (hanging.iter().zip(&change))
+            .map(|(cable, change)| LogarithmicUnit::of(cable).moved(cable, *change))
+            .collect();
 
         // Take it if it is a gain.
         let (next_wrench, next_residual) = wrench_residual(robot, &coordinates, pose, &next);
@@ -183,12 +185,12 @@ fn levenberg_marquardt(robot: &Robot, pose: &Pose, mut hanging: Vec<HangingCable
 
 /// Change of length [m] that changes a cable's logarithm by one: that of its tension (falling) if it is taut, that of
 /// its length if it is slack. The shorter of the two is used: the forces are less curved in it.
-enum Unit {
+enum LogarithmicUnit {
     Tension(f64),
     Length(f64),
 }
 
-impl Unit {
+impl LogarithmicUnit {
     fn of(cable: &HangingCable) -> Self {
         let length = cable.catenary.rope().unstrained_length;
         let by_tension = -cable.catenary.parallel_tension() / cable.catenary.parallel_tension_by_length();

@@ -6,8 +6,8 @@
 //! basis of the null space a step costs its square, and a dropped inequality its cube. Theory, equations (40a) and
 //! (40b).
 
-use super::active_set::{ConstraintSet, DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, worst};
 use super::null_space::Solutions;
+use crate::math::active_set::{ConstraintSet, DEPENDENT, Magnitude, NO_NORMAL, ROUNDING, worst};
 use crate::math::{Mat6, Vec6, symmetric};
 
 /// Inequalities `sign σ_i + lift t ≥ level` for tensions σ that satisfy the balance, and a height t.

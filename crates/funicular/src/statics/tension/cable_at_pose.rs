@@ -227,7 +227,7 @@ impl CableAtPose {
     }
 
     /// Wrench, scaled, that the symmetric part of a stiffness contribution gives for a scaled motion of the platform.
-    pub(super) fn applied(&self, share: &Share, motion: &Vec6) -> Vec6 {
+    pub(super) fn applied(&self, share: &StiffnessContribution, motion: &Vec6) -> Vec6 {
         let lever = self.lever_w / self.coordinates.ell();
         let turn: Vec3 = motion.fixed_rows::<3>(3).into();
         let moved = motion.fixed_rows::<3>(0) + turn.cross(&lever);
@@ -245,14 +245,15 @@ impl CableAtPose {
         // The error of the differences grows with the square of the step, the rounding of the second ones with its
         // inverse square: here they are about equal.
         let step = 1e-4 * self.tau.abs().max(1e-9 * self.rope().axial_stiffness);
-        let [less, more] = [-step, step].map(|step| Share::of(&self.hanging.at_parallel_tension(self.tau + step)));
-        let (here, once, twice) = (Share::of(&self.hanging), 0.5 / step, 1.0 / (step * step));
+        let [less, more] =
+            [-step, step].map(|step| StiffnessContribution::of(&self.hanging.at_parallel_tension(self.tau + step)));
+        let (here, once, twice) = (StiffnessContribution::of(&self.hanging), 0.5 / step, 1.0 / (step * step));
         Rates {
-            first: Share {
+            first: StiffnessContribution {
                 stiffness_w: (more.stiffness_w - less.stiffness_w) * once,
                 force_w: (more.force_w - less.force_w) * once,
             },
-            second: Share {
+            second: StiffnessContribution {
                 stiffness_w: (more.stiffness_w - here.stiffness_w * 2.0 + less.stiffness_w) * twice,
                 force_w: (more.force_w - here.force_w * 2.0 + less.force_w) * twice,
             },
@@ -261,7 +262,7 @@ impl CableAtPose {
 
     /// Derivative of the cable's contribution to the scaled stiffness of the platform with respect to τ.
     pub(super) fn stiffness_by_tension(&self) -> Mat6 {
-        let Share { stiffness_w, force_w } = self.rates().first;
+        let StiffnessContribution { stiffness_w, force_w } = self.rates().first;
         let mut total = Mat6::zeros();
         add_congruent(&mut total, &stiffness_w, &self.lever_w);
         add_lever_term(&mut total, &force_w, &self.lever_w);
@@ -272,20 +273,20 @@ impl CableAtPose {
 /// Stiffness contribution of a cable to the platform: the stiffness of its end and the force at its lever arm, world
 /// axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share {
+pub(super) struct StiffnessContribution {
     pub stiffness_w: Mat3,
     pub force_w: Vec3,
 }
 
-impl Share {
+impl StiffnessContribution {
     fn of(hanging: &HangingCable) -> Self {
         Self { stiffness_w: hanging.tangent_w(), force_w: hanging.force_on_start_w() }
     }
 }
 
-/// Derivatives of a [`Share`] with respect to τ.
+/// Derivatives of a [`StiffnessContribution`] with respect to τ.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rates {
-    pub first: Share,
-    pub second: Share,
+    pub first: StiffnessContribution,
+    pub second: StiffnessContribution,
 }

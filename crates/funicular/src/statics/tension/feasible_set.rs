@@ -1,8 +1,8 @@
 //! Tensions that satisfy the linearised balance within linear bounds, in one of two representations.
 
-use super::active_set::{self, Active, Polyhedron};
 use super::bounds::Bounds;
 use super::null_space::Solutions;
+use crate::math::active_set::{self, Active, Polyhedron};
 
 /// Number of null-space directions from which on the search is made in the space of the cables. With few directions the
 /// null space has shorter vectors and no system to solve; with hundreds the space of the cables takes a small fraction

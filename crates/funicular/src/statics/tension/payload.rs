@@ -10,14 +10,16 @@ use super::TensionRule;
 use super::cable_at_pose::{CableAtPose, TensionPlace};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
-use super::proof::{Infeasibility, Reach};
-use super::search::{Linear, ProximalStep, Stride, TauBound, TensionSearch};
+use super::proof::{Infeasibility, ReachableTensions};
+use super::search::{Linear, ProximalStep, ProximalStepControl, TauBound, TensionSearch};
+use crate::drive::CableAtRest;
 use crate::math::{Vec3, Vec6};
 use crate::platform::{Coordinates, load_wrench, wrench_of};
 use crate::robot::{Load, Pose, Robot};
 use crate::statics::collect::collect;
 use crate::statics::equilibrium::{CableState, Equilibrium};
 use crate::statics::error::StaticsError;
+use crate::statics::exit_points;
 use crate::statics::ideal;
 use crate::statics::limits::Limit;
 use crate::statics::model::StaticModel;
@@ -134,6 +136,21 @@ pub fn payload_bound(
     requested: RequestedPayload,
     start: Option<&Equilibrium>,
 ) -> Result<PayloadBound, StaticsError> {
+    if !exit_points::follows(robot, model) {
+        return at_exit_points(robot, pose, model, requested, start);
+    }
+    let solve = |held: &Robot| at_exit_points(held, pose, model, requested, start);
+    exit_points::followed(robot, pose, solve, |bound| &mut bound.cables)
+}
+
+/// Payload by [`payload_bound`] of cables that end at fixed points.
+fn at_exit_points(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    requested: RequestedPayload,
+    start: Option<&Equilibrium>,
+) -> Result<PayloadBound, StaticsError> {
     let g = robot.gravity_w.norm();
     let coordinates = Coordinates::of(robot);
     let lever_w = pose.rot_wp * requested.center_p;
@@ -184,7 +201,7 @@ struct Optimum {
 impl PayloadSearch<'_> {
     fn extreme(&mut self) -> Result<Optimum, StaticsError> {
         let sign = self.requested.side.sign();
-        let mut stride = Stride::default();
+        let mut stride = ProximalStepControl::default();
         let mut weight = 0.0;
         while self.iterations < MAX_ITERATIONS {
             self.iterations += 1;
@@ -331,11 +348,11 @@ impl PayloadSearch<'_> {
         }
 
         let mut cables = self.search.cables().to_vec();
-        let reaches: Vec<Reach> = cables
+        let reaches: Vec<ReachableTensions> = cables
             .iter_mut()
             .map(|cable| {
                 let minimum = cable.at_minimum();
-                Reach::of(cable, minimum)
+                ReachableTensions::of(cable, minimum)
             })
             .collect();
         let own = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
@@ -384,6 +401,6 @@ fn equilibrium_of(
         return ideal::collect(robot, *pose, &tensions, iterations);
     }
     let lengths: Vec<f64> = cables.iter().map(|cable| cable.length()[0]).collect();
-    let hanging = cables.into_iter().map(|cable| cable.hanging).collect();
+    let hanging = cables.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
     collect(robot, *pose, model, hanging, &lengths, iterations)
 }

@@ -6,8 +6,8 @@
 //! tensions within the limits balance the platform, however the cables sag: (39a). Each maximum is a search in one
 //! variable, along the true curve of the cable.
 
-use super::active_set::Polyhedron;
 use super::cable_at_pose::CableAtPose;
+use crate::math::active_set::Polyhedron;
 use crate::math::{Vec3, Vec6};
 use crate::robot::PlatformMotion;
 
@@ -21,17 +21,24 @@ const MAX_CUTS: usize = 60;
 /// one up to 0.98.
 const STEEP: f64 = 0.95;
 
+/// Violation of a cut that counts as rounding; the cuts are unit vectors.
+const CUT_ROUNDING: f64 = 1e-9;
+
+/// Change of a unit direction below which it counts as the direction before: then rounding decides, far below
+/// [`CUT_ROUNDING`].
+const SAME_DIRECTION: f64 = 1e-12;
+
 /// Rounding of the sum of all contributions, relative to their magnitudes.
 const ROUNDING: f64 = 1e-12;
 
 /// Range of a cable's tension.
 #[derive(Debug, Clone)]
-pub(super) struct Reach {
+pub(super) struct ReachableTensions {
     /// Cable at the minimum τ within its limits, not slacker than (37), and at the maximum.
     ends: [CableAtPose; 2],
 }
 
-impl Reach {
+impl ReachableTensions {
     /// Range of a cable in any state; `minimum` is its [`CableAtPose::at_minimum`].
     pub(super) fn of(cable: &CableAtPose, minimum: f64) -> Self {
         let mut ends = [cable.clone(), cable.clone()];
@@ -145,7 +152,7 @@ impl TauInterval {
 }
 
 /// Result of the directions tried.
-pub(super) struct Verdict {
+pub(super) struct ProofResult {
     /// True if it is proved that no tensions within the limits balance the platform.
     pub proved: bool,
     /// Tensions with the maximum contributions in the first direction [N].
@@ -154,7 +161,7 @@ pub(super) struct Verdict {
 
 /// Load to be balanced by cables within their ranges; in the platform's coordinates, scaled.
 pub(super) struct Infeasibility<'a> {
-    pub reaches: &'a [Reach],
+    pub reaches: &'a [ReachableTensions],
     pub load: Vec6,
     pub motion: PlatformMotion,
 }
@@ -166,11 +173,11 @@ impl Infeasibility<'_> {
     /// plane. The next direction has all of these sets on the right side, with the largest minimum angle (cutting
     /// planes). There is no such direction if the load lies in the convex hull of the wrenches that these tensions
     /// balance; then no direction is a proof.
-    pub(super) fn prove(&self, first: &Vec6) -> Verdict {
+    pub(super) fn prove(&self, first: &Vec6) -> ProofResult {
         let n = self.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
-        let mut verdict = Verdict { proved: false, max_shares: Vec::new() };
+        let mut verdict = ProofResult { proved: false, max_shares: Vec::new() };
 
         for _ in 0..=MAX_CUTS {
             let (proved, max_shares) = self.test_direction(&y);
@@ -192,12 +199,12 @@ impl Infeasibility<'_> {
                 sides.add(unit[..n].iter(), -1.0, None, 1.0);
             }
             let mut next = [0.0; 6];
-            if sides.nearest(&mut next[..n], 1e-9).is_none() {
+            if sides.nearest(&mut next[..n], CUT_ROUNDING).is_none() {
                 break;
             }
             let next = Vec6::from(next).normalize();
             // If the last direction repeats, rounding decides.
-            if (next - y).amax() < 1e-12 {
+            if (next - y).amax() < SAME_DIRECTION {
                 break;
             }
             y = next;

@@ -1,18 +1,18 @@
 //! Iteration of the tension distribution: linearise the balance and the limits, solve the linear problem exactly,
 //! repeat.
 
-use super::active_set::Active;
 use super::cable_at_pose::{CableAtPose, TensionByTau};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
-use super::obstacle::Obstacle;
-use super::proof::{Infeasibility, Reach};
+use super::proof::{Infeasibility, ReachableTensions};
 use crate::math::Vec6;
+use crate::math::active_set::Active;
 use crate::platform::{Coordinates, balance, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::model::StaticModel;
+use crate::statics::obstacle::Obstacle;
 use crate::statics::residual::scaled_residual;
 
 /// Maximum number of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more
@@ -39,6 +39,36 @@ const LEAVES: f64 = 1e-7;
 /// cable is about at its minimum (v = 1.1997). Its derivative is near zero or negative there, and a limit computed from
 /// it would be on the wrong side.
 const MIN_SLOPE: f64 = 1e-3;
+
+/// Rounding of a limit of the linear problem, over the size of the tensions: some hundred units in the last place, for
+/// the few operations that a limit takes.
+const LIMIT_ROUNDING: f64 = 1e-13;
+
+/// Ratio of two successive changes of the tensions above which a step counts as a setback. A search that converges
+/// slower than this factor per step would reach the maximum number of iterations without [`STILL`]: `0.9^100 = 3e-5`.
+const SETBACK: f64 = 0.9;
+
+/// Ratio to the change at the last setback below which that setback is behind, so that steps may grow again. Below
+/// [`SHORTER`]: one short step of a linear problem leaves that part of the change, which is no recovery yet.
+const RECOVERED: f64 = 0.3;
+
+/// Factor by which setbacks shorten the step of a search for the nearest tensions, and the minimum fraction of a step.
+/// The minimum keeps the search moving: a hundred such steps go five full steps far.
+const SHORTER: f64 = 0.5;
+const MIN_STEP_FRACTION: f64 = 0.05;
+
+/// Factor by which a repeated setback reduces the growth of the smallest distance, and by which a search from another
+/// start reduces its first step each time. Chosen, not fitted; each is smaller than [`SHORTER`], because a proximal step
+/// never grows again.
+const SMALLER_CLIMB: f64 = 0.3;
+
+/// Change of a tension, over the size of the tensions, from which on the difference of two slopes gives a curvature:
+/// the rounding of the slopes, 1e-16, then leaves an error of a billionth.
+const MIN_MOVE: f64 = 1e-7;
+
+/// Range of a cable's curvature in the search for the nearest tensions, relative to that of the squared distance, 1.
+/// Below, a step would be more than ten times as long as without curvature; above, the cable would hardly move.
+const CURVATURES: [f64; 2] = [0.1, 100.0];
 
 /// Maximum number of further starts if neither tensions within the limits nor a proof of their absence is found.
 const MAX_STARTS: usize = 12;
@@ -112,24 +142,24 @@ pub(super) struct ProximalStep {
 /// smaller: the distance may grow by a limited amount only, with the smallest possible move of the tensions (a proximal
 /// step). The fixed points are the same.
 #[derive(Debug)]
-pub(super) struct Stride {
+pub(super) struct ProximalStepControl {
     pub climb: Option<ProximalStep>,
     pub last_change: f64,
     setbacks: usize,
 }
 
-impl Default for Stride {
+impl Default for ProximalStepControl {
     fn default() -> Self {
         Self { climb: None, last_change: f64::INFINITY, setbacks: 0 }
     }
 }
 
-impl Stride {
+impl ProximalStepControl {
     pub(super) fn next(&mut self, change: f64, size: f64, height: f64) {
-        if change > 0.9 * self.last_change {
+        if change > SETBACK * self.last_change {
             self.setbacks += 1;
             if self.setbacks > 1 {
-                let by = self.climb.map_or(change * size, |climb| 0.3 * climb.by);
+                let by = self.climb.map_or(change * size, |climb| SMALLER_CLIMB * climb.by);
                 self.climb = Some(ProximalStep { from: height, by });
             }
         }
@@ -238,7 +268,7 @@ impl<'a> TensionSearch<'a> {
 
     /// Violation of inequalities that counts as rounding.
     pub(super) fn tolerance(&self, solutions: &Solutions) -> f64 {
-        1e-13 * solutions.particular.iter().fold(self.size, |most, p| most.max(p.abs()))
+        LIMIT_ROUNDING * solutions.particular.iter().fold(self.size, |most, p| most.max(p.abs()))
     }
 
     /// Moves to the tensions within the limits nearest to `target` in least squares.
@@ -261,9 +291,10 @@ impl<'a> TensionSearch<'a> {
             if let Some((tau, columns, multipliers)) = &last {
                 for (i, cable) in self.cables.iter().enumerate() {
                     let moved = cable.tau() - tau[i];
-                    if moved.abs() > 1e-7 * self.size {
+                    if moved.abs() > MIN_MOVE * self.size {
                         let bend = (linear.columns[i] - columns[i]).dot(multipliers) / moved;
-                        scales[i] = (1.0 - bend).clamp(0.1, 100.0).sqrt();
+                        let [low, high] = CURVATURES;
+                        scales[i] = (1.0 - bend).clamp(low, high).sqrt();
                     }
                 }
             }
@@ -274,7 +305,7 @@ impl<'a> TensionSearch<'a> {
                 last = None;
                 if self.rescued.is_some() {
                     // From the result of another start, with shorter steps.
-                    part = (0.5 * part).max(0.05);
+                    part = (SHORTER * part).max(MIN_STEP_FRACTION);
                 }
                 continue;
             };
@@ -286,10 +317,10 @@ impl<'a> TensionSearch<'a> {
             }
 
             // Choose the fraction of the step.
-            if change > 0.9 * last_change {
-                (part, setback) = ((0.5 * part).max(0.05), change);
-            } else if change < 0.3 * setback {
-                part = (2.0 * part).min(1.0);
+            if change > SETBACK * last_change {
+                (part, setback) = ((SHORTER * part).max(MIN_STEP_FRACTION), change);
+            } else if change < RECOVERED * setback {
+                part = (part / SHORTER).min(1.0);
             }
             last_change = change;
 
@@ -340,7 +371,7 @@ impl<'a> TensionSearch<'a> {
     /// Moves to the tensions as far from the limits as possible, relative to the distance between the limits.
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
-        let mut stride = Stride::default();
+        let mut stride = ProximalStepControl::default();
         let mut reach = 1.0;
 
         for _ in 0..MAX_ITERATIONS {
@@ -350,10 +381,10 @@ impl<'a> TensionSearch<'a> {
 
             if optimum.distance < -VIOLATION {
                 self.min_violation()?;
-                stride = Stride::default();
+                stride = ProximalStepControl::default();
                 if self.rescued.is_some() {
                     // From the result of another start, next to the limits, with shorter steps each time.
-                    reach *= 0.3;
+                    reach *= SMALLER_CLIMB;
                     stride.climb = Some(ProximalStep { from: 0.0, by: reach * self.size });
                 }
                 continue;
@@ -422,7 +453,8 @@ impl<'a> TensionSearch<'a> {
         }
 
         // The direction of the limits' multipliers is nearly always a proof.
-        let reaches: Vec<Reach> = self.cables.iter().zip(&minima).map(|(cable, tau)| Reach::of(cable, *tau)).collect();
+        let reaches: Vec<ReachableTensions> =
+            self.cables.iter().zip(&minima).map(|(cable, tau)| ReachableTensions::of(cable, *tau)).collect();
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
         let claim = Infeasibility { reaches: &reaches, load, motion };
@@ -451,7 +483,7 @@ impl<'a> TensionSearch<'a> {
     }
 
     /// Start number `k` of tensions that spread over the range between the limits, evenly in their logarithms.
-    fn spread(&self, reaches: &[Reach], k: usize) -> Vec<f64> {
+    fn spread(&self, reaches: &[ReachableTensions], k: usize) -> Vec<f64> {
         let cables = reaches.iter().zip(&self.cables).enumerate();
         let tensions = cables.map(|(i, (reach, cable))| {
             let [low, high] = reach.limits();
@@ -468,7 +500,7 @@ impl<'a> TensionSearch<'a> {
     /// Minimum violation if cables are continued by their tangents below these tensions.
     fn min_violation_above(&mut self, floors: &[f64]) -> Result<MarginOptimum, StaticsError> {
         let mut here = self.tensions();
-        let mut stride = Stride::default();
+        let mut stride = ProximalStepControl::default();
         let mut mildest: Option<MarginOptimum> = None;
 
         for iteration in 0..MAX_ITERATIONS {

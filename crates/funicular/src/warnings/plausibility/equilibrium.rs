@@ -1,7 +1,7 @@
-//! Plausibility of an equilibrium: strain, and weight of the cables against their tension.
+//! Plausibility of an equilibrium: strain, weight of the cables against their tension, and length of the cables.
 
 use super::{Implausible, likely, outside, usual};
-use crate::robot::Robot;
+use crate::robot::{Robot, State};
 use crate::statics::{Equilibrium, StaticModel};
 
 /// Values of an equilibrium that no usual robot has.
@@ -10,7 +10,7 @@ pub fn of_equilibrium(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Implausib
     if equilibrium.model == StaticModel::Ideal {
         return Vec::new();
     }
-    [strain(robot, equilibrium), weight(robot, equilibrium)].into_iter().flatten().collect()
+    [strain(robot, equilibrium), weight(robot, equilibrium), length(robot, equilibrium)].into_iter().flatten().collect()
 }
 
 /// Largest strain of a cable.
@@ -39,7 +39,7 @@ fn weight(robot: &Robot, equilibrium: &Equilibrium) -> Option<Implausible> {
     let gravity = robot.gravity_w.norm();
     let (mut weights, mut tensions) = (0.0, 0.0);
     for (cable, state) in robot.cables.iter().zip(&equilibrium.cables) {
-        weights += cable.material.mass_per_length * gravity * state.unstrained_length;
+        weights += cable.material.mass_per_length * gravity * state.free_length();
         tensions += 0.5 * (state.tension_platform + state.tension_anchor);
     }
     if equilibrium.model != StaticModel::Catenary || tensions == 0.0 {
@@ -52,4 +52,27 @@ fn weight(robot: &Robot, equilibrium: &Equilibrium) -> Option<Implausible> {
         usual::WEIGHT_OVER_TENSION,
         |_| "ropes in kg per 100 m or g/m given as kg/m, or tensions in kN given as N?".to_owned(),
     )
+}
+
+/// Longest cable over the distance of its ends.
+///
+/// At a pose that straight cables can hold only by pushing, a sagging cable of any tension balances if it is long
+/// enough: it then hangs far below both of its ends and pulls the platform down.
+fn length(robot: &Robot, equilibrium: &Equilibrium) -> Option<Implausible> {
+    if equilibrium.model != StaticModel::Catenary {
+        return None;
+    }
+    let ratios = robot.cables.iter().zip(&equilibrium.cables).filter(|(_, state)| state.chord() > 0.0);
+    let ratios = ratios.map(|(cable, state)| (cable.name.as_str(), state.unstrained_length / state.chord()));
+    let (name, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
+
+    let what = format!("unstrained length of cable \"{name}\" over the distance of its ends");
+    outside(what, ratio, "", usual::LENGTH_OVER_CHORD, |_| match robot.state {
+        State::Lengths(_) => "its `unstrained_length_m` too long, or an end of the cable at a wrong place?".to_owned(),
+        State::Pose(_) | State::Unknown => {
+            "straight it would be slack or have to push, and only so long a cable balances the platform: wrong pose, \
+             attachment or anchor?"
+                .to_owned()
+        }
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::{Implausible, likely, outside, usual};
 use crate::math::{Vec3, rotation};
-use crate::robot::{Robot, State};
+use crate::robot::{Cable, Robot, State};
 use crate::statics::spread;
 use std::f64::consts::PI;
 
@@ -32,11 +32,103 @@ impl Size {
 /// Warnings about the geometry.
 pub(super) fn check(robot: &Robot) -> Vec<Implausible> {
     let size = Size::of(robot);
-    let of_size = anchors(&size).or_else(|| attachments(robot, &size)).or_else(|| distance(robot, &size));
+    // A single point far away explains the size of all.
+    let of_size = single_cable(robot).or_else(|| anchors(&size)).or_else(|| attachments(robot, &size));
+    let of_size = of_size.or_else(|| distance(robot, &size)).or_else(|| attachments_in_world(robot, &size));
     let mut found: Vec<Implausible> = of_size.into_iter().collect();
     found.extend(signs(robot, &size));
     found.extend(angles(robot));
     found
+}
+
+/// Lengths of the cables [m]: given, or between anchors and attachments at the pose, or from the middle of the anchors.
+pub(super) fn lengths(robot: &Robot) -> Vec<f64> {
+    let count = robot.cables.len() as f64;
+    let middle: Vec3 = robot.cables.iter().map(|cable| cable.anchor.reference_w()).sum::<Vec3>() / count;
+    let length = |(i, cable): (usize, &Cable)| match &robot.state {
+        // Lengths of another number are refused by statics, with these warnings.
+        State::Lengths(lengths) => lengths.get(i).copied().unwrap_or_default(),
+        State::Pose(pose) => cable.chord_w(pose).norm(),
+        State::Unknown => (cable.anchor.reference_w() - middle).norm(),
+    };
+    robot.cables.iter().enumerate().map(length).collect()
+}
+
+/// Point `i` against the other points: its distance from their mean, and their size [m].
+fn against_others(points: &[Vec3], i: usize) -> (f64, f64) {
+    let others = points.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, point)| *point);
+    let mean = others.clone().sum::<Vec3>() / (points.len() - 1) as f64;
+    ((points[i] - mean).norm(), spread(others))
+}
+
+/// Minimum number of cables of which one with a point far from those of the others is suspicious.
+const MIN_OTHERS: usize = 4;
+
+/// One cable whose anchor or attachment is far from those of all others.
+fn single_cable(robot: &Robot) -> Option<Implausible> {
+    let cables = &robot.cables;
+    if cables.len() < MIN_OTHERS {
+        return None;
+    }
+    let anchors: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.reference_w()).collect();
+    let attachments: Vec<Vec3> = cables.iter().map(|cable| cable.attachment_p).collect();
+
+    for (i, cable) in cables.iter().enumerate() {
+        let (from_anchors, anchors_size) = against_others(&anchors, i);
+        let (from_attachments, size) = against_others(&attachments, i);
+        if size == 0.0 || anchors_size == 0.0 {
+            continue;
+        }
+
+        // Ends swapped: each end fits the other ends of the other cables.
+        let exchanged = |points: &[Vec3], own: Vec3| {
+            let mut points = points.to_vec();
+            points[i] = own;
+            let (distance, size) = against_others(&points, i);
+            distance <= 2.0 * size
+        };
+        if from_attachments > usual::SWAPPED_ATTACHMENT * size
+            && exchanged(&attachments, anchors[i])
+            && exchanged(&anchors, attachments[i])
+        {
+            return Some(Implausible::Odd {
+                what: format!(
+                    "the attachment of cable \"{}\" is among the anchors of the other cables, and its anchor among \
+                     their attachments",
+                    cable.name
+                ),
+                slip: "`anchor_m` and `attachment_m` of this cable swapped?".to_owned(),
+            });
+        }
+
+        let far = |end: &str, key: &str, distance: f64, size: f64, range: [f64; 2]| {
+            let what =
+                format!("distance of the {end} of cable \"{}\" from those of the others, over their size,", cable.name);
+            outside(what, distance / size, "", range, |_| format!("`{key}` of this cable in mm or cm given as m?"))
+        };
+        let attachment = far("attachment", "attachment_m", from_attachments, size, usual::ATTACHMENT_OVER_OTHERS);
+        let anchor = || far("anchor", "anchor_m", from_anchors, anchors_size, usual::ANCHOR_OVER_OTHERS);
+        if let Some(found) = attachment.or_else(anchor) {
+            return Some(found);
+        }
+    }
+    None
+}
+
+/// Attachments around the position of the platform in place of its origin.
+fn attachments_in_world(robot: &Robot, size: &Size) -> Option<Implausible> {
+    let State::Pose(pose) = &robot.state else { return None };
+    let at = pose.position_w;
+    let is_there = (size.middle_p - at).norm() < size.attachments;
+    (is_there && size.middle_p.norm() > 2.0 * size.attachments).then(|| Implausible::Odd {
+        what: format!(
+            "the attachments are around ({:.3}, {:.3}, {:.3}) m, which is the position of the platform in the world",
+            size.middle_p.x, size.middle_p.y, size.middle_p.z
+        ),
+        slip:
+            "attachments given in the world frame? They belong in the platform frame, whose origin is at `position_m`"
+                .to_owned(),
+    })
 }
 
 fn anchors(size: &Size) -> Option<Implausible> {
@@ -105,14 +197,14 @@ fn distance(robot: &Robot, size: &Size) -> Option<Implausible> {
             let middle: Vec3 = robot.cables.iter().map(|cable| cable.anchor.reference_w()).sum::<Vec3>() / count;
             let what = "distance of the platform from the middle of the anchors, over the size of the robot,";
             outside(what, (pose.position_w - middle).norm() / unit, "", usual::DISTANCE, |_| {
-                "position in mm given as m?".to_owned()
+                "position in mm or cm given as m?".to_owned()
             })
         }
         State::Lengths(lengths) => {
             let longest = lengths.iter().copied().fold(0.0, f64::max);
             let what = "longest cable over the size of the robot";
             let long = outside(what, longest / unit, "", usual::DISTANCE, |_| {
-                "unstrained lengths in mm given as m?".to_owned()
+                "unstrained lengths in mm or cm given as m?".to_owned()
             });
             long.or_else(|| {
                 let value = (2.0 * longest + size.attachments) / size.anchors;
@@ -131,9 +223,35 @@ const MIN_CABLES: usize = 6;
 const COINCIDE: f64 = 1e-9;
 const ALIKE: f64 = 0.01;
 
+/// Two cables, not more, with both ends at the same points. Pairs of parallel ropes come in greater numbers.
+fn copied(robot: &Robot, size: &Size) -> Option<Implausible> {
+    let cables = &robot.cables;
+    if cables.len() < 3 || size.anchors == 0.0 || size.attachments == 0.0 {
+        return None;
+    }
+    let same = |i: usize, j: usize| {
+        let anchors = (cables[i].anchor.reference_w() - cables[j].anchor.reference_w()).norm();
+        let attachments = (cables[i].attachment_p - cables[j].attachment_p).norm();
+        anchors <= COINCIDE * size.anchors && attachments <= COINCIDE * size.attachments
+    };
+    let pairs: Vec<(usize, usize)> =
+        (0..cables.len()).flat_map(|i| (0..i).map(move |j| (j, i))).filter(|&(j, i)| same(i, j)).collect();
+    let [(j, i)] = pairs[..] else { return None };
+    Some(Implausible::Odd {
+        what: format!(
+            "cables \"{}\" and \"{}\" have the same `anchor_m` and the same `attachment_m`",
+            cables[j].name, cables[i].name
+        ),
+        slip: "a copied cable whose points were not changed?".to_owned(),
+    })
+}
+
 /// Coordinates of one cable with another sign than those of the others.
 fn signs(robot: &Robot, size: &Size) -> Vec<Implausible> {
     let cables = &robot.cables;
+    if let Some(copied) = copied(robot, size) {
+        return vec![copied];
+    }
     if cables.len() < MIN_CABLES {
         return Vec::new();
     }
@@ -150,7 +268,7 @@ fn signs(robot: &Robot, size: &Size) -> Vec<Implausible> {
             pairs.extend(at_it.map(|j| (j, i)));
         }
         if let ([(j, i)], true) = (&pairs[..], size > 0.0) {
-            found.push(Implausible::Sign {
+            found.push(Implausible::Odd {
                 what: format!(
                     "cables \"{}\" and \"{}\" have the same `{key}`, and all others have points of their own",
                     cables[*j].name, cables[*i].name
@@ -168,7 +286,7 @@ fn signs(robot: &Robot, size: &Size) -> Vec<Implausible> {
             let opposite = own != 0.0 && others().all(|other| other * own < 0.0);
             let alike = others().any(|other| (other + own).abs() <= ALIKE * own.abs());
             if opposite && alike {
-                found.push(Implausible::Sign {
+                found.push(Implausible::Odd {
                     what: format!(
                         "the anchor of cable \"{}\" has {axis} = {own} m, and those of all other cables are on the \
                          other side of the origin, one of them equally far",
@@ -193,7 +311,7 @@ fn angles(robot: &Robot) -> Option<Implausible> {
         let step = PI / 12.0;
         let multiple = (degrees / step).round();
         let is_round = (1.0..=24.0).contains(&multiple.abs()) && (degrees - multiple * step).abs() < ANGLE_DIGITS;
-        is_round.then(|| Implausible::Sign {
+        is_round.then(|| Implausible::Odd {
             what: format!("{name} is {degrees:.4}°, which is {:.0}° in radians", 15.0 * multiple),
             slip: "angle in radians given in degrees?".to_owned(),
         })

@@ -1,6 +1,6 @@
 //! Plausibility of gravity, weights, loads, wind and tension limits.
 
-use super::geometry::Size;
+use super::geometry::{Size, lengths};
 use super::{Implausible, likely, outside, usual};
 use crate::math::{Vec3, Vec6};
 use crate::robot::{Load, PlatformMotion, Robot, State};
@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 
 /// Warnings about the loads; those that compare them with ropes and sizes only if `sizes_fit`.
 pub(super) fn check(robot: &Robot, sizes_fit: bool) -> Vec<Implausible> {
-    let gravity: Vec<Implausible> = [magnitude_of_gravity(robot), gravity_up(robot)].into_iter().flatten().collect();
+    let gravity: Vec<Implausible> =
+        [magnitude_of_gravity(robot), gravity_up(robot), gravity_level(robot)].into_iter().flatten().collect();
     let compared = sizes_fit && gravity.is_empty();
     let mut found = gravity;
     if compared {
@@ -51,12 +52,27 @@ fn gravity_up(robot: &Robot) -> Option<Implausible> {
         State::Lengths(_) | State::Unknown => 0.0,
     };
     let up = robot.gravity_w.z > 0.5 * robot.gravity_w.norm();
-    (up && anchors > platform).then(|| Implausible::Sign {
+    (up && anchors > platform).then(|| Implausible::Odd {
         what: format!(
             "`gravity_m_s2` has z = {}, which is up, and the anchors are above the platform in z",
             robot.gravity_w.z
         ),
         slip: "wrong sign of gravity?".to_owned(),
+    })
+}
+
+/// Gravity perpendicular to z, with all anchors above the platform in z.
+fn gravity_level(robot: &Robot) -> Option<Implausible> {
+    let State::Pose(pose) = &robot.state else { return None };
+    let gravity = robot.gravity_w.norm();
+    let is_level = gravity > 0.0 && robot.gravity_w.z.abs() < 0.1 * gravity;
+    let is_above = robot.cables.iter().all(|cable| cable.anchor.reference_w().z > pose.position_w.z);
+    (is_level && is_above).then(|| Implausible::Odd {
+        what: format!(
+            "`gravity_m_s2` is ({}, {}, {}), perpendicular to z, and all anchors are above the platform in z",
+            robot.gravity_w.x, robot.gravity_w.y, robot.gravity_w.z
+        ),
+        slip: "gravity along -z meant?".to_owned(),
     })
 }
 
@@ -79,18 +95,13 @@ fn stiffness(robot: &Robot) -> Option<Implausible> {
 
 /// Mass of all cables against that of the platform.
 fn cable_mass(robot: &Robot) -> Option<Implausible> {
-    let count = robot.cables.len() as f64;
-    let middle: Vec3 = robot.cables.iter().map(|cable| cable.anchor.reference_w()).sum::<Vec3>() / count;
-    let length = |i: usize| match &robot.state {
-        // Lengths of another number are refused by statics, with these warnings.
-        State::Lengths(lengths) => lengths.get(i).copied().unwrap_or_default(),
-        State::Pose(pose) => robot.cables[i].chord_w(pose).norm(),
-        State::Unknown => (robot.cables[i].anchor.reference_w() - middle).norm(),
-    };
-    let masses = robot.cables.iter().enumerate().map(|(i, cable)| cable.material.mass_per_length * length(i));
+    let lengths = lengths(robot);
+    let masses = robot.cables.iter().zip(&lengths).map(|(cable, length)| cable.material.mass_per_length * length);
     let what = "mass of all cables over that of the platform";
     outside(what, masses.sum::<f64>() / robot.platform.mass, "", usual::CABLES_OVER_PLATFORM, |_| {
-        "ropes in kg per 100 m or g/m given as kg/m, or platform in t given as kg?".to_owned()
+        "ropes in kg per 100 m or g/m given as kg/m, or mass of the complete cable given per metre, or platform in t \
+         given as kg?"
+            .to_owned()
     })
 }
 
@@ -130,6 +141,13 @@ fn load(robot: &Robot) -> Vec<Implausible> {
     let weight = robot.platform.mass * robot.gravity_w.norm();
     let size = Size::of(robot);
     let mut found = Vec::new();
+    let weight_w = robot.platform.mass * robot.gravity_w;
+    if weight > 0.0 && (force_w - weight_w).norm() <= usual::WEIGHT_DIGITS * weight {
+        found.push(Implausible::Odd {
+            what: format!("`force_n` is {:.4} N, which is the weight of the platform", force_w.norm()),
+            slip: "weight counted twice? `mass_kg` includes it".to_owned(),
+        });
+    }
     if weight > 0.0 {
         let what = "force on the platform over its weight";
         found.extend(outside(what, force_w.norm() / weight, "", usual::LOAD_OVER_WEIGHT, |_| {
@@ -139,7 +157,8 @@ fn load(robot: &Robot) -> Vec<Implausible> {
     if size.attachments > 0.0 && weight > 0.0 {
         let what = "moment on the platform over its weight and the size of its attachments";
         let ratio = moment_w.norm() / (weight * size.attachments);
-        found.extend(outside(what, ratio, "", usual::LOAD_OVER_WEIGHT, |_| "moment in N mm given as N m?".to_owned()));
+        found
+            .extend(outside(what, ratio, "", usual::MOMENT_OVER_WEIGHT, |_| "moment in N mm given as N m?".to_owned()));
     }
     if size.attachments > 0.0 {
         let what = "distance of the load's point from the attachments, over their size,";

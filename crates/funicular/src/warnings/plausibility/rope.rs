@@ -1,6 +1,8 @@
 //! Plausibility of ropes: cross-section, modulus, mass, damping, strength and drag.
 
+use super::geometry::lengths;
 use super::{Implausible, likely, outside, usual};
+use crate::math::Vec3;
 use crate::robot::{Damping, Material, Robot, RopeSection};
 use std::f64::consts::PI;
 
@@ -18,7 +20,7 @@ pub(super) fn distinct(robot: &Robot) -> Vec<&Material> {
 /// All warnings about a rope.
 pub(super) fn check(robot: &Robot, rope: &Material) -> Vec<Implausible> {
     // These quantities depend on each other: the first one that is wrong explains the others.
-    let stiffness = section(rope).or_else(|| modulus(rope)).or_else(|| specific_stiffness(rope));
+    let stiffness = section(robot, rope).or_else(|| modulus(rope)).or_else(|| specific_stiffness(rope));
     let stiffness = stiffness.or_else(|| full_circle(rope));
     let strength = if stiffness.is_none() { strength(rope) } else { Vec::new() };
 
@@ -31,7 +33,7 @@ fn named(rope: &Material, quantity: &str) -> String {
 }
 
 /// Diameter and density.
-fn section(rope: &Material) -> Option<Implausible> {
+fn section(robot: &Robot, rope: &Material) -> Option<Implausible> {
     let section = rope.dimensions.section?;
     let (quantity, key) = match section {
         RopeSection::Diameter(_) => ("diameter", "diameter_m"),
@@ -54,6 +56,7 @@ fn section(rope: &Material) -> Option<Implausible> {
     let slips: &[(f64, &str)] = &[
         (1e-3, "mass in g/m given as kg/m"),
         (1e-2, "mass in kg per 100 m given as kg/m"),
+        (1.0 / mean_length(robot), "mass of the complete cable given per metre"),
         (1.0 / 9.81, "weight in N/m given as mass in kg/m"),
         (0.25, "radius given as diameter"),
         (1e3, "mass in t/m given as kg/m"),
@@ -101,17 +104,23 @@ fn specific_stiffness(rope: &Material) -> Option<Implausible> {
 }
 
 /// Modulus over the metal of a stranded steel rope whose modulus is given together with the full circle [Pa].
+///
+/// The circle is that of `diameter_m`, or an `area_m2` with the density of a rope in place of that of steel.
 fn metal_modulus(rope: &Material) -> Option<f64> {
-    let Some(section @ RopeSection::Diameter(_)) = rope.dimensions.section else { return None };
+    let section = rope.dimensions.section?;
     let fill = rope.mass_per_length / section.area() / usual::STEEL_DENSITY;
     let is_stranded = (usual::STRANDED[0]..=usual::STRANDED[1]).contains(&fill);
     is_stranded.then(|| rope.axial_stiffness / section.area() / fill)
 }
 
 fn full_circle(rope: &Material) -> Option<Implausible> {
-    let what = "Young's modulus over its metal, which fills a part of the full circle of `diameter_m` only,";
-    outside(named(rope, what), metal_modulus(rope)?, "Pa", usual::STRANDED_MODULUS, |_| {
-        "modulus over the metal given with the diameter of the full circle? Give `area_m2`, the area of the metal: mass \
+    let circle = match rope.dimensions.section? {
+        RopeSection::Diameter(_) => "`diameter_m`",
+        RopeSection::Area(_) => "`area_m2` (by its density)",
+    };
+    let what = format!("Young's modulus over its metal, which fills a part of the full circle of {circle} only,");
+    outside(named(rope, &what), metal_modulus(rope)?, "Pa", usual::STRANDED_MODULUS, |_| {
+        "modulus over the metal given with the diameter of the full circle? Give the area of the metal as `area_m2`: mass \
          per length over 7850 kg/m³"
             .to_owned()
     })
@@ -201,15 +210,42 @@ fn drag_diameter(rope: &Material) -> Option<Implausible> {
     )
 }
 
-/// Load per length over the weight.
+/// Load per length over the weight, and against it.
 fn load(robot: &Robot, rope: &Material) -> Option<Implausible> {
-    let weight = rope.mass_per_length * robot.gravity_w.norm();
+    let weight_w = rope.mass_per_length * robot.gravity_w;
+    let weight = weight_w.norm();
     let cables = robot.cables.iter().filter(|cable| cable.material == *rope);
-    let load = cables.map(|cable| cable.load_per_length_w.norm()).fold(0.0, f64::max);
+    let loads_w: Vec<Vec3> = cables.map(|cable| cable.load_per_length_w).collect();
+    let load = loads_w.iter().map(Vec3::norm).fold(0.0, f64::max);
     if weight == 0.0 || load == 0.0 {
         return None;
     }
-    outside(named(rope, "load per length over its weight"), load / weight, "", usual::CABLE_LOAD, |_| {
-        "load of the complete cable given per metre, or mN/m given as N/m?".to_owned()
-    })
+    let too_much =
+        outside(named(rope, "load per length over its weight"), load / weight, "", usual::CABLE_LOAD, |_| {
+            "load of the complete cable given per metre, or mN/m given as N/m?".to_owned()
+        });
+
+    let twice = || {
+        let is_weight = |load_w: &Vec3| (load_w - weight_w).norm() <= usual::WEIGHT_DIGITS * weight;
+        loads_w.iter().any(is_weight).then(|| Implausible::Odd {
+            what: named(rope, &format!("`load_n_per_m` is {weight:.4} N/m, which is the weight of the rope")),
+            slip: "weight counted twice? `mass_kg_per_m` includes it".to_owned(),
+        })
+    };
+    let upward = || {
+        let lift = loads_w.iter().map(|load_w| -load_w.dot(&weight_w) / weight).fold(0.0, f64::max);
+        let area = rope.dimensions.section.map_or(rope.mass_per_length / usual::DENSITY[0], |section| section.area());
+        let buoyancy = SEA_WATER_DENSITY * robot.gravity_w.norm() * area;
+        let what = named(rope, "upward load per length over the buoyancy that its volume has in water");
+        outside(what, lift / buoyancy, "", usual::BUOYANCY, |_| "wrong sign of `load_n_per_m`?".to_owned())
+    };
+    too_much.or_else(twice).or_else(upward)
+}
+
+/// Density of sea water [kg/m³].
+const SEA_WATER_DENSITY: f64 = 1025.0;
+
+/// Mean length of the cables [m].
+fn mean_length(robot: &Robot) -> f64 {
+    lengths(robot).iter().sum::<f64>() / robot.cables.len().max(1) as f64
 }

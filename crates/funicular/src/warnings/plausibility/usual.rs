@@ -67,6 +67,14 @@ pub const DRAG_COEFFICIENT: [f64; 2] = [0.2, 3.0];
 /// Diameter that the wind meets [m]; ice makes it larger than that of the rope.
 pub const DRAG_DIAMETER: [f64; 2] = [2e-4, 0.3];
 
+/// Relative difference from a weight up to which a load counts as that weight: g is 9.80665 or 9.81 m/s² (3.4e-4), and
+/// the user rounds.
+pub const WEIGHT_DIGITS: f64 = 5e-4;
+
+/// Upward load per length over the buoyancy of the rope's volume in sea water. Sheaths and hollow ropes displace up to
+/// twice the volume. Outside: ice and other weights with a wrong sign, on ropes that do not float.
+pub const BUOYANCY: [f64; 2] = [0.0, 2.0];
+
 /// Load per length besides the weight, over the weight of the rope: ice and supply lines weigh up to some ten ropes.
 pub const CABLE_LOAD: [f64; 2] = [0.0, 100.0];
 
@@ -86,6 +94,17 @@ pub const SLINGS: f64 = 50.0;
 /// attachments. Library: up to 1.3; hoists with ropes side by side have 20. Outside: millimetres given as m.
 pub const DISTANCE: [f64; 2] = [0.0, 30.0];
 
+/// Distance of one attachment from the mean of the others, over the size of the others. Library: 1.00 to 1.18
+/// (CoGiRo). A long arm has 20. Outside: one attachment in mm or cm.
+pub const ATTACHMENT_OVER_OTHERS: [f64; 2] = [0.0, 50.0];
+
+/// Distance of one anchor from the mean of the others, over the size of the others. Library: 1.00 to 1.24
+/// (KNTU). A tag line beside a crane has 100. Outside: one anchor in mm.
+pub const ANCHOR_OVER_OTHERS: [f64; 2] = [0.0, 300.0];
+
+/// Distance of one attachment from the mean of the others over their size, from which on its ends may be swapped.
+pub const SWAPPED_ATTACHMENT: f64 = 4.0;
+
 /// Twice the longest cable and the size of the attachments, over the size of the anchors. Shorter cables cannot reach a
 /// platform from anchors on both sides. Library: from 1.9.
 pub const MIN_LENGTH: [f64; 2] = [0.5, f64::INFINITY];
@@ -101,6 +120,10 @@ pub const GYRATION: [f64; 2] = [0.1, 3.0];
 /// Distance of the centre of mass, or of the point of a force, from the mean of the attachments over their size.
 /// Library: up to 0.27; loads far below their hook have some. Outside: mm and cm.
 pub const OFFSET: [f64; 2] = [0.0, 10.0];
+
+/// Viscous damping of the platform over its mass or inertia [1/s]: 100 is a damping ratio of one half at 16 Hz. Below
+/// the minimum the damping ratio is less than 1e-5 at 1 Hz. Outside: damping ratios given as N s/m.
+pub const PLATFORM_DAMPING: [f64; 2] = [1e-4, 100.0];
 
 /// Magnitude of gravity [m/s²], if there is any: Moon 1.62, Earth 9.81. Outside: 1 (in units of g), 32.2 (ft/s²), 981
 /// and 9810.
@@ -122,8 +145,12 @@ pub const MINIMUM_OVER_LOAD: [f64; 2] = [2.5e-4, f64::INFINITY];
 /// Minimum tension up to which it only means that no cable is slack [N]: CASPR's models have 0.001.
 pub const NOT_SLACK: f64 = 0.01;
 
-/// Load on the platform over its weight, moments over the size of the attachments.
+/// Force on the platform over its weight.
 pub const LOAD_OVER_WEIGHT: [f64; 2] = [0.0, 100.0];
+
+/// Moment on the platform over its weight and the size of its attachments: 10 is ten times the weight at the outermost
+/// attachment. Outside: N mm, for moments that matter (a hundredth of this product).
+pub const MOMENT_OVER_WEIGHT: [f64; 2] = [0.0, 10.0];
 
 /// Drag coefficient times area of the platform, over the disc of its attachments.
 pub const DRAG_AREA: [f64; 2] = [0.0, 50.0];
@@ -136,6 +163,11 @@ pub const AIR_DENSITY: [f64; 2] = [0.5, 2.0];
 
 /// Density of water [kg/m³], for robots in water.
 pub const WATER_DENSITY: [f64; 2] = [900.0, 1100.0];
+
+/// Unstrained length of a cable over the distance of its ends. Library: up to 1.011 (Yuan 2014, 8 mm). A cable that
+/// hangs down by half the distance of its ends has 1.5. Outside: poses at which a straight cable would have to push,
+/// and one length in other units.
+pub const LENGTH_OVER_CHORD: [f64; 2] = [0.0, 2.0];
 
 /// Weight of all cables over the sum of their tensions. Library: up to 0.34. Outside: kg per 100 m, g/m.
 pub const WEIGHT_OVER_TENSION: [f64; 2] = [0.0, 1.0];

@@ -1,5 +1,6 @@
 //! Catenary-dynamic cables against limits and identities.
 
+use crate::library::library;
 use funicular::cable::catenary_dynamic::{CatenaryDynamic, CatenaryDynamicError};
 use funicular::catenary::{Catenary, Rope};
 use funicular::math::Complex;
@@ -102,4 +103,27 @@ fn a_cable_without_tension_and_a_limit_out_of_reach_are_refused() {
     assert_eq!(CatenaryDynamic::new(&cable, 0.1, 10.0).unwrap_err(), CatenaryDynamicError::NoTension);
     let cable = Catenary::between(10.0, 0.0, hanging).unwrap();
     assert!(matches!(CatenaryDynamic::new(&cable, 0.5, 1e5), Err(CatenaryDynamicError::TooFine { .. })));
+}
+
+#[test]
+fn the_cables_of_the_library_need_few_functions() {
+    // DESIGN.md states these numbers, for the frequencies of a report.
+    let (mut usual, mut of_fast) = (Vec::new(), Vec::new());
+    for (name, robot, rest) in library() {
+        for (i, state) in rest.cables.iter().enumerate() {
+            let mass_per_length = robot.cables[i].material.mass_per_length;
+            if mass_per_length > 0.0 {
+                let catenary = &state.hanging.as_ref().unwrap().catenary;
+                let cable = CatenaryDynamic::new(catenary, mass_per_length, 20.0 * TAU).unwrap();
+                assert!(cable.error <= 1e-11, "{name} {i}: {:e}", cable.error);
+                // Nodes between elements and bubbles, per direction.
+                let functions = cable.degrees.iter().sum::<usize>() - 1;
+                if name.starts_with("fast") { of_fast.push(functions) } else { usual.push(functions) }
+            }
+        }
+    }
+    usual.sort_unstable();
+    let range = (usual.first().copied(), usual.last().copied());
+    assert_eq!((range, of_fast.iter().max()), ((Some(9), Some(72)), Some(&208)));
+    assert!(usual[usual.len() / 2] < 20, "{usual:?}");
 }

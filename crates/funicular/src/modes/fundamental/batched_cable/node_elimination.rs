@@ -3,13 +3,13 @@
 use super::element::ElementBatch;
 use super::element_integrals::place;
 use super::mesh::GradedMesh;
-use super::{IN_PLANE, Kept, OUT_OF_PLANE};
+use super::{IN_PLANE, KeptStiffness, OUT_OF_PLANE};
 use crate::math::Matrix;
 use crate::math::simd::{LANES, Lane, Lanes};
 
 /// Elements of one cable, and the elimination of its nodes at the last frequency.
 #[derive(Debug, Clone)]
-pub(super) struct Chain {
+pub(super) struct ElementChain {
     /// Number of its first element among those of all chains.
     first: usize,
     /// Number of its elements.
@@ -22,7 +22,7 @@ pub(super) struct Chain {
     level: ([f64; IN_PLANE], f64),
 }
 
-impl Chain {
+impl ElementChain {
     pub(super) fn new(mesh: &GradedMesh, first: usize) -> Self {
         Self {
             first,
@@ -35,7 +35,7 @@ impl Chain {
     }
 
     /// Eliminates the nodes between elements that are already condensed onto their ends, and sets a lane of `into`.
-    fn condense(&mut self, packs: &[ElementBatch], min_pivots: &[Lane], lane: usize, into: &mut Kept) {
+    fn condense(&mut self, packs: &[ElementBatch], min_pivots: &[Lane], lane: usize, into: &mut KeptStiffness) {
         let mut min_pivot = self.of(min_pivots).fold(f64::INFINITY, f64::min);
 
         let entry = |factor: fn(&ElementBatch) -> &Lanes, e: usize, row: usize, column: usize| {
@@ -197,8 +197,8 @@ fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
 }
 
 /// Stiffness of the kept unknowns of chains whose elements are condensed onto their ends.
-pub(super) fn condense(chains: &mut [Chain], packs: &[ElementBatch], min_pivots: &[Lane]) -> Kept {
-    let mut kept = Kept::default();
+pub(super) fn condense(chains: &mut [ElementChain], packs: &[ElementBatch], min_pivots: &[Lane]) -> KeptStiffness {
+    let mut kept = KeptStiffness::default();
     // In lanes without a cable the pivots must not be zero.
     (kept.in_plane[5], kept.out_of_plane[2]) = ([1.0; LANES], [1.0; LANES]);
     for (lane, chain) in chains.iter_mut().enumerate() {
@@ -209,7 +209,7 @@ pub(super) fn condense(chains: &mut [Chain], packs: &[ElementBatch], min_pivots:
 
 /// Motions of the ends of packs of elements, which follow those of the kept unknowns of chains.
 pub(super) fn ends(
-    chains: &[Chain],
+    chains: &[ElementChain],
     packs: usize,
     in_plane: &[Lane; IN_PLANE],
     out_of_plane: &[Lane; OUT_OF_PLANE],
@@ -222,7 +222,7 @@ pub(super) fn ends(
 }
 
 /// Sums over the elements of each chain, from the values of all packs.
-pub(super) fn sums(chains: &[Chain], of_packs: &[[Lane; 2]]) -> [Lane; 2] {
+pub(super) fn sums(chains: &[ElementChain], of_packs: &[[Lane; 2]]) -> [Lane; 2] {
     let mut sums = [[0.0; LANES]; 2];
     for (component, sums) in sums.iter_mut().enumerate() {
         let of_packs: Vec<Lane> = of_packs.iter().map(|both| both[component]).collect();

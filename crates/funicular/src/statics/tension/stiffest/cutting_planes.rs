@@ -7,9 +7,9 @@
 //! the affine qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not increase the
 //! stiffness is shortened.
 
-use super::super::active_set::Polyhedron;
 use super::super::search::{Linear, TensionSearch};
 use super::{GAIN, min_eigenvalue, present};
+use crate::math::active_set::Polyhedron;
 use crate::math::{Mat6, Vec6, symmetric, symmetric_part};
 use crate::statics::error::StaticsError;
 

@@ -5,10 +5,10 @@
 //! the balance, and the other eigenvectors. With r = 1 this is the Taylor series; a larger r keeps it valid where
 //! eigenvalues meet.
 
-use super::super::active_set::Polyhedron;
 use super::super::cable_at_pose::{CableAtPose, Rates};
 use super::super::null_space::Solutions;
 use super::super::search::{Linear, TensionSearch};
+use crate::math::active_set::Polyhedron;
 use crate::math::{DMat, Mat6, Vec6};
 
 /// Relative distance from the minimum eigenvalue within which eigenvalues are kept together with it.

@@ -1,10 +1,8 @@
 //! `reduce` as a state space: A, B, C, D of the modes that inputs and outputs see, with their errors.
 
-use super::reduce::{
-    ChannelRow, DEFAULT_TOLERANCE, Linearised, check, damping_in_words, input_rows, linearised, output_rows,
-};
-use super::shared::Models;
-use super::{found, frf};
+use super::{ChannelRow, DEFAULT_TOLERANCE, Linearised, check, damping_in_words, input_rows, linearised, output_rows};
+use crate::analyses::shared::Models;
+use crate::analyses::{found, frf};
 use crate::at_rest::AtRest;
 use crate::names::{ModelForm, Named};
 use crate::request;

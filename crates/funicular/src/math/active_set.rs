@@ -4,7 +4,7 @@ use std::ops::{Add, Div, Mul, Sub};
 
 /// Polyhedron of inequalities `normal · x ≥ level` in few unknowns.
 #[derive(Debug, Default)]
-pub(super) struct Polyhedron {
+pub(crate) struct Polyhedron {
     dimension: usize,
     normals: Vec<f64>,
     levels: Vec<f64>,
@@ -12,7 +12,7 @@ pub(super) struct Polyhedron {
 
 /// Active inequality at the nearest point, with its multiplier.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Active<M = f64> {
+pub(crate) struct Active<M = f64> {
     /// Number of the inequality, in the order of addition.
     pub row: usize,
     /// Multiplier, not negative.
@@ -21,25 +21,25 @@ pub(super) struct Active<M = f64> {
 
 /// Length of a normal, made of columns of an orthogonal matrix, below which it is rounding: the unknowns do not affect
 /// the quantity.
-pub(super) const NO_NORMAL: f64 = 1e-12;
+pub(crate) const NO_NORMAL: f64 = 1e-12;
 
 /// Rounding of a violation, relative to the terms that it is the difference of.
-pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Relative length of the component outside the span of the active normals below which a normal counts as dependent.
-pub(super) const DEPENDENT: f64 = 1e-10;
+pub(crate) const DEPENDENT: f64 = 1e-10;
 
 /// Relative rounding of slopes and of parts of multipliers.
 const FLAT: f64 = 1e-14;
 
 impl Polyhedron {
     /// Complete space of this dimension.
-    pub(super) fn new(dimension: usize) -> Self {
+    pub(crate) fn new(dimension: usize) -> Self {
         Self { dimension, ..Self::default() }
     }
 
     /// Number of inequalities.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.levels.len()
     }
 
@@ -48,7 +48,7 @@ impl Polyhedron {
     }
 
     /// Adds `normal · x ≥ level`; the normal is given as components times `sign` and a last component.
-    pub(super) fn add<'a>(&mut self, normal: impl Iterator<Item = &'a f64>, sign: f64, last: Option<f64>, level: f64) {
+    pub(crate) fn add<'a>(&mut self, normal: impl Iterator<Item = &'a f64>, sign: f64, last: Option<f64>, level: f64) {
         let from = self.normals.len();
         self.normals.extend(normal.map(|x| sign * x).chain(last));
         debug_assert_eq!(self.normals.len() - from, self.dimension);
@@ -59,18 +59,18 @@ impl Polyhedron {
     }
 
     /// Moves `x` to the nearest point that satisfies all inequalities, see [`nearest`].
-    pub(super) fn nearest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+    pub(crate) fn nearest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
         nearest(&mut Dense::of(self), x, tolerance)
     }
 
     /// Moves `x` to a point with the maximum last component, see [`highest`].
-    pub(super) fn highest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+    pub(crate) fn highest(&self, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
         highest(&mut Dense::of(self), x, tolerance)
     }
 }
 
 /// Inequalities with their active subset: the interface of the active-set method.
-pub(super) trait ConstraintSet {
+pub(crate) trait ConstraintSet {
     /// Number of independent directions in which a point may move.
     fn dimension(&self) -> usize;
 
@@ -102,7 +102,7 @@ pub(super) trait ConstraintSet {
 
 /// Moves `x` to the nearest point at which no inequality is violated by more than `tolerance` and rounding. Returns the
 /// active inequalities; `None` if there is no such point.
-pub(super) fn nearest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+pub(crate) fn nearest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
     let tolerance = tolerance.max(rounding(x));
     approach(constraints, x, tolerance)
 }
@@ -112,9 +112,9 @@ pub(super) fn nearest(constraints: &mut impl ConstraintSet, x: &mut [f64], toler
 /// zero multipliers). `None` if the polyhedron is empty or unbounded in this direction.
 ///
 /// The result is the point nearest to one far above (Mangasarian and Meyer 1979), however far that has to be: see
-/// [`Far`].
-pub(super) fn highest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
-    let mut point: Vec<Far> = x.iter().map(|&near| Far { far: 0.0, near }).collect();
+/// [`TwoMagnitudes`].
+pub(crate) fn highest(constraints: &mut impl ConstraintSet, x: &mut [f64], tolerance: f64) -> Option<Vec<Active>> {
+    let mut point: Vec<TwoMagnitudes> = x.iter().map(|&near| TwoMagnitudes { far: 0.0, near }).collect();
     point.last_mut()?.far = 1.0;
     let held = approach(constraints, &mut point, tolerance.max(rounding(x)))?;
     if point.iter().any(|x| x.far != 0.0) {
@@ -193,7 +193,7 @@ fn rounding(x: &[f64]) -> f64 {
 }
 
 /// Number type of coordinates, violations and multipliers: plain numbers, or numbers of two magnitudes.
-pub(super) trait Magnitude:
+pub(crate) trait Magnitude:
     Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + Div<f64, Output = Self>
 {
     const ZERO: Self;
@@ -253,40 +253,40 @@ impl Magnitude for f64 {
 /// The highest point of a polyhedron is the point nearest to one high enough above. The necessary height depends on the
 /// flattest edge, and so large a number would leave no digits to the others; so L stays a symbol.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub(super) struct Far {
+pub(crate) struct TwoMagnitudes {
     far: f64,
     near: f64,
 }
 
-impl Add for Far {
+impl Add for TwoMagnitudes {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self { far: self.far + other.far, near: self.near + other.near }
     }
 }
 
-impl Sub for Far {
+impl Sub for TwoMagnitudes {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self { far: self.far - other.far, near: self.near - other.near }
     }
 }
 
-impl Mul<f64> for Far {
+impl Mul<f64> for TwoMagnitudes {
     type Output = Self;
     fn mul(self, by: f64) -> Self {
         Self { far: self.far * by, near: self.near * by }
     }
 }
 
-impl Div<f64> for Far {
+impl Div<f64> for TwoMagnitudes {
     type Output = Self;
     fn div(self, by: f64) -> Self {
         Self { far: self.far / by, near: self.near / by }
     }
 }
 
-impl Magnitude for Far {
+impl Magnitude for TwoMagnitudes {
     const ZERO: Self = Self { far: 0.0, near: 0.0 };
 
     fn lack(terms: impl Iterator<Item = (f64, Self)>, level: f64, tolerance: f64) -> Option<Self> {
@@ -392,7 +392,7 @@ impl ConstraintSet for Dense<'_> {
 }
 
 /// Largest violation and its index; NaN comes before all others.
-pub(super) fn worst<M: Magnitude>(lacks: impl Iterator<Item = Option<M>>) -> Option<(usize, M)> {
+pub(crate) fn worst<M: Magnitude>(lacks: impl Iterator<Item = Option<M>>) -> Option<(usize, M)> {
     let mut worst: Option<(usize, M)> = None;
     for (row, lack) in lacks.enumerate() {
         if let Some(lack) = lack

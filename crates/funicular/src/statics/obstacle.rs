@@ -4,12 +4,12 @@
 //! a direction y in which no cable pulls and the load has to be balanced: `y·w_i ≤ 0` for every cable and `y·e < 0` for
 //! the load, (39d). Of all such directions this one leaves the largest part of the load unbalanced.
 
-use super::active_set::Polyhedron;
+use super::loaded_cable::LoadedCable;
+use super::model::StaticModel;
+use crate::math::active_set::Polyhedron;
 use crate::math::{Vec3, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench, wrench_of};
 use crate::robot::{Pose, Robot};
-use crate::statics::loaded_cable::LoadedCable;
-use crate::statics::model::StaticModel;
 use std::fmt;
 
 /// Reason why no tensions of straight cables balance the platform at a pose, whatever the limits of the tensions.
@@ -66,7 +66,7 @@ const MINOR: f64 = 0.05;
 impl Obstacle {
     /// Obstacle at a pose; `None` if straight cables can balance the load with tensions that are large enough, or
     /// without any load.
-    pub(in crate::statics) fn at(robot: &Robot, pose: &Pose, model: StaticModel) -> Option<Self> {
+    pub(super) fn at(robot: &Robot, pose: &Pose, model: StaticModel) -> Option<Self> {
         let coordinates = Coordinates::of(robot);
 
         // Load, with half of each cable's weight.
@@ -149,7 +149,7 @@ fn not_spanned(coordinates: &Coordinates, wrenches: &[Vec6], load: &Vec6) -> Opt
 
 impl Obstacle {
     /// Advice for a message about this obstacle.
-    pub(in crate::statics) fn advice(&self) -> &'static str {
+    pub(super) fn advice(&self) -> &'static str {
         match self {
             Self::OneSided { cause: OneSidedCause::GravityUp, .. } => "check the sign of `gravity_m_s2`",
             Self::OneSided { cause: OneSidedCause::EndsSwapped, .. } => {

@@ -1,6 +1,6 @@
 //! Faces of the body spanned by points in space.
 
-use super::robot::{extent, polygon};
+use super::view::{extent, polygon};
 use funicular::math::Vec3;
 
 /// Corners of each face in their order around the face: faces of the convex hull, or one polygon if all points lie in a

@@ -1,0 +1,232 @@
+//! Equilibrium of one point with the results that several quantities share.
+
+use super::columns::Value;
+use super::frequency::{self, Lowest};
+use super::options::Options;
+use super::status::Status;
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes::Kind;
+use funicular::pose_error::PoseDifference;
+use funicular::robot::Robot;
+use funicular::statics::{self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel};
+use std::cell::OnceCell;
+
+/// Robot at the equilibrium of a point, with results that several quantities share.
+pub(super) struct PointEvaluation<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) rest: &'a Equilibrium,
+    options: &'a Options,
+    /// Lowest frequencies with the cable model of the options, as many as the quantities need.
+    lowest: OnceCell<Result<Lowest, Status>>,
+    /// Number of frequencies in `lowest`.
+    frequency_count: usize,
+    /// First frequency with the cable model `catenary-dynamic`, for comparisons.
+    exact: OnceCell<Result<Lowest, Status>>,
+    /// First reason why a requested value is missing.
+    missing: Option<Status>,
+}
+
+impl<'a> PointEvaluation<'a> {
+    /// Equilibrium of a point before any quantity of it is computed; the quantities need the lowest `frequency_count`
+    /// frequencies.
+    pub(super) fn new(robot: &'a Robot, rest: &'a Equilibrium, options: &'a Options, frequency_count: usize) -> Self {
+        let (lowest, exact) = (OnceCell::new(), OnceCell::new());
+        Self { robot, rest, options, lowest, frequency_count, exact, missing: Status::note_for(robot, rest) }
+    }
+
+    /// First reason why a requested value is missing, or the caveat about the equilibrium.
+    pub(super) fn into_missing(self) -> Option<Status> {
+        self.missing
+    }
+}
+
+impl PointEvaluation<'_> {
+    /// Adds a value. If there is only a reason, adds nothing and keeps the reason, unless the row has one already.
+    pub(super) fn push(&mut self, value: Option<Result<f64, Status>>, out: &mut Vec<Value>) {
+        match value {
+            None => out.push(Value::Nothing),
+            Some(Ok(value)) => out.push(Value::real(Some(value))),
+            Some(Err(status)) => {
+                out.push(Value::Nothing);
+                self.missing.get_or_insert(status);
+            }
+        }
+    }
+
+    /// Minimum and maximum tension anywhere in each cable.
+    pub(super) fn tensions(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.rest.cables.iter().map(|cable| match &cable.hanging {
+            Some(hanging) => (hanging.catenary.min_tension(), hanging.catenary.max_tension()),
+            None => (cable.tension_platform, cable.tension_platform),
+        })
+    }
+
+    /// Lowest modes with the requested cable model.
+    pub(super) fn modes(&mut self) -> Option<&[(f64, Kind)]> {
+        let found = self.lowest.get_or_init(|| {
+            frequency::lowest(
+                self.robot,
+                self.rest,
+                self.options.linearisation,
+                self.frequency_count,
+                self.options.highest_hz,
+            )
+        });
+        match found {
+            Ok(lowest) => {
+                if !lowest.certified {
+                    self.missing.get_or_insert_with(not_certified);
+                }
+                Some(&lowest.modes)
+            }
+            Err(status) => {
+                self.missing.get_or_insert_with(|| status.clone());
+                None
+            }
+        }
+    }
+
+    pub(super) fn frequencies(&mut self, count: usize, out: &mut Vec<Value>) {
+        let end = out.len() + count;
+        if let Some(modes) = self.modes() {
+            out.extend(modes.iter().take(count).map(|mode| Value::real(Some(mode.0))));
+        }
+        out.resize(end, Value::Nothing);
+    }
+
+    /// Distances between the poses of catenary, spring and rigid cables with the same unstrained lengths. An
+    /// equilibrium that does not hold the platform, for example with slack springs only, is not compared.
+    pub(super) fn pose_error(&mut self, out: &mut Vec<Value>) {
+        let lengths: Vec<f64> = self.rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let with = |model: StaticModel| {
+            let none = |reason: &str| {
+                let reason = format!("with {} cables of the same lengths: {reason}", model.name());
+                Status::new("no-comparison", &reason)
+            };
+            let found = statics::forward(self.robot, &lengths, model, Some(&self.rest.pose));
+            let found = found.map_err(|error| none(&error.to_string()))?;
+            match found.stability {
+                Stability::Unstable { .. } => Err(none("the equilibrium does not hold the platform")),
+                Stability::Stable { .. } | Stability::Rigid => Ok(found.pose),
+            }
+        };
+        let spring = with(StaticModel::Spring);
+        let distance = |from: &_, to: &_| PoseDifference::between(from, to).distance;
+        let catenary = &self.rest.pose;
+
+        let of_spring = spring.as_ref().map(|spring| distance(catenary, spring)).map_err(Clone::clone);
+        if has_ideal_pose(self.robot) {
+            let ideal = with(StaticModel::Ideal);
+            let both = ideal.as_ref().and_then(|ideal| spring.as_ref().map(|spring| distance(ideal, spring)));
+            let of_ideal = ideal.as_ref().map(|ideal| distance(ideal, catenary)).map_err(Clone::clone);
+            let both = both.map_err(Clone::clone);
+            self.push(Some(both), out);
+            self.push(Some(of_ideal), out);
+        }
+
+        self.push(Some(of_spring), out);
+    }
+
+    /// Lowest natural frequency of a mode with enough of its kinetic energy in the platform.
+    pub(super) fn first_platform_frequency(&mut self) -> Result<f64, Status> {
+        let Options { linearisation, highest_hz, platform_share, .. } = *self.options;
+        let (first, certified) =
+            frequency::first_platform(self.robot, self.rest, linearisation, platform_share, highest_hz)?;
+        if !certified {
+            self.missing.get_or_insert_with(not_certified);
+        }
+        Ok(first)
+    }
+
+    /// Adds the maximum payload and the limits that bind.
+    pub(super) fn payload(&mut self, out: &mut Vec<Value>) {
+        let Options { static_model, payload_center_p, .. } = *self.options;
+        let center_p = payload_center_p.unwrap_or(self.robot.platform.center_of_mass_p);
+        let requested = RequestedPayload { center_p, side: PayloadSide::Maximum, prove: false };
+        let found = statics::payload_bound(self.robot, &self.rest.pose, static_model, requested, Some(self.rest));
+        let found = match found {
+            Ok(found) if found.mass.is_finite() => Ok(found),
+            Ok(_) => Err(Status::new("unlimited", "no maximum tension limits the payload")),
+            Err(error) => Err(Status::new("no-payload", &error)),
+        };
+        match found {
+            Ok(found) => {
+                out.push(Value::real(Some(found.mass)));
+                let limits: Vec<String> = found.limits.iter().map(|of| limit_text(self.robot, of)).collect();
+                out.push(Value::Text(limits.join(", ").into()));
+            }
+            Err(status) => {
+                out.extend([Value::Nothing, Value::Nothing]);
+                self.missing.get_or_insert(status);
+            }
+        }
+    }
+
+    /// First frequency with another cable model divided by the one with `catenary-dynamic`, minus one.
+    pub(super) fn model_error(&mut self, model: CableModel) -> Result<f64, Status> {
+        let Options { linearisation, highest_hz, .. } = *self.options;
+        let (robot, rest) = (self.robot, self.rest);
+        let first = |cable_model| {
+            let requested = Linearisation { cable_model, ..linearisation };
+            frequency::lowest(robot, rest, requested, 1, highest_hz)
+        };
+
+        let mut certified = true;
+        let mut of = |found: &Result<Lowest, Status>| match found {
+            Ok(lowest) => {
+                certified &= lowest.certified;
+                lowest.modes.first().map(|mode| mode.0).ok_or_else(not_certified)
+            }
+            Err(status) => Err(status.clone()),
+        };
+        let exact = if linearisation.cable_model == CableModel::CatenaryDynamic && self.frequency_count > 0 {
+            of(self.lowest.get_or_init(|| {
+                frequency::lowest(self.robot, self.rest, linearisation, self.frequency_count, highest_hz)
+            }))?
+        } else {
+            of(self.exact.get_or_init(|| first(CableModel::CatenaryDynamic)))?
+        };
+        let simpler = of(&first(model))?;
+
+        if !certified {
+            self.missing.get_or_insert_with(not_certified);
+        }
+
+        Ok(simpler / exact - 1.0)
+    }
+
+    /// Minimum eigenvalue of the scaled static stiffness with another cable model divided by the one with
+    /// `catenary-static`, minus one.
+    pub(super) fn stiffness_error(&self, model: CableModel) -> Result<f64, Status> {
+        let min_stiffness = |cable_model| {
+            let requested = Linearisation { cable_model, ..self.options.linearisation };
+            let dynamics = Dynamics::about(self.robot, self.rest, requested, 0.0)
+                .map_err(|error| Status::new("no-comparison", &error))?;
+            Ok::<f64, Status>(dynamics.min_static_stiffness())
+        };
+        let exact = min_stiffness(CableModel::CatenaryStatic)?;
+        if exact <= 0.0 {
+            return Err(Status::new(
+                "unstable",
+                "the minimum stiffness is not positive: no model can be compared with it",
+            ));
+        }
+        Ok(min_stiffness(model)? / exact - 1.0)
+    }
+}
+
+/// Limit that a tension has reached, as in `1 maximum at anchor`.
+fn limit_text(robot: &Robot, of: &LimitAtCable) -> String {
+    let LimitAtCable { cable, limit, place } = of;
+    format!("{} {} at {}", robot.cables[*cable].name, limit.name(), place.name())
+}
+
+fn not_certified() -> Status {
+    Status::new("not-certified", "the mode count does not confirm the lowest natural frequencies")
+}
+
+/// True if rigid cables of given lengths have a pose: only with as many cables as degrees of freedom.
+pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
+    robot.cables.len() == robot.platform.motion.count()
+}

@@ -1,0 +1,237 @@
+//! Cables over pulleys and on winches.
+
+use super::reference::{CableToWinch, Drives, RobotWithWinches, SaggingOverPulley, StraightOverPulley};
+use super::{Bound, Case, Comparison, Section};
+use anyhow::{Result, anyhow};
+use funicular::drive::CableAtRest;
+use funicular::math::{Mat3, Vec3, rotation};
+use funicular::robot::{Anchor, Pulley, Robot, State};
+use funicular::statics::{self, CableState, StaticModel};
+use std::fmt::Write;
+
+pub(super) fn section(drives: &Drives) -> Result<Section> {
+    let mut rows = Vec::new();
+    for row in &drives.straight.rows {
+        rows.extend(straight(row, &drives.straight.source));
+    }
+    for row in &drives.sagging.rows {
+        rows.extend(sagging(row, &drives.sagging.source)?);
+    }
+    for row in &drives.cables.rows {
+        rows.extend(to_winch(row, &drives.cables.source)?);
+    }
+    for row in &drives.robots.rows {
+        rows.extend(robot(row, &drives.robots.source)?);
+    }
+    Ok(Section {
+        title: "Pulleys and winches",
+        note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
+               cables over pulleys, whose weight begins at the entry point; cables to winches that yield; robots with \
+               pulleys and winches. The stiffness with a tilted swivel axis is exact to the square of the kink, \
+               theory (69).",
+        rows,
+    })
+}
+
+/// Rounding of closed forms with lengths of some metres.
+const CLOSED_FORM: f64 = 2e-14;
+
+/// Rounding of the solution: the unknowns are found to 1e-13, and a taut cable turns a relative error of its length into
+/// one of its tension that is EA/T times as large.
+const SOLVED: f64 = 1e-10;
+
+fn straight(row: &StraightOverPulley, source: &str) -> Vec<Comparison> {
+    let anchor = Anchor {
+        pulley: Some(Pulley {
+            name: "wheel".to_owned(),
+            radius: row.radius_m,
+            entry_direction_w: Vec3::from(row.entry_direction).normalize(),
+            inertia: 0.0,
+            swivel_inertia: 0.0,
+        }),
+        ..Anchor::from(Vec3::from(row.entry_point_m))
+    };
+    let end_w = Vec3::from(row.platform_point_m);
+    let exit_w = anchor.exit_w(&end_w);
+    let wrap = anchor.contact(&end_w).map_or(f64::NAN, |contact| contact.wrap);
+    let length = (end_w - exit_w).norm() + anchor.length_beyond(&end_w);
+
+    let case = Case { name: format!("straight, {}", row.case), source };
+    let tolerance = row.printed_digits + CLOSED_FORM;
+    let bound = if row.printed_digits > CLOSED_FORM { Bound::Digits("12 printed digits") } else { Bound::Rounding };
+    vec![
+        case.absolute("wrap [rad], length [m]", &[row.wrap_rad, row.length_m], &[wrap, length], tolerance, bound),
+        case.absolute("exit point [m]", &row.exit_point_m, exit_w.as_slice(), tolerance, bound),
+    ]
+}
+
+fn sagging(row: &SaggingOverPulley, source: &str) -> Result<Vec<Comparison>> {
+    let [x, z] = row.platform_point_along_up_m;
+    let robot = single(&Single {
+        gravity: 1.0,
+        mass_per_length: row.weight_n_per_m,
+        axial_stiffness: row.axial_stiffness_n,
+        radius: row.radius_m,
+        entry_direction: [0.0, 0.0, 1.0],
+        anchor: [0.0; 3],
+        drum_side_length: 0.0,
+        winch_stiffness: None,
+    })?;
+    let found = CableAtRest::of(&robot, 0, Vec3::new(x, 0.0, z), row.unstrained_length_m);
+    let (force_w, k, exit_w) = (found.force_w(), found.tangent_w(), found.span.end_w);
+    let drive = found.drive.as_ref().ok_or_else(|| anyhow!("a cable over a pulley has a drive"))?;
+    let catenary = &found.span.catenary;
+
+    let case = Case { name: format!("sagging, {}", row.case), source };
+    let wrap = drive.contact.map_or(f64::NAN, |contact| contact.wrap);
+    let tensions = [catenary.tension_at_start(), catenary.tension_at_end(), drive.tension_drum];
+    let their_tensions = [row.tension_platform_n, row.tension_exit_n, row.tension_drum_n];
+    let entries = [k[(0, 0)], k[(0, 2)], k[(2, 2)], k[(1, 1)]];
+    let free_length = catenary.rope().unstrained_length;
+    Ok(vec![
+        case.together("force [N]", &row.force_at_platform_along_up_n, &[force_w.x, force_w.z], SOLVED, Bound::Rounding),
+        case.together("tensions [N]", &their_tensions, &tensions, SOLVED, Bound::Rounding),
+        case.absolute(
+            "wrap [rad], free length [m]",
+            &[row.wrap_rad, row.free_length_m],
+            &[wrap, free_length],
+            SOLVED,
+            Bound::Rounding,
+        ),
+        case.absolute("exit point [m]", &row.exit_point_along_up_m, &[exit_w.x, exit_w.z], SOLVED, Bound::Rounding),
+        case.together("stiffness [N/m]", &row.stiffness_n_per_m, &entries, SOLVED, Bound::Rounding),
+    ])
+}
+
+fn to_winch(row: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
+    let robot = single(&Single {
+        gravity: 9.81,
+        mass_per_length: row.mass_kg_per_m,
+        axial_stiffness: row.axial_stiffness_n,
+        radius: row.radius_m,
+        entry_direction: row.entry_direction,
+        anchor: row.entry_point_m,
+        drum_side_length: row.drum_side_length_m,
+        winch_stiffness: row.winch_stiffness_n_per_m,
+    })?;
+    let found = CableAtRest::of(&robot, 0, Vec3::from(row.platform_point_m), row.unstrained_length_m);
+    let drive = found.drive.as_ref().ok_or_else(|| anyhow!("a cable over a pulley has a drive"))?;
+    let catenary = &found.span.catenary;
+    let wrap = drive.contact.map_or(f64::NAN, |contact| contact.wrap);
+
+    let case = Case { name: row.case.clone(), source };
+    let digits = Bound::Digits("12 printed digits");
+    // A tilted swivel axis.
+    let kinked = row.kink_rad.abs() > 1e-12;
+    let (stiffness, bound) =
+        if kinked { (10.0 * row.kink_rad.powi(2), Bound::Model("square of the kink")) } else { (SOLVED, digits) };
+    let k = found.tangent_w();
+    let theirs = Mat3::from_fn(|i, j| row.stiffness_n_per_m[i][j]);
+    let lengths = [catenary.rope().unstrained_length, drive.arc_length, drive.drum_side_length];
+    Ok(vec![
+        case.together("force [N]", &row.force_on_platform_n, found.force_w().as_slice(), SOLVED, digits),
+        case.together(
+            "tensions at exit and drum [N]",
+            &[row.tension_exit_n, row.tension_drum_n],
+            &[catenary.tension_at_end(), drive.tension_drum],
+            SOLVED,
+            digits,
+        ),
+        case.absolute("wrap, kink [rad]", &[row.wrap_rad, row.kink_rad], &[wrap, drive.kink], SOLVED, digits),
+        case.absolute("exit point [m]", &row.exit_point_m, found.span.end_w.as_slice(), SOLVED, digits),
+        case.absolute("lengths of span, arc, drum side [m]", &row.lengths_m, &lengths, SOLVED, digits),
+        case.together("stiffness [N/m]", theirs.as_slice(), k.as_slice(), stiffness, bound),
+        case.together(
+            "force per length [N/m]",
+            &row.force_per_unstrained_length_n_per_m,
+            found.force_by_length_w().as_slice(),
+            stiffness,
+            bound,
+        ),
+        case.relative("energy [J]", &[row.energy_j], &[found.energy()], SOLVED, digits),
+    ])
+}
+
+fn robot(row: &RobotWithWinches, source: &str) -> Result<Vec<Comparison>> {
+    let robot = robot_of(row)?;
+    let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
+    let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None)?;
+    let stiffness = statics::tangent_stiffness(&robot, &rest).ok_or_else(|| anyhow!("the cables are elastic"))?;
+    let exit: Vec<f64> = rest.cables.iter().map(|cable| cable.tension_anchor).collect();
+    let drum: Vec<f64> = rest.cables.iter().map(CableState::tension_drum).collect();
+
+    // The way back: lengths from the pose.
+    let held = statics::inverse(&robot, &rest.pose, StaticModel::Catenary);
+    let case = Case { name: row.case.clone(), source };
+    let digits = Bound::Digits("12 printed digits");
+    let angles = rotation::to_roll_pitch_yaw_deg(&rest.pose.rot_wp);
+    let mut rows = vec![
+        case.absolute("position [m]", &row.position_m, rest.pose.position_w.as_slice(), 1e-11, digits),
+        case.absolute("orientation [°]", &row.roll_pitch_yaw_deg, &angles, 1e-9, digits),
+        case.together("tensions at the exit [N]", &row.tension_exit_n, &exit, SOLVED, digits),
+        case.together("tensions at the drum [N]", &row.tension_drum_n, &drum, SOLVED, digits),
+        case.together("stiffness", row.stiffness_6x6.as_flattened(), stiffness.as_slice(), SOLVED, digits),
+    ];
+    // More cables than degrees of freedom have a choice.
+    if let (Ok(held), true) = (held, robot.cables.len() == robot.platform.motion.count()) {
+        let back: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
+        rows.push(case.absolute("lengths from the pose [m]", lengths, &back, 1e-11, Bound::Rounding));
+    }
+    Ok(rows)
+}
+
+/// Numbers of one cable over a pulley.
+struct Single {
+    gravity: f64,
+    mass_per_length: f64,
+    axial_stiffness: f64,
+    radius: f64,
+    entry_direction: [f64; 3],
+    anchor: [f64; 3],
+    drum_side_length: f64,
+    winch_stiffness: Option<f64>,
+}
+
+/// Point mass on one cable.
+fn single(of: &Single) -> Result<Robot> {
+    let winch = winch_text(of.drum_side_length, of.winch_stiffness);
+    let text = format!(
+        "name = \"one cable\"\ngravity_m_s2 = [0.0, 0.0, {:?}]\n[platform]\nmass_kg = 1.0\nmotion = \"point-mass\"\n\
+         [materials.rope]\naxial_stiffness_n = {:?}\nmass_kg_per_m = {:?}\n[pulleys.wheel]\nradius_m = {:?}\n\
+         entry_direction = {:?}\n{winch}[[cables]]\nname = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\n\
+         winch = \"drum\"\nanchor_m = {:?}\n",
+        -of.gravity, of.axial_stiffness, of.mass_per_length, of.radius, of.entry_direction, of.anchor
+    );
+    Ok(Robot::from_toml(&text)?)
+}
+
+fn winch_text(drum_side_length: f64, stiffness: Option<f64>) -> String {
+    let stiffness = stiffness.map_or_else(String::new, |stiffness| format!("stiffness_n_per_m = {stiffness:?}\n"));
+    format!("[winches.drum]\ndrum_side_length_m = {drum_side_length:?}\n{stiffness}")
+}
+
+fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
+    let mut text = format!(
+        "name = {:?}\n[platform]\nmass_kg = {:?}\ncenter_of_mass_m = {:?}\ninertia_kg_m2 = {:?}\n[materials.rope]\n\
+         axial_stiffness_n = {:?}\nmass_kg_per_m = {:?}\n[pulleys.wheel]\nradius_m = {:?}\n\
+         entry_direction = [0.0, 0.0, 1.0]\n{}",
+        row.case,
+        row.mass_kg,
+        row.center_of_mass_m,
+        row.inertia_kg_m2,
+        row.axial_stiffness_n,
+        row.mass_kg_per_m,
+        row.radius_m,
+        winch_text(row.drum_side_length_m, row.winch_stiffness_n_per_m)
+    );
+    let cables = row.anchors_m.iter().zip(&row.attachments_m).zip(&row.unstrained_lengths_m).enumerate();
+    for (i, ((anchor, attachment), length)) in cables {
+        write!(
+            text,
+            "[[cables]]\nname = \"{}\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n\
+             anchor_m = {anchor:?}\nattachment_m = {attachment:?}\nunstrained_length_m = {length:?}\n",
+            i + 1
+        )?;
+    }
+    Ok(Robot::from_toml(&text)?)
+}

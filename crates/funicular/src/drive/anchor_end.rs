@@ -1,0 +1,105 @@
+//! End of a cable at its exit point: the directions in which it can move, and its stiffness in them.
+
+use super::arc::Beyond;
+use crate::catenary::space::HangingCable;
+use crate::math::{Mat3, Vec3};
+use crate::robot::PulleyContact;
+
+/// Wrap angle [rad] below which the exit point is on the swivel axis and cannot move sideways. At 1e-8 its distance from
+/// the axis is 1e-16 of the radius.
+const MIN_WRAP: f64 = 1e-8;
+
+/// End of a cable at its exit point, as the free span meets it. It can slip along the cable (σ, towards the platform)
+/// and move sideways with the swivelling wheel (v).
+///
+/// In the plane of the wheel, rolling has no effect of first order: the exit point is a pin that slides along the cable.
+/// The forces of the end on a displacement (σ, v) are −S (σ, v).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnchorEnd {
+    /// Direction of σ: along the cable towards the platform, unit vector, world axes; `None` if the end is held.
+    pub along_w: Option<Vec3>,
+    /// Direction of v: normal to the wheel, unit vector, world axes; `None` without a pulley.
+    pub sideways_w: Option<Vec3>,
+    /// Stiffness S for (σ, v) [N/m].
+    pub stiffness: [[f64; 2]; 2],
+    /// Force along the cable per unstrained length that is paid out, λ k_s [N/m].
+    pub force_by_length: f64,
+}
+
+impl AnchorEnd {
+    /// End of a span.
+    ///
+    /// # References
+    /// docs/theory.md, equations (68) and (69).
+    pub(super) fn of(span: &HangingCable, contact: Option<&PulleyContact>, beyond: &Beyond) -> Self {
+        // A rigid drum at the exit point holds the cable.
+        if beyond.compliance <= 0.0 {
+            return Self { along_w: None, sideways_w: None, stiffness: [[0.0; 2]; 2], force_by_length: 0.0 };
+        }
+
+        let (load_w, stretch) = (span.load_w(), beyond.stretch);
+        let spring = 1.0 / (stretch * stretch * beyond.compliance);
+        let along_w = contact.map_or_else(|| towards_platform(span, beyond), PulleyContact::exit_direction_w);
+        let mut end = Self {
+            along_w: Some(along_w),
+            sideways_w: None,
+            stiffness: [[spring - load_w.dot(&along_w) / stretch, 0.0], [0.0; 2]],
+            force_by_length: stretch * spring,
+        };
+
+        // A cable without tension does not hold the swivel.
+        if let Some(contact) = contact.filter(|contact| contact.wrap > MIN_WRAP && beyond.tension > 0.0) {
+            let (sideways_w, distance) = (contact.sideways_w, contact.distance_from_axis());
+            let swivel = beyond.tension / (contact.radius * (0.5 * contact.wrap).tan());
+            let coupling = -load_w.dot(&sideways_w) / stretch - beyond.kink * swivel;
+            let lifted = load_w.dot(&contact.center_w) * beyond.moment / (distance * distance);
+            end.stiffness[0][1] = coupling;
+            end.stiffness[1] = [coupling, swivel + lifted];
+            end.sideways_w = Some(sideways_w);
+        }
+
+        end
+    }
+
+    /// Stiffness of a span, whose end would be held, in series with this end; 3×3, world axes [N/m].
+    ///
+    /// # References
+    /// docs/theory.md, equation (70).
+    pub(crate) fn in_series_with(&self, held: &Mat3) -> Mat3 {
+        let Some(along) = self.along_w.map(|direction| held * direction) else { return *held };
+        let [[a, b], [_, c]] = self.inverse(held);
+        let mut total = held - along * along.transpose() * a;
+        if let Some(sideways) = self.sideways_w.map(|direction| held * direction) {
+            let mixed = along * sideways.transpose();
+            total -= (mixed + mixed.transpose()) * b + sideways * sideways.transpose() * c;
+        }
+        total
+    }
+
+    /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held,
+    /// so that it is that of the span.
+    pub(crate) fn force_by_length_w(&self, held: &Mat3) -> Option<Vec3> {
+        let along = held * self.along_w?;
+        let [[a, b], _] = self.inverse(held);
+        let sideways = self.sideways_w.map_or_else(Vec3::zeros, |direction| held * direction);
+        Some((along * a + sideways * b) * self.force_by_length)
+    }
+
+    /// Inverse of `S + Wᵀ K W`, K being the stiffness of the span and W the directions.
+    fn inverse(&self, held: &Mat3) -> [[f64; 2]; 2] {
+        let Some(along) = self.along_w else { return [[0.0; 2]; 2] };
+        let [[mut a, mut b], [_, mut c]] = self.stiffness;
+        let pulled = held * along;
+        a += along.dot(&pulled);
+        let Some(sideways) = self.sideways_w else { return [[1.0 / a, 0.0], [0.0; 2]] };
+        b += sideways.dot(&pulled);
+        c += sideways.dot(&(held * sideways));
+        let determinant = a * c - b * b;
+        [[c / determinant, -b / determinant], [-b / determinant, a / determinant]]
+    }
+}
+
+/// Direction of the cable at its end towards the platform.
+fn towards_platform(span: &HangingCable, beyond: &Beyond) -> Vec3 {
+    beyond.force_w.try_normalize(0.0).unwrap_or_else(|| -span.chord_w().normalize())
+}

@@ -1,0 +1,182 @@
+//! `[pulleys.NAME]` and `[winches.NAME]`: pulleys and winches that cables refer to, and the anchor made of them.
+
+use super::key::{Absent, Key, Shape};
+use super::range::Range;
+use super::read::{Named, Reader, Section, is_zero};
+use crate::math::Vec3;
+use crate::robot::{Anchor, Pulley, Winch};
+
+/// Keys of `[pulleys.NAME]`.
+pub(super) const PULLEY: &[Key] = &[
+    Key::numeric(
+        Shape::Number,
+        "radius_m",
+        "radius_m = 0.05",
+        "m",
+        Range::Positive,
+        "radius of the wheel, from its axle to the centre line of the cable",
+    ),
+    Key::numeric(
+        Shape::Vector,
+        "entry_direction",
+        "entry_direction = [0.0, 0.0, 1.0]",
+        "1",
+        Range::Any,
+        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; of \
+         any length",
+    )
+    .without(Absent::Depends("required here, or for every cable over this pulley")),
+];
+
+/// Keys of `[winches.NAME]`.
+pub(super) const WINCH: &[Key] = &[
+    Key::numeric(
+        Shape::Number,
+        "drum_side_length_m",
+        "drum_side_length_m = 3.0",
+        "m",
+        Range::NotNegative,
+        "length of the cable from the drum to its anchor, guide wheels included",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "stiffness_n_per_m",
+        "stiffness_n_per_m = 200e3",
+        "N/m",
+        Range::Positive,
+        "stiffness of drum, shaft and gear at the cable",
+    )
+    .without(Absent::Means("the `shaft_stiffness_n_m_per_rad` if it is given, else a rigid winch")),
+    Key::numeric(
+        Shape::Number,
+        "shaft_stiffness_n_m_per_rad",
+        "shaft_stiffness_n_m_per_rad = 800",
+        "N m/rad",
+        Range::Positive,
+        "torsional stiffness of shaft and gear at the drum",
+    )
+    .without(Absent::Means("the `stiffness_n_per_m` if it is given, else a rigid winch")),
+    Key::numeric(
+        Shape::Number,
+        "drum_radius_m",
+        "drum_radius_m = 0.0675",
+        "m",
+        Range::Positive,
+        "radius of the drum, from its axis to the centre line of the cable",
+    )
+    .without(Absent::Depends("required with `shaft_stiffness_n_m_per_rad`")),
+];
+
+/// Pulley of a file. Its direction may be left to the cables.
+#[derive(Debug, Clone)]
+pub(super) struct PulleyEntry {
+    name: String,
+    radius: f64,
+    entry_direction_w: Option<Vec3>,
+}
+
+/// Pulleys and winches of a file; `None` if the tables as a whole were refused.
+pub(super) struct Drives {
+    pulleys: Option<Named<PulleyEntry>>,
+    winches: Option<Named<Winch>>,
+}
+
+/// Reads all pulleys and winches.
+pub(super) fn read(reader: &mut Reader, root: &Section) -> Drives {
+    let pulleys = match root.get("pulleys") {
+        Some(value) => reader.named_tables("pulleys", "pulley", value, PULLEY, read_pulley),
+        None => Some(Named::new()),
+    };
+    let winches = match root.get("winches") {
+        Some(value) => reader.named_tables("winches", "winch", value, WINCH, read_winch),
+        None => Some(Named::new()),
+    };
+    Drives { pulleys, winches }
+}
+
+fn read_pulley(reader: &mut Reader, name: &str, section: &Section) -> Option<PulleyEntry> {
+    let radius = reader.required(section, "radius_m").and_then(|value| reader.number_of(section, "radius_m", value));
+    let direction = direction(reader, section);
+    Some(PulleyEntry { name: name.to_owned(), radius: radius?, entry_direction_w: direction? })
+}
+
+fn read_winch(reader: &mut Reader, name: &str, section: &Section) -> Option<Winch> {
+    let drum_side_length = reader.number_or_default(section, "drum_side_length_m");
+    let mut number = |key: &str| section.get(key).map(|value| reader.number_of(section, key, value));
+    let [at_cable, at_shaft, radius] =
+        ["stiffness_n_per_m", "shaft_stiffness_n_m_per_rad", "drum_radius_m"].map(&mut number);
+
+    let stiffness = match (at_cable, at_shaft) {
+        (None, None) => f64::INFINITY,
+        (Some(at_cable), None) => at_cable?,
+        (None, Some(at_shaft)) => {
+            let Some(radius) = radius else {
+                reader
+                    .issue(section.span.clone(), format!("{} has `shaft_stiffness_n_m_per_rad`, but no `drum_radius_m`", section.label()))
+                    .help("add it, for example `drum_radius_m = 0.0675`; the stiffness at the cable is that of the shaft over its square");
+                return None;
+            };
+            let radius = radius?;
+            at_shaft? / (radius * radius)
+        }
+        (Some(_), Some(_)) => {
+            let span = section.get("shaft_stiffness_n_m_per_rad").map_or(section.span.clone(), toml::Spanned::span);
+            let issue = reader.issue(span, "`shaft_stiffness_n_m_per_rad` does not go with `stiffness_n_per_m`");
+            if let Some(first) = section.get("stiffness_n_per_m") {
+                issue.context(first.span(), "already given here");
+            }
+            issue.help("give one of the two: the stiffness at the cable, or that of the shaft with `drum_radius_m`");
+            return None;
+        }
+    };
+    // A radius alone is allowed: other values of a winch refer to it.
+    radius.map_or(Some(0.0), |radius| radius)?;
+    Some(Winch { name: name.to_owned(), drum_side_length: drum_side_length?, stiffness })
+}
+
+/// Unit vector of `entry_direction`, if the table gives one.
+#[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
+fn direction(reader: &mut Reader, section: &Section) -> Option<Option<Vec3>> {
+    let Some(value) = section.get("entry_direction") else { return Some(None) };
+    let vector = reader.vector(section, "entry_direction", value)?;
+    if is_zero(&vector) {
+        reader.issue(value.span(), "`entry_direction` has no length").help("up is `[0.0, 0.0, 1.0]`");
+        return None;
+    }
+    Some(Some(Vec3::from(vector).normalize()))
+}
+
+/// Anchor of a cable: its point, its pulley and its winch.
+pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> Option<Anchor> {
+    let point = reader.required(cable, "anchor_m").and_then(|value| reader.vector(cable, "anchor_m", value));
+    let pulley = reader.reference(cable, "pulley", "pulleys", drives.pulleys.as_ref());
+    let winch = reader.reference(cable, "winch", "winches", drives.winches.as_ref());
+    let own_direction = direction(reader, cable);
+
+    let pulley = match (pulley?, own_direction?) {
+        (None, None) => None,
+        (None, Some(_)) => {
+            let span = cable.get("entry_direction").map_or(cable.span.clone(), toml::Spanned::span);
+            reader
+                .issue(span, format!("{} has `entry_direction`, but no `pulley`", cable.label()))
+                .help("add `pulley = \"NAME\"` and a table [pulleys.NAME], or remove the line");
+            return None;
+        }
+        (Some(pulley), own) => {
+            let Some(entry_direction_w) = own.or(pulley.entry_direction_w) else {
+                let span = cable.get("pulley").map_or(cable.span.clone(), toml::Spanned::span);
+                let message =
+                    format!("neither {} nor [pulleys.{}] has an `entry_direction`", cable.label(), pulley.name);
+                reader.issue(span, message).help(
+                    "give one of them the direction in which the cable comes to the wheel: `[0.0, 0.0, 1.0]` for a winch \
+                     on the ground below",
+                );
+                return None;
+            };
+            let PulleyEntry { name, radius, .. } = pulley;
+            Some(Pulley { name, radius, entry_direction_w, inertia: 0.0, swivel_inertia: 0.0 })
+        }
+    };
+    Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch? })
+}

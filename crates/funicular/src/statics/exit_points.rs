@@ -1,0 +1,148 @@
+//! Inverse statics over pulleys: the exit points follow from the directions of the cables, and these from the exit
+//! points.
+//!
+//! The solvers of inverse statics hold the exit points: they see a robot whose cables end there. Their result gives the
+//! directions in which the cables leave the wheels, and so new exit points. As the direction of a cable changes, its exit
+//! point moves along the cable, so that the next directions hardly change: each round gains two to six digits.
+
+use super::collect::with_stability;
+use super::equilibrium::{CableState, Equilibrium};
+use super::error::StaticsError;
+use super::limits::TensionRange;
+use super::model::StaticModel;
+use crate::drive::{CableAtRest, contact_of_span};
+use crate::math::Vec3;
+use crate::robot::{Anchor, Cable, Pose, PulleyContact, Robot};
+
+/// Motion of an exit point from one round to the next, over the size of the cable, at which the rounds end: rounding of
+/// the directions leaves 1e-16 times the radius over that size.
+const STILL: f64 = 1e-15;
+
+/// Maximum number of rounds; 2 to 5 are usual.
+const MAX_ROUNDS: usize = 40;
+
+/// Equilibrium at a pose by a solver that holds the exit points of the cables.
+///
+/// # Errors
+/// Those of the solver; [`StaticsError::InsidePulley`] for an attachment inside a wheel; no convergence.
+pub(super) fn equilibrium(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    solve: impl Fn(&Robot) -> Result<Equilibrium, StaticsError>,
+) -> Result<Equilibrium, StaticsError> {
+    if !follows(robot, model) {
+        return solve(robot);
+    }
+    let found = followed(robot, pose, solve, |equilibrium| &mut equilibrium.cables)?;
+    Ok(with_stability(robot, found))
+}
+
+/// True if the exit points or the lengths depend on the tensions. Straight and rigid cables without weight leave their
+/// pulleys as the geometry says.
+pub(super) fn follows(robot: &Robot, model: StaticModel) -> bool {
+    model != StaticModel::Ideal && robot.cables.iter().any(|cable| !cable.anchor.is_fixed())
+}
+
+/// Result of a solver at a pose, with the exit points that belong to it. `cables` gives access to the cables of a result;
+/// a result without cables is final.
+pub(super) fn followed<T>(
+    robot: &Robot,
+    pose: &Pose,
+    solve: impl Fn(&Robot) -> Result<T, StaticsError>,
+    cables: impl Fn(&mut T) -> &mut Vec<CableState>,
+) -> Result<T, StaticsError> {
+    let mut contacts = straight_contacts(robot, pose)?;
+    let mut held = robot.clone();
+    let mut moved = f64::INFINITY;
+
+    for _ in 0..MAX_ROUNDS {
+        // Hold the exit points, and solve.
+        for ((held, cable), contact) in held.cables.iter_mut().zip(&robot.cables).zip(&contacts) {
+            held.anchor = Anchor::from(exit_w(cable, contact.as_ref()));
+        }
+        let mut found = solve(&held)?;
+
+        // The places on the pulleys that follow.
+        let states = cables(&mut found);
+        let next: Vec<Option<PulleyContact>> = (robot.cables.iter().zip(&*states).zip(&contacts))
+            .map(|((cable, state), contact)| contact_of_span(state.hanging.as_ref()?, &cable.anchor, contact.as_ref()))
+            .collect();
+        let before = moved;
+        moved = (robot.cables.iter().zip(&*states).zip(contacts.iter().zip(&next)))
+            .map(|((cable, state), (here, next))| {
+                let distance = (exit_w(cable, next.as_ref()) - exit_w(cable, here.as_ref())).norm();
+                distance / (state.chord() + cable.anchor.reference_w().norm())
+            })
+            .fold(0.0, f64::max);
+
+        // End, if they are those that were held, or if rounding moves them.
+        let at_rounding = moved < STILL.sqrt() && moved >= before;
+        if states.is_empty() || moved <= STILL || at_rounding {
+            for ((cable, state), contact) in robot.cables.iter().zip(states).zip(&contacts) {
+                complete(state, cable, *contact);
+            }
+            return Ok(found);
+        }
+
+        for (i, state) in cables(&mut found).iter().enumerate() {
+            held.cables[i].tension_limits = limits_of_span(robot, i, state, contacts[i]);
+        }
+        contacts = next;
+    }
+
+    let (p, limit) = (pose.position_w, STILL);
+    Err(StaticsError::NotConverged { iterations: MAX_ROUNDS, residual: moved, limit, x: p.x, y: p.y, z: p.z })
+}
+
+/// Places of straight cables on their pulleys.
+fn straight_contacts(robot: &Robot, pose: &Pose) -> Result<Vec<Option<PulleyContact>>, StaticsError> {
+    robot.cables.iter().map(|cable| straight_contact(cable, pose)).collect()
+}
+
+fn straight_contact(cable: &Cable, pose: &Pose) -> Result<Option<PulleyContact>, StaticsError> {
+    let attachment_w = pose.point_w(&cable.attachment_p);
+    if let Some(pulley) = &cable.anchor.pulley {
+        let distance = pulley.distance_from_center(&(attachment_w - cable.anchor.point_w));
+        if distance < pulley.radius {
+            return Err(StaticsError::InsidePulley { cable: cable.name.clone(), distance, radius: pulley.radius });
+        }
+    }
+    Ok(cable.anchor.contact(&attachment_w))
+}
+
+fn exit_w(cable: &Cable, contact: Option<&PulleyContact>) -> Vec3 {
+    cable.anchor.point_w + contact.map_or_else(Vec3::zeros, PulleyContact::exit_offset_w)
+}
+
+/// Adds the drive to the state of a cable whose free span is known.
+fn complete(state: &mut CableState, cable: &Cable, contact: Option<PulleyContact>) {
+    let Some(span) = &state.hanging else { return };
+    let at_rest = CableAtRest::with_span(span.clone(), &cable.anchor, contact);
+    state.unstrained_length = at_rest.unstrained_length();
+    state.drive = at_rest.drive;
+}
+
+/// Tension limits of the free span of cable `i` that keep the tension at its drum within the limits of the cable.
+fn limits_of_span(
+    robot: &Robot,
+    i: usize,
+    state: &CableState,
+    contact: Option<PulleyContact>,
+) -> crate::robot::TensionLimits {
+    let cable = &robot.cables[i];
+    let mut limits = cable.tension_limits;
+    let Some(span) = &state.hanging else { return limits };
+    let drive = CableAtRest::with_span(span.clone(), &cable.anchor, contact).drive;
+    let Some(drum) = drive.map(|drive| drive.tension_drum) else { return limits };
+
+    let range = TensionRange::of(robot, i, &state.chord_w());
+    let (above, below) = (drum - span.catenary.max_tension(), span.catenary.min_tension() - drum);
+    if above > 0.0 && range.maximum.is_finite() {
+        limits.maximum = Some(range.maximum - above);
+    }
+    if below > 0.0 {
+        limits.minimum = Some(range.minimum + below);
+    }
+    limits
+}

@@ -1,0 +1,235 @@
+//! Robots with pulleys and winches: equilibria, limits, vibration against closed forms, and the reader's errors. Single
+//! cables at rest have their tests in the source; the comparisons with other programs are in the validation.
+
+use funicular::cable::{CableModel, EndStiffness};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Mat3, Vec3};
+use funicular::modes;
+use funicular::robot::{Pose, Robot, State, TensionLimits};
+use funicular::statics::{self, StaticModel, TensionRange, TensionRule};
+use std::f64::consts::TAU;
+
+/// CoGiRo with pulleys of this radius [m], and drums below that yield.
+fn cogiro(radius: f64) -> Robot {
+    let text = funicular_robots::COGIRO
+        .replace("[[cables]]\n", "[[cables]]\npulley = \"wheel\"\nwinch = \"drum\"\n")
+        .replacen(
+            "[[cables]]",
+            &format!(
+                "[pulleys.wheel]\nradius_m = {radius}\nentry_direction = [0.0, 0.0, 2.0]\n[winches.drum]\n\
+                 drum_side_length_m = 5.0\nstiffness_n_per_m = 2e6\n[[cables]]"
+            ),
+            1,
+        );
+    Robot::from_toml(&text).unwrap()
+}
+
+fn lengths(rest: &statics::Equilibrium) -> Vec<f64> {
+    rest.cables.iter().map(|cable| cable.unstrained_length).collect()
+}
+
+#[test]
+fn the_lengths_of_a_pose_lead_back_to_it() {
+    let robot = cogiro(0.06);
+    for (position, angles) in [([1.0, 2.0, 1.5], [0.0, 0.0, 5.0]), ([-3.0, 1.0, 2.5], [4.0, -3.0, 0.0])] {
+        let pose = Pose::new(position, angles);
+        for model in [StaticModel::Spring, StaticModel::Catenary] {
+            let held = statics::distribute_tensions(&robot, &pose, model, &TensionRule::Lowest).unwrap();
+            assert!(held.residual < 1e-10, "{}", held.residual);
+            let back = statics::forward(&robot, &lengths(&held), model, Some(&pose)).unwrap();
+            // A residual of 1e-10 of the tensions over the stiffness.
+            let gap = statics::pose_distance(&robot, &back.pose, &pose);
+            assert!(gap < 1e-10, "{model:?}: {gap:e}");
+            for (one, other) in held.cables.iter().zip(&back.cables) {
+                assert!((one.tension_drum() - other.tension_drum()).abs() < 1e-7 * one.tension_drum());
+            }
+        }
+    }
+}
+
+#[test]
+fn limits_hold_at_the_drum_too() {
+    let robot = cogiro(0.06);
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0, 0.0, 5.0]);
+    // A little less than the highest tension without a maximum: some tension is then at its limit.
+    let free = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
+    let highest = free.cables.iter().map(|cable| cable.tension_anchor).fold(0.0, f64::max);
+    let maximum = Some(0.998 * highest);
+    let limited = robot.with_tension_limits(TensionLimits { minimum: None, maximum });
+    let held = statics::distribute_tensions(&limited, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
+    for (i, cable) in held.cables.iter().enumerate() {
+        let margin = TensionRange::of(&limited, i, &cable.chord_w()).margin(cable);
+        assert!(margin.distance() > -1e-6 * cable.tension_drum(), "cable {i}: {}", margin.distance());
+        assert!((margin.min..=margin.max).contains(&cable.tension_drum()));
+    }
+}
+
+/// The difference from CoGiRo as published falls with the radius, the drum side left out.
+#[test]
+fn small_pulleys_change_little() {
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
+    let plain = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let first = |robot: &Robot| {
+        let rest = statics::inverse(robot, &pose, StaticModel::Catenary).unwrap();
+        modes::first(robot, &rest).unwrap().frequency_hz
+    };
+    let plain_hz = first(&plain);
+    let gap = |radius: f64| {
+        let mut robot = cogiro(radius);
+        robot.cables.iter_mut().for_each(|cable| cable.anchor.winch = None);
+        (first(&robot) / plain_hz - 1.0).abs()
+    };
+    assert!(gap(1e-2) < 0.02 && gap(1e-4) < 2e-4 && gap(1e-6) < 2e-6, "{} {} {}", gap(1e-2), gap(1e-4), gap(1e-6));
+}
+
+#[test]
+fn the_stiffness_is_that_of_differences() {
+    let robot = cogiro(0.1);
+    let pose = Pose::new([1.0, 2.0, 1.5], [2.0, 1.0, 5.0]);
+    let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+    let stiffness = statics::tangent_stiffness(&robot, &rest).unwrap();
+    let wrench = |pose: &Pose| statics::wrench(&robot, pose, &lengths(&rest), StaticModel::Catenary).unwrap();
+    let size = stiffness.norm();
+    for k in 0..6 {
+        let unit = |at: usize| if k == at { 1e-6 } else { 0.0 };
+        let (move_w, turn_w) = (Vec3::new(unit(0), unit(1), unit(2)), Vec3::new(unit(3), unit(4), unit(5)));
+        let [ahead, behind] = [1.0, -1.0].map(|sign| wrench(&pose.moved(&(move_w * sign), &(turn_w * sign))));
+        let column = (behind - ahead) / 2e-6;
+        // The step's square and the rounding of forces of some hundred newtons over the step.
+        let gap = (column - stiffness.column(k)).norm();
+        assert!(gap < 1e-6 * size, "column {k}: {gap:e} of {size:e}");
+    }
+}
+
+/// At rest the models agree, and the list is certified; drums that yield lower the platform's modes.
+#[test]
+fn modes_with_pulleys_are_certified_and_begin_at_the_static_stiffness() {
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
+    let robot = cogiro(0.06);
+    let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 15.0).unwrap();
+    let still = statics::tangent_stiffness(&robot, &rest).unwrap();
+    let slow = dynamics.stiffness(1e-6).map(|entry| entry.re);
+    assert!((slow - still).norm() < 1e-9 * still.norm());
+    let found = modes::below(&dynamics, 15.0);
+    assert!(found.certified && !found.modes.is_empty());
+
+    let plain = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let plain_rest = statics::inverse(&plain, &pose, StaticModel::Catenary).unwrap();
+    let plain_dynamics = Dynamics::about(&plain, &plain_rest, Linearisation::default(), 15.0).unwrap();
+    let plain_modes = modes::below(&plain_dynamics, 15.0);
+    let platform = |found: &modes::Modes| found.modes[found.first_platform(0.5).unwrap()].frequency_hz;
+    assert!(platform(&found) < 0.95 * platform(&plain_modes), "{} {}", platform(&found), platform(&plain_modes));
+}
+
+/// Cable without weight: rod and string with a spring at the far end. `K = c κ (k cos − c κ sin)/(k sin + c κ cos)`.
+#[test]
+fn a_weightless_cable_is_a_rod_and_a_string_on_springs() {
+    let robot = Robot::from_toml(
+        "name = \"one\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 1.0\nmotion = \"point-mass\"\n\
+         [materials.rope]\naxial_stiffness_n = 2e4\nmass_kg_per_m = 0.1\n[pulleys.wheel]\nradius_m = 0.4\n\
+         entry_direction = [0, 0, 1]\n[winches.drum]\ndrum_side_length_m = 2.0\nstiffness_n_per_m = 1e4\n[[cables]]\n\
+         name = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = [0, 0, 3]\n\
+         unstrained_length_m = 8.0\n[loads]\nforce_n = [80, 0, -60]\n",
+    )
+    .unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let state = &rest.cables[0];
+    let drive = state.drive.as_ref().unwrap();
+    let EndStiffness::Dynamic(cable) =
+        EndStiffness::new(&robot, 0, state, CableModel::CatenaryDynamic, false, 120.0).unwrap()
+    else {
+        panic!("a cable with mass")
+    };
+
+    let (ea, m, tension): (f64, f64, f64) = (2e4, 0.1, 100.0);
+    let stretch = 1.0 + tension / ea;
+    let length = state.free_length();
+    let end = |c: f64, spring: f64, omega: f64| {
+        let kappa = omega * (m / c).sqrt();
+        let (sin, cos) = (kappa * length).sin_cos();
+        c * kappa * (spring * cos - c * kappa * sin) / (spring * sin + c * kappa * cos)
+    };
+    let e = state.chord_w().normalize();
+    // Springs of the theory without weight: 1/(λ²Γ), and (T/r) cot(β/2).
+    let wrap = drive.contact.unwrap().wrap;
+    let lambda3 = stretch.powi(3);
+    let compliance = 0.4 * wrap / (ea * lambda3)
+        + drive.drum_side_length / (ea * stretch * stretch)
+        + 1.0 / (1e4 * stretch * stretch);
+    let (slip, swivel) = (1.0 / (stretch * stretch * compliance), tension / 0.4 / (0.5 * wrap).tan());
+    for hz in [0.5, 7.0, 23.0, 61.0, 103.0] {
+        let omega = hz * TAU;
+        let k: Mat3 = cable.undamped(omega).in_world(cable.axes());
+        let (along, out) = (e.dot(&(k * e)), k[(1, 1)]);
+        for (ours, exact) in [(along, end(ea, slip, omega)), (out, end(tension / stretch, swivel, omega))] {
+            assert!((ours / exact - 1.0).abs() < 1e-8, "{hz} Hz: {ours} {exact}");
+        }
+    }
+}
+
+#[test]
+fn a_tilted_axis_refuses_the_dynamic_model_and_keeps_the_static_one() {
+    let mut robot = cogiro(0.06);
+    for cable in &mut robot.cables {
+        cable.anchor.pulley.as_mut().unwrap().entry_direction_w = Vec3::new(0.3, 0.1, 1.0).normalize();
+    }
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
+    let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+    assert!(rest.residual < 1e-10);
+    let error = Dynamics::about(&robot, &rest, Linearisation::default(), 10.0).unwrap_err();
+    assert!(error.to_string().contains("swivel axis of its pulley is not parallel"), "{error}");
+    let model = CableModel::CatenaryStatic;
+    let still = Dynamics::about(&robot, &rest, Linearisation { cable_model: model, ..Default::default() }, 10.0);
+    assert!(modes::below(&still.unwrap(), 100.0).certified);
+    let shallow = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
+    let error = Dynamics::about(&robot, &rest, shallow, 10.0).unwrap_err();
+    assert!(error.to_string().contains("runs over a pulley or to a winch"), "{error}");
+}
+
+#[test]
+fn an_attachment_inside_a_wheel_is_refused() {
+    let robot = cogiro(0.5);
+    let cable = &robot.cables[0];
+    let inside = cable.anchor.point_w + Vec3::new(0.4, 0.1, 0.1) - cable.attachment_p;
+    let pose = Pose::new(inside.into(), [0.0; 3]);
+    let error = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap_err();
+    assert!(error.to_string().contains("ends inside the wheel of its pulley"), "{error}");
+    assert_eq!(error.code(), "inside-pulley");
+}
+
+#[test]
+fn errors_of_pulleys_and_winches_name_place_and_remedy() {
+    let text = "name = \"one\"\n[platform]\nmass_kg = 1.0\nmotion = \"point-mass\"\n[materials.rope]\n\
+                axial_stiffness_n = 2e4\nmass_kg_per_m = 0.1\n[pulleys.wheel]\nradius_m = 0.4\n\
+                entry_direction = [0, 0, 1]\n[winches.drum]\ndrum_side_length_m = 2.0\n[[cables]]\n\
+                name = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = [0, 0, 3]\n\
+                unstrained_length_m = 8.0\n";
+    let robot = Robot::from_toml(text).unwrap();
+    assert!(matches!(&robot.state, State::Lengths(lengths) if lengths == &[8.0]));
+    let cases = [
+        ("winch = \"drum\"", "winch = \"drun\"", "there is no winch \"drun\""),
+        ("pulley = \"wheel\"", "pulley = \"weel\"", "there is no pulley \"weel\""),
+        ("radius_m = 0.4", "radius_m = 0", "`radius_m` is 0, it must be positive"),
+        ("radius_m = 0.4", "radius = 0.4", "unknown key `radius`"),
+        ("entry_direction = [0, 0, 1]\n", "", "neither cable \"1\" nor [pulleys.wheel] has an `entry_direction`"),
+        ("[0, 0, 1]", "[0, 0, 0]", "`entry_direction` has no length"),
+        ("pulley = \"wheel\"\n", "entry_direction = [0, 0, 1]\n", "has `entry_direction`, but no `pulley`"),
+        ("drum_side_length_m = 2.0", "drum_side_length_m = -2.0", "must not be negative"),
+        (
+            "drum_side_length_m = 2.0",
+            "stiffness_n_per_m = 1e5\nshaft_stiffness_n_m_per_rad = 100",
+            "`shaft_stiffness_n_m_per_rad` does not go with `stiffness_n_per_m`",
+        ),
+        ("drum_side_length_m = 2.0", "shaft_stiffness_n_m_per_rad = 100", "but no `drum_radius_m`"),
+        ("[winches.drum]", "[winches]", "must be a table, [winches.drum_side_length_m]"),
+    ];
+    for (right, wrong, message) in cases {
+        let error = Robot::from_toml(&text.replacen(right, wrong, 1)).unwrap_err().to_string();
+        assert!(error.contains(message), "{wrong}: {error}");
+    }
+
+    let geared = text.replace("drum_side_length_m = 2.0", "drum_radius_m = 0.1\nshaft_stiffness_n_m_per_rad = 800");
+    let winch = Robot::from_toml(&geared).unwrap().cables[0].anchor.winch.clone().unwrap();
+    assert!((winch.stiffness - 8e4).abs() < 1e-9);
+}
