@@ -13,8 +13,7 @@ use funicular::robot::Pose;
 use funicular::robot::spec::key::{Absent, Key, KeyValue};
 use funicular::robot::spec::{TABLES, top_of_file};
 
-/// Modulus of a wire rope on its metal area [Pa]: a starting value within 60 to 110 GPa (Feyrer, Wire Ropes, 2nd
-/// edition 2015).
+/// Modulus of a wire rope on its metal area [Pa]: a starting value within the typical catalogue values, 60 to 110 GPa.
 const MODULUS: f64 = 100e9;
 
 /// Strength class of the wires [N/mm²], the usual one of EN 12385-4.

@@ -3,7 +3,8 @@
 //! Between two frequencies a drawn curve is a straight line over the logarithm of the magnitude. The search starts from
 //! a grid, from the natural frequencies and from points around these at multiples of their half widths. Then it halves
 //! every interval whose middle is not on its line. The natural frequencies are known, so that no resonance is narrower
-//! than the intervals in which the halving begins.
+//! than the intervals in which the halving begins. An antiresonance has no known place or width. It bends the curve far
+//! beside it, so that the halving finds it, and it is resolved until rounding hides the response.
 
 use super::{Peak, peaks};
 use crate::math::Complex;
@@ -104,8 +105,16 @@ const PHASE: f64 = 0.1;
 /// Fraction of the tolerance for leaving out points that the line through their neighbours replaces. With 0.8 the error
 /// between the points reaches 1.1 of the tolerance at deep antiresonances.
 const LEFT_OUT: f64 = 0.6;
-/// Range of the minimum relative width of an interval; a fiftieth of the smallest damping ratio lies in it.
+/// Range of the relative width below which no resonance bends the curve any more; a fiftieth of the smallest damping
+/// ratio lies in it. Only an antiresonance may be narrower.
 const WIDTHS: (f64, f64) = (1e-10, 1e-5);
+/// Minimum relative width of an interval at an antiresonance: some hundred times the rounding of a frequency. The response
+/// is then below 1e-9 of its terms, unless the slope is steeper than that of a resonance with a damping ratio of 1e-4.
+const NARROWEST: f64 = 1e-13;
+/// Maximum distance of the middle from the straight line between the ends of an interval, in the complex plane, relative
+/// to the length of the line, for the slope of an antiresonance. Beside a resonance the distance is 0.3 % at the widths
+/// in question; rounding has the size of the line.
+const STRAIGHT: f64 = 0.05;
 /// Maximum number of parabolas through which a maximum is approached. Three reach 1e-6 of the height of a resonance; the
 /// top of a flat ripple between two resonances is not a parabola, and six leave 1e-7 there.
 const MAX_PARABOLAS: usize = 12;
@@ -138,6 +147,8 @@ struct Sample {
     above: Vec<bool>,
     /// Number of successive halvings of the interval from this sample to the next that still have to succeed.
     open: u8,
+    /// True if responses off their line in this interval are straight in the complex plane, as at an antiresonance.
+    straight: bool,
     /// True if the sample belongs to the result whatever its neighbours are.
     kept: bool,
 }
@@ -151,6 +162,7 @@ impl Sample {
             levels: measured.iter().map(level).collect(),
             above: measured.iter().map(|m| m.value.norm() > m.floor.max(f64::MIN_POSITIVE)).collect(),
             open,
+            straight: false,
             kept,
         }
     }
@@ -231,8 +243,10 @@ pub fn resolve<E>(
 struct Search {
     /// Intervals around undamped natural frequencies [Hz], ascending, without common points.
     gaps: Vec<(f64, f64)>,
-    /// Minimum width of an interval relative to its upper end.
+    /// Minimum width of an interval relative to its upper end, except at an antiresonance.
     min_width: f64,
+    /// Minimum relative width at an antiresonance.
+    narrowest: f64,
     /// Frequency [Hz] below which nothing is divided: a response may be zero at 0 Hz, where its logarithm has no bound.
     lowest: f64,
 }
@@ -251,7 +265,11 @@ impl Search {
         let damping = resonances.iter().filter(|r| r.damped).map(|r| r.half_width / r.hz).fold(f64::INFINITY, f64::min);
         let positive = grid_hz.iter().copied().find(|hz| *hz > 0.0).unwrap_or(0.0);
         let lowest = if grid_hz[0] > 0.0 { 0.0 } else { 0.01 * positive };
-        Self { gaps, min_width: (0.02 * damping).clamp(WIDTHS.0, WIDTHS.1), lowest }
+        let min_width = (0.02 * damping).clamp(WIDTHS.0, WIDTHS.1);
+        // Without damping the depth of an antiresonance has no bound, and a curve cannot show it.
+        let is_undamped = !resonances.is_empty() && resonances.iter().all(|r| !r.damped);
+        let narrowest = if is_undamped { min_width } else { NARROWEST };
+        Self { gaps, min_width, narrowest, lowest }
     }
 
     /// True if a frequency lies inside a gap; its edges do not.
@@ -312,7 +330,8 @@ impl Search {
             };
             let (low, high) = (samples[i].hz, next.hz);
             let middle = low + 0.5 * (high - low);
-            let divisible = high - low > self.min_width * high && high > self.lowest && low < middle && middle < high;
+            let min_width = if samples[i].straight { self.narrowest } else { self.min_width };
+            let divisible = high - low > min_width * high && high > self.lowest && low < middle && middle < high;
             if divisible && !self.in_gap(middle) {
                 middles.push((i, middle));
             } else {
@@ -334,26 +353,53 @@ fn inserted(samples: Vec<Sample>, middles: &[(usize, f64)], measured: &[Vec<Meas
             all.push(low);
             continue;
         };
-        let on_line = old.peek().is_none_or(|(_, high)| is_on_line(&low, &middle, high, tolerance));
-        let open = if on_line { low.open - 1 } else { HALVINGS };
+        let shape = old.peek().map_or(Shape::OnLine, |(_, high)| shape(&low, &middle, high, tolerance));
+        let open = if shape == Shape::OnLine { low.open - 1 } else { HALVINGS };
+        let straight = shape == Shape::Straight || (shape == Shape::OnLine && low.straight);
         (low.open, middle.open) = (open, open);
+        (low.straight, middle.straight) = (straight, straight);
         all.push(low);
         all.push(middle);
     }
     all
 }
 
-/// True if the sample between two others is on the line between them, for every response.
-fn is_on_line(low: &Sample, middle: &Sample, high: &Sample, tolerance: f64) -> bool {
+/// Shape of the responses in an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    /// The middle of every response is on the line between the ends.
+    OnLine,
+    /// Responses off their line are straight in the complex plane.
+    Straight,
+    /// Any other shape.
+    Bent,
+}
+
+/// Shape of the responses between two samples, by the sample in the middle.
+fn shape(low: &Sample, middle: &Sample, high: &Sample, tolerance: f64) -> Shape {
     let fraction = (middle.hz - low.hz) / (high.hz - low.hz);
-    (0..middle.levels.len()).all(|i| {
+    let is_on_line = |i: &usize| {
+        let i = *i;
         let line = low.levels[i] + fraction * (high.levels[i] - low.levels[i]);
         let all_above = low.above[i] && middle.above[i] && high.above[i];
         let phase = if all_above { low.turn(middle, i) - fraction * low.turn(high, i) } else { 0.0 };
         // Turns are known up to full turns.
         let phase = phase - TAU * (phase / TAU).round();
         (middle.levels[i] - line).abs() <= HALVED * tolerance && phase.abs() <= PHASE
-    })
+    };
+    let is_straight = |i: usize| {
+        let across = high.values[i] - low.values[i];
+        (middle.values[i] - low.values[i] - across * fraction).norm() <= STRAIGHT * across.norm()
+    };
+
+    let mut off_line = (0..middle.levels.len()).filter(|i| !is_on_line(i)).peekable();
+    if off_line.peek().is_none() {
+        Shape::OnLine
+    } else if off_line.all(is_straight) {
+        Shape::Straight
+    } else {
+        Shape::Bent
+    }
 }
 
 /// Maximum of one response that is being approached: three neighbouring frequencies and the magnitudes there. The
@@ -524,12 +570,160 @@ pub const MISSED: f64 = 0.05;
 /// Places in half widths around a natural frequency at which the response is compared with its grid. A resonance in
 /// front of a background has its maximum at one of them or between, within a few per cent of the height.
 const PLACES: [f64; 5] = [-2.5, -1.0, 0.0, 1.0, 2.5];
+/// Distance between the three places from which a peak is predicted again, in predicted half widths.
+const AGAIN: f64 = 0.5;
+/// Maximum distance of a predicted peak, in steps of the places that predict it. Farther away the prediction is a guess.
+const MAX_PREDICTED: f64 = 30.0;
+/// Relative height of a predicted peak above the computed values, above which the response is computed there too.
+const PREDICTED: f64 = 0.01;
+/// Maximum number of predictions of a peak, each from the places of the one before.
+const MAX_PREDICTIONS: usize = 4;
+
+/// Response near one pole: `b + r/(x − p)` with the background b, the residue r and the pole p.
+#[derive(Debug, Clone, Copy)]
+struct OnePole {
+    background: Complex,
+    residue: Complex,
+    pole: Complex,
+}
+
+impl OnePole {
+    /// Response with the given values at x = −1, 0 and 1; `None` if they are on a straight line.
+    fn through([left, middle, right]: [Complex; 3]) -> Option<Self> {
+        let pole = (right - left) / (left + right - middle * 2.0);
+        let background = right + pole * (middle - right);
+        let residue = pole * (background - middle);
+        let finite = |z: Complex| z.re.is_finite() && z.im.is_finite();
+        (finite(pole) && finite(background) && finite(residue) && pole.im.abs() > 0.0 && residue.norm() > 0.0)
+            .then_some(Self { background, residue, pole })
+    }
+
+    /// Place x and height of the maximum over real x.
+    fn top(&self) -> (f64, f64) {
+        // 1/(x − p) moves on a circle through zero, and so does the response.
+        let center = Complex::new(0.0, 0.5 / self.pole.im);
+        let response = self.background + self.residue * center;
+        let radius = self.residue.norm() * center.norm();
+        let outwards = if response.norm() > 0.0 { response / response.norm() } else { Complex::new(1.0, 0.0) };
+        let at = center + outwards * radius / self.residue;
+        ((self.pole + at.inv()).re, response.norm() + radius)
+    }
+}
+
+/// Frequency between those of a grid, with all responses there.
+struct Between {
+    hz: f64,
+    /// Index of the next higher frequency of the grid.
+    above: usize,
+    row: Vec<Measured>,
+}
+
+/// Values of one response at three places, from which its peak is predicted.
+#[derive(Debug, Clone, Copy)]
+struct Prediction {
+    response: usize,
+    /// Frequency in the middle [Hz], and the distance to the others.
+    hz: f64,
+    step: f64,
+    values: [Complex; 3],
+}
+
+impl Prediction {
+    /// Frequency [Hz] and height of the predicted peak, with the next step; `None` if it is too far away.
+    fn peak(&self) -> Option<(f64, f64, f64)> {
+        let model = OnePole::through(self.values)?;
+        let (x, height) = model.top();
+        let step = AGAIN * self.step * model.pole.im.abs();
+        (x.abs() <= MAX_PREDICTED && height.is_finite() && step > 0.0).then_some((
+            self.hz + x * self.step,
+            height,
+            step,
+        ))
+    }
+}
+
+/// Responses between the frequencies of a grid, ascending: around every natural frequency, and at each peak beside it that
+/// is predicted higher than those values.
+fn around_resonances<E>(
+    grid_hz: &[f64],
+    values: &[Vec<Complex>],
+    modes: &[Mode],
+    evaluate: &mut impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
+) -> Result<Vec<Between>, E> {
+    let (first, last) = (grid_hz[0], grid_hz[grid_hz.len() - 1]);
+    let is_inside = |hz: f64| first < hz && hz < last;
+    let between = |hz: f64, row: Vec<Measured>| Between { hz, above: grid_hz.partition_point(|at| *at < hz), row };
+
+    // Values around every natural frequency.
+    let resonances: Vec<Resonance> = modes.iter().map(Resonance::of).filter(|resonance| resonance.damped).collect();
+    let places = |r: &Resonance| PLACES.map(|k| r.hz + k * r.half_width);
+    let hz: Vec<f64> = resonances.iter().flat_map(places).filter(|hz| is_inside(*hz)).collect();
+    if hz.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut rows = evaluate(&hz)?.into_iter();
+    let mut all: Vec<Between> = Vec::with_capacity(hz.len());
+    let mut predictions: Vec<Prediction> = Vec::new();
+    for resonance in &resonances {
+        let begin = all.len();
+        all.extend(
+            places(resonance).into_iter().filter(|hz| is_inside(*hz)).zip(&mut rows).map(|(hz, row)| between(hz, row)),
+        );
+        if let [_, left, middle, right, _] = &all[begin..] {
+            let of = |response: usize| [left, middle, right].map(|place| place.row[response].value);
+            let prediction =
+                |response| Prediction { response, hz: resonance.hz, step: resonance.half_width, values: of(response) };
+            predictions.extend((0..values.len()).map(prediction));
+        }
+    }
+
+    // Values at predicted peaks that are higher than the values so far.
+    for _ in 0..MAX_PREDICTIONS {
+        all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+        let is_new = |response: usize, hz: f64, height: f64| {
+            let above = grid_hz.partition_point(|at| *at < hz);
+            let read = values[response][above - 1].norm().max(values[response][above].norm());
+            let inside = &all[all.partition_point(|place| place.above < above)..];
+            let inside = inside.iter().take_while(|place| place.above == above);
+            let highest = inside.map(|place| place.row[response].value.norm()).fold(0.0, f64::max);
+            height > (1.0 + MISSED) * read && height > (1.0 + PREDICTED) * highest
+        };
+        let new: Vec<(usize, [f64; 3], f64)> = predictions
+            .iter()
+            .filter_map(|prediction| {
+                let (hz, height, step) = prediction.peak()?;
+                let three = [hz - step, hz, hz + step];
+                let is_inside = three.iter().all(|hz| is_inside(*hz));
+                (is_inside && is_new(prediction.response, hz, height)).then_some((prediction.response, three, step))
+            })
+            .collect();
+        if new.is_empty() {
+            break;
+        }
+
+        let hz: Vec<f64> = new.iter().flat_map(|(_, three, _)| *three).collect();
+        let rows = evaluate(&hz)?;
+        predictions.clear();
+        for ((response, three, step), rows) in new.into_iter().zip(rows.chunks_exact(3)) {
+            let values = [0, 1, 2].map(|k: usize| rows[k][response].value);
+            predictions.push(Prediction { response, hz: three[1], step, values });
+            all.extend(three.into_iter().zip(rows).map(|(hz, row)| between(hz, row.clone())));
+        }
+    }
+    all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+    all.dedup_by(|b, a| b.hz - a.hz <= 0.0);
+    all.retain(|place| grid_hz[place.above] > place.hz);
+    Ok(all)
+}
 
 /// Peaks between the frequencies of a grid (ascending) that are more than 5 % ([`MISSED`]) higher than the values of the
 /// grid on both sides; `None` if there are none. `values` has a row per response; `modes` are the natural modes between
 /// the ends of the grid; `evaluate` computes all responses at frequencies, one row per frequency.
 ///
-/// A value between two frequencies that is higher than those at both proves a maximum there. Undamped modes are not
+/// A value between two frequencies that is higher than those at both proves a maximum there. The responses are computed
+/// around every natural frequency. Three values give the pole there and so the place of the peak, which damping and the
+/// other modes move away from the natural frequency. So each resonance is counted that is at least 6 % higher than the
+/// grid shows. A rise between two antiresonances, without a natural frequency, may be missed. Undamped modes are not
 /// compared, because their peaks have no finite height.
 ///
 /// # Errors
@@ -540,39 +734,22 @@ pub fn missed_peaks<E>(
     modes: &[Mode],
     mut evaluate: impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
 ) -> Result<Option<MissedPeaks>, E> {
-    let (Some(&first), Some(&last)) = (grid_hz.first(), grid_hz.last()) else { return Ok(None) };
-
-    // Places to compare at, each with the index of the grid above it.
-    let resonances = modes.iter().map(Resonance::of).filter(|resonance| resonance.damped);
-    let mut places: Vec<f64> = resonances
-        .flat_map(|r| PLACES.map(|k| r.hz + k * r.half_width))
-        .filter(|hz| first < *hz && *hz < last)
-        .collect();
-    places.sort_by(f64::total_cmp);
-    places.dedup();
-    let places: Vec<(usize, f64)> = places
-        .into_iter()
-        .map(|hz| (grid_hz.partition_point(|at| *at < hz), hz))
-        .filter(|(i, hz)| grid_hz[*i] > *hz)
-        .collect();
-    if places.is_empty() {
+    if grid_hz.len() < 2 {
         return Ok(None);
     }
-    let hz: Vec<f64> = places.iter().map(|place| place.1).collect();
-    let measured = evaluate(&hz)?;
+    let between = around_resonances(grid_hz, values, modes, &mut evaluate)?;
 
     // Maxima among the places of each interval of the grid.
     let mut count = 0;
     let mut worst: Option<(f64, MissedPeak, Maximum)> = None;
-    let all: Vec<((usize, f64), &Vec<Measured>)> = places.iter().copied().zip(&measured).collect();
-    for group in all.chunk_by(|a, b| a.0.0 == b.0.0) {
-        let above = group[0].0.0;
+    for group in between.chunk_by(|a, b| a.above == b.above) {
+        let above = group[0].above;
         for (response, values) in values.iter().enumerate() {
             let ends = [above - 1, above].map(|i| (grid_hz[i], values[i].norm()));
             let (read_hz, read) = if ends[0].1 >= ends[1].1 { ends[0] } else { ends[1] };
-            let inside = group.iter().map(|((_, hz), row)| (*hz, row[response].value.norm()));
+            let inside = group.iter().map(|place| (place.hz, place.row[response].value.norm()));
             let curve: Vec<(f64, f64)> = once(ends[0]).chain(inside).chain(once(ends[1])).collect();
-            let floor = group.iter().map(|(_, row)| row[response].floor).fold(0.0, f64::max);
+            let floor = group.iter().map(|place| place.row[response].floor).fold(0.0, f64::max);
 
             for three in curve.windows(3) {
                 let [left, top, right] = [three[0], three[1], three[2]];
