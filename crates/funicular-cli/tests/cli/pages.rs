@@ -43,7 +43,7 @@ fn a_report_has_the_tension_limits_of_the_robot() {
         let margin = format!("{:.1}", number(&cable["tension_margin_n"]));
         assert!(table.contains(&format!(">{margin}<")), "{margin}: {table}");
     }
-    assert!(page.contains("1 platform mode, "), "one mode is no plural");
+    assert!(page.contains("1 mixed mode."), "one mode is no plural");
 
     let without = succeed(&["report", "--below-hz", "2", "-o", "-"]);
     assert!(without.contains("table-tensions") && !without.contains("Margin: distance"));
