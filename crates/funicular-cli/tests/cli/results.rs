@@ -96,7 +96,7 @@ fn an_error_comes_with_the_implausible_values_that_may_cause_it() {
     assert!(lines.len() == 2 && lines[0].starts_with("error: no tensions found that hold this pose"), "{said}");
     assert!(lines[0].contains("no cable pulls against the load of 3"), "{said}");
     assert!(
-        lines[1].starts_with("warning: distance of the platform") && lines[1].ends_with("mm given as m?"),
+        lines[1].starts_with("warning: distance of the platform") && lines[1].ends_with("mm or cm given as m?"),
         "{said}"
     );
 }

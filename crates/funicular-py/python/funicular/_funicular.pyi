@@ -343,6 +343,11 @@ class Equilibrium(Analyses):
         Chord lengths from attachment to anchor [m].
         """
     @property
+    def exit_m(self, /) -> NDArray[float64]:
+        """
+        Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without pulleys.
+        """
+    @property
     def force_on_platform_n(self, /) -> NDArray[float64]:
         """
         Forces of the cables on the platform in world axes [N], one row per cable.
@@ -411,6 +416,11 @@ class Equilibrium(Analyses):
     def tension_anchor_n(self, /) -> NDArray[float64]:
         """
         Tensions at the anchor ends [N].
+        """
+    @property
+    def tension_drum_n(self, /) -> NDArray[float64]:
+        """
+        Tensions at the drums [N]; those at the anchor ends for cables without pulley and winch.
         """
     @property
     def tension_platform_n(self, /) -> NDArray[float64]:
