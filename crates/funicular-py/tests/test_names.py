@@ -63,6 +63,13 @@ def results(program: Program, tmp_path_factory: pytest.TempPathFactory) -> dict[
     pose = ",".join(map(repr, four.equilibrium().pose.to_array().tolist()))
     statics |= keys(program("statics", file, f"--pose={pose}"))
 
+    # Robots with pulleys have the keys of their drives.
+    wheel = {"radius_m": 0.05, "entry_direction": [0.0, 0.0, 1.0]}
+    cables = [{**cable, "pulley": "wheel"} for cable in cogiro["cables"]]
+    driven = funicular.Robot.from_dict({**cogiro, "pulleys": {"wheel": wheel}, "cables": cables})
+    file.write_text(driven.to_toml())
+    statics |= keys(program("statics", file, "--pose", "1,2,1.5"))
+
     response = ["--input", "fz", "--output", "az", "--stations", 3]
     return {
         "Robot": (robot, keys(program("check", path))),

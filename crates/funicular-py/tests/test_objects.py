@@ -249,3 +249,26 @@ def test_implausible_values_come_with_the_result_and_with_an_error(robot: funicu
         robot.equilibrium(pose=[0.0, 0.0, 1500.0])
     assert caught.value.code == "negative-tension"
     assert str(caught.value).count("position in mm or cm given as m?") == 1
+
+
+def test_cables_leave_their_pulleys_towards_the_platform() -> None:
+    cogiro = funicular.Robot.from_file(ROBOTS / "cogiro.toml").to_dict()
+    cables = [{**cable, "pulley": "wheel", "winch": "drum"} for cable in cogiro["cables"]]
+    tables = {
+        "pulleys": {"wheel": {"radius_m": 0.05, "entry_direction": [0.0, 0.0, 1.0]}},
+        "winches": {"drum": {"drum_side_length_m": 5.0, "stiffness_n_per_m": 1e6}},
+    }
+    robot = funicular.Robot.from_dict({**cogiro, **tables, "cables": cables})
+    rest = robot.equilibrium(pose=[1.0, 2.0, 1.5])
+    # The exit points are on wheels around the entry points.
+    distance = np.linalg.norm(rest.exit_m - robot.anchor_m, axis=1)
+    assert ((distance > 0.05) & (distance < 0.1)).all()
+    # The cable's weight on the wheel separates both tensions.
+    assert (abs(rest.tension_drum_n - rest.tension_anchor_n) < 0.1).all()
+    for cable in rest.cables:
+        drive = cable["drive"]
+        parts = drive["free_length_m"] + drive["arc_length_m"] + drive["drum_side_length_m"]
+        assert abs(parts - cable["unstrained_length_m"]) < 1e-12
+        assert 90 < drive["wrap_deg"] < 180
+    table = rest.to_pandas()
+    assert {"exit_x_m", "swivel_z", "wrap_deg", "tension_drum_n"} <= set(table.columns)
