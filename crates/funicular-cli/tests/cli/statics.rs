@@ -180,3 +180,59 @@ fn a_load_is_the_files_or_the_options() {
     let refused = run(&["statics", "ROBOT", "--load-point-m", "0,0,1"]);
     assert!(refused.status.code() == Some(2) && stderr(&refused).contains("give --force-n"));
 }
+
+/// Pulleys and winches in every command that takes a robot.
+#[test]
+fn commands_follow_cables_over_pulleys() {
+    let library =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/yuan2014-4mm.toml")).unwrap();
+    // The lengths count from the drum: some 3.1 m more.
+    let longer = |line: &str| match line.strip_prefix("unstrained_length_m = ") {
+        Some(length) => format!("unstrained_length_m = {}\npulley = \"wheel\"\nwinch = \"drum\"\n", {
+            let length: f64 = length.split(' ').next().unwrap().parse().unwrap();
+            length + 3.068
+        }),
+        None => format!("{line}\n"),
+    };
+    let tables = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0, 0, 1]\n[winches.drum]\n\
+                  drum_side_length_m = 3.0\nstiffness_n_per_m = 5e4\n[[cables]]\n";
+    let robot: String = library.lines().map(longer).collect::<String>().replacen("[[cables]]\n", tables, 1);
+    let printed = |arguments: &[&str]| {
+        let output = run_with(arguments, &robot);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+        stdout(&output).to_owned()
+    };
+
+    assert!(printed(&["check", "-"]).contains("entry direction"));
+    let statics = printed(&["statics", "-"]);
+    assert!(statics.contains("wrap [°]") && statics.contains("Stable"), "{statics}");
+    let header = printed(&["statics", "-", "--format", "csv"]).lines().next().unwrap().to_owned();
+    assert!(header.ends_with("free_length_m,arc_length_m,drum_side_length_m,winch_yield_m"), "{header}");
+    assert!(printed(&["modes", "-", "--below-hz", "2"]).contains("Certified"));
+    let compared = printed(&["compare", "-", "--below-hz", "2"]);
+    assert!(compared.contains("catenary-dynamic") && compared.contains("runs over a pulley"), "{compared}");
+    assert!(
+        printed(&["frf", "-", "--input", "fz", "--output", "z", "--from-hz", "1", "--to-hz", "2", "--points", "5"])
+            .contains("peaks")
+    );
+    let rows = printed(&[
+        "sweep",
+        "-",
+        "--vary",
+        "pulleys.wheel.radius_m=0.01:0.2:3",
+        "--quantity",
+        "drum-tensions,wrap-max",
+        "--format",
+        "csv",
+    ]);
+    assert!(rows.contains("tension_drum_1_n") && rows.contains("wrap_max_deg"), "{rows}");
+    assert!(printed(&["report", "-", "--below-hz", "2", "-o", "-"]).contains("Tensions and sag"));
+    assert!(printed(&["export", "-", "--to", "moordyn"]).contains("Fixed"));
+
+    // An attachment inside a wheel, and a cable of half its length.
+    let inside = run_with(&["statics", "-", "--pose", "0,0,1", "--set", "pulleys.wheel.radius_m=5"], &robot);
+    assert_eq!(inside.status.code(), Some(2), "{}", stderr(&inside));
+    assert!(stderr(&inside).contains("inside the wheel of its pulley"), "{}", stderr(&inside));
+    let short = run_with(&["statics", "-", "--set", "cables.1.unstrained_length_m=4.5"], &robot);
+    assert!(stderr(&short).contains("strain of cable"), "{}", stderr(&short));
+}

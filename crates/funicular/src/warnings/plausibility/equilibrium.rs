@@ -63,7 +63,7 @@ fn length(robot: &Robot, equilibrium: &Equilibrium) -> Option<Implausible> {
         return None;
     }
     let ratios = robot.cables.iter().zip(&equilibrium.cables).filter(|(_, state)| state.chord() > 0.0);
-    let ratios = ratios.map(|(cable, state)| (cable.name.as_str(), state.unstrained_length / state.chord()));
+    let ratios = ratios.map(|(cable, state)| (cable.name.as_str(), state.free_length() / state.chord()));
     let (name, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
 
     let what = format!("unstrained length of cable \"{name}\" over the distance of its ends");
