@@ -722,9 +722,9 @@ fn around_resonances<E>(
 ///
 /// A value between two frequencies that is higher than those at both proves a maximum there. The responses are computed
 /// around every natural frequency. Three values give the pole there and so the place of the peak, which damping and the
-/// other modes move away from the natural frequency. So each resonance is counted that is at least 6 % higher than the
-/// grid shows. A rise between two antiresonances, without a natural frequency, may be missed. Undamped modes are not
-/// compared, because their peaks have no finite height.
+/// other modes move away from the natural frequency. So nearly every resonance is counted that is at least 6 % higher than
+/// the grid shows; one of several overlapping modes may be left out. A rise between two antiresonances, without a natural
+/// frequency, may be missed. Undamped modes are not compared, because their peaks have no finite height.
 ///
 /// # Errors
 /// The errors of `evaluate`.
