@@ -91,7 +91,7 @@ def linked(metadata: dict[str, Any], package: str) -> list[Crate]:
             macro = any("proc-macro" in part["kind"] for part in crates[dependency["pkg"]]["targets"])
             if used and not macro and dependency["pkg"] not in seen:
                 seen.add(dependency["pkg"])
-                # What a build script is built from stays behind.
+                # Requirements of build scripts are not part of the program.
                 if None in kinds:
                     waiting.append(dependency["pkg"])
     return sorted((crates[key] for key in seen - own), key=lambda crate: (crate["name"], crate["version"]))

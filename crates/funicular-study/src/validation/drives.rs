@@ -46,8 +46,6 @@ fn straight(row: &StraightOverPulley, source: &str) -> Vec<Comparison> {
             name: "wheel".to_owned(),
             radius: row.radius_m,
             entry_direction_w: Vec3::from(row.entry_direction).normalize(),
-            inertia: 0.0,
-            swivel_inertia: 0.0,
         }),
         ..Anchor::from(Vec3::from(row.entry_point_m))
     };

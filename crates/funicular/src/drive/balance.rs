@@ -14,7 +14,7 @@ use crate::robot::{Anchor, LineLoad, Pulley, PulleyContact, Winch};
 /// the weight on the arc, at most a thousandth of the rest, so the error after such a step is below rounding.
 const LAST_STEP: f64 = 1e-11;
 
-/// Maximum number of Newton steps: 3 to 5 are usual, more than 12 are seen in cables that hang as deep loops.
+/// Maximum number of Newton steps, a guard: a search that does not converge is left to the slow method.
 const MAX_STEPS: usize = 30;
 
 /// Maximum change of an angle per step [rad]; at half a radian the directions differ from their first order by an

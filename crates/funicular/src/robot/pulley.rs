@@ -21,10 +21,6 @@ pub struct Pulley {
     pub radius: f64,
     /// Unit vector a along which the cable travels at the entry point, towards the platform; the swivel axis, world axes.
     pub entry_direction_w: Vec3,
-    /// Moment of inertia of the wheel about its axle [kg m²].
-    pub inertia: f64,
-    /// Moment of inertia of all that swivels, about the swivel axis [kg m²].
-    pub swivel_inertia: f64,
 }
 
 /// Place of a cable on a pulley: swivel angle and wrap angle.
@@ -64,8 +60,6 @@ impl Pulley {
     ///     name: "wheel".to_owned(),
     ///     radius: 0.5,
     ///     entry_direction_w: Vec3::z(), // the cable comes up the post
-    ///     inertia: 0.0,
-    ///     swivel_inertia: 0.0,
     /// };
     /// // The cable goes over the wheel and straight down at twice the radius.
     /// let contact = pulley.contact(&Vec3::new(1.0, 0.0, -4.0));

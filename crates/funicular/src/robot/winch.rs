@@ -1,7 +1,7 @@
-//! Winch of a cable: drum, shaft, motor and its control, and the cable between drum and entry point.
+//! Winch of a cable: drum and shaft, and the cable between drum and entry point.
 //!
-//! All numbers refer to motion of the rope at the drum: a moment of inertia J counts as the mass J/R², a torsional
-//! stiffness as k/R², R being the radius of the drum.
+//! All numbers refer to motion of the rope at the drum: a torsional stiffness k counts as k/R², R being the radius of the
+//! drum.
 
 /// Winch.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 //!
 //! The solvers of inverse statics hold the exit points: they see a robot whose cables end there. Their result gives the
 //! directions in which the cables leave the wheels, and so new exit points. As the direction of a cable changes, its exit
-//! point moves along the cable, so that the next directions hardly change: each round gains two to six digits.
+//! point moves along the cable, so that the next directions hardly change and the rounds converge.
 
 use super::collect::with_stability;
 use super::equilibrium::{CableState, Equilibrium};
@@ -12,13 +12,13 @@ use super::limits::TensionRange;
 use super::model::StaticModel;
 use crate::drive::{CableAtRest, contact_of_span};
 use crate::math::Vec3;
-use crate::robot::{Anchor, Cable, Pose, PulleyContact, Robot};
+use crate::robot::{Anchor, Cable, Pose, PulleyContact, Robot, TensionLimits};
 
 /// Motion of an exit point from one round to the next, over the size of the cable, at which the rounds end: rounding of
 /// the directions leaves 1e-16 times the radius over that size.
 const STILL: f64 = 1e-15;
 
-/// Maximum number of rounds; 2 to 5 are usual.
+/// Maximum number of rounds, a guard.
 const MAX_ROUNDS: usize = 40;
 
 /// Equilibrium at a pose by a solver that holds the exit points of the cables.
@@ -124,12 +124,7 @@ fn complete(state: &mut CableState, cable: &Cable, contact: Option<PulleyContact
 }
 
 /// Tension limits of the free span of cable `i` that keep the tension at its drum within the limits of the cable.
-fn limits_of_span(
-    robot: &Robot,
-    i: usize,
-    state: &CableState,
-    contact: Option<PulleyContact>,
-) -> crate::robot::TensionLimits {
+fn limits_of_span(robot: &Robot, i: usize, state: &CableState, contact: Option<PulleyContact>) -> TensionLimits {
     let cable = &robot.cables[i];
     let mut limits = cable.tension_limits;
     let Some(span) = &state.hanging else { return limits };

@@ -63,7 +63,7 @@ pub(super) const WINCH: &[Key] = &[
         "drum_radius_m = 0.0675",
         "m",
         Range::Positive,
-        "radius of the drum, from its axis to the centre line of the cable",
+        "radius of the drum, from its axis to the centre line of the cable; it serves `shaft_stiffness_n_m_per_rad` alone",
     )
     .without(Absent::Depends("required with `shaft_stiffness_n_m_per_rad`")),
 ];
@@ -130,7 +130,7 @@ fn read_winch(reader: &mut Reader, name: &str, section: &Section) -> Option<Winc
             return None;
         }
     };
-    // A radius alone is allowed: other values of a winch refer to it.
+    // Its number is checked even where no stiffness refers to it.
     radius.map_or(Some(0.0), |radius| radius)?;
     Some(Winch { name: name.to_owned(), drum_side_length: drum_side_length?, stiffness })
 }
@@ -175,7 +175,7 @@ pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> O
                 return None;
             };
             let PulleyEntry { name, radius, .. } = pulley;
-            Some(Pulley { name, radius, entry_direction_w, inertia: 0.0, swivel_inertia: 0.0 })
+            Some(Pulley { name, radius, entry_direction_w })
         }
     };
     Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch? })
