@@ -179,12 +179,16 @@ impl ZeroSearch<'_> {
         zeros
     }
 
-    /// Complex frequency of a mode with the platform at rest whose cables have the same damping.
+    /// Complex frequency of a mode with the platform at rest whose cables have the same damping and no drive with
+    /// losses.
     fn of_cables_alone(&self, mode: &Mode) -> Option<Complex> {
         if mode.platform_energy_fraction > 0.0 {
             return None;
         }
         let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0);
+        if moving.clone().any(|(i, _)| self.dynamics.has_drive_losses(i)) {
+            return None;
+        }
         let mut damped = moving.map(|(i, _)| self.dynamics.cable_zero(i, mode.frequency_hz * TAU, self.losses));
         let first = damped.next()?;
         damped.all(|omega| omega == first).then_some(first)
