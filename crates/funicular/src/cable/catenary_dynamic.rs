@@ -183,7 +183,7 @@ impl CatenaryDynamicEnd {
     /// Stiffness at ω [rad/s] that comes from what the undamped model of the drive leaves out [N/m]; `None` without it.
     pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
         let (re, im) = self.damping.square(omega, self.mass_per_length);
-        let drive = self.drive_at(Complex::new(re, im), &(0..0, 0..0))?;
+        let drive = self.drive_at(Complex::new(re, im), &(0..0, 0..0)).filter(|_| self.has_drive_losses())?;
         let (in_plane, out_of_plane) = drive.added_stiffness(&self.beyond_undamped(omega.into(), 1.0));
         Some(local(in_plane, out_of_plane))
     }
@@ -198,10 +198,9 @@ impl CatenaryDynamicEnd {
         (heavy && damped_cable) || chain.is_some_and(DriveChain::has_losses)
     }
 
-    /// Motions of the drive at x = ω_c², without the poles `left_out` in plane and out of plane; `None` without a drive
-    /// that needs them.
+    /// Motions of the drive at x = ω_c², without the poles `left_out` in plane and out of plane; `None` without a drive.
     pub(crate) fn drive_at(&self, x: Complex, left_out: &(Range<usize>, Range<usize>)) -> Option<DriveMotions> {
-        let motion = self.cable.drive.as_ref().filter(|_| self.has_drive_losses())?;
+        let motion = self.cable.drive.as_ref()?;
         Some(DriveMotions {
             along: DriveAt::at(&self.cable.in_plane, &motion.along, &motion.flexibility, x, &left_out.0),
             sideways: (self.out_of_plane().filter(|_| motion.flexibility_out_of_plane > 0.0)).map(|family| {
@@ -209,6 +208,51 @@ impl CatenaryDynamicEnd {
                 DriveAt::at(family, &motion.out_of_plane, &flexibility, x, &left_out.1)
             }),
         })
+    }
+
+    /// True if wheel, swivel, drum or motor has mass.
+    pub(crate) fn has_drive_mass(&self) -> bool {
+        self.cable.end.as_ref().is_some_and(|end| {
+            end.along.as_ref().is_some_and(|along| along.chain.mass.amax() > 0.0)
+                || end.out_of_plane.is_some_and(|(_, mass)| mass > 0.0)
+        })
+    }
+
+    /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
+    /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
+    /// that are unknowns of their own.
+    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, bool, f64)]) -> (f64, f64) {
+        let x = omega * omega;
+        let left_out = |out_of_plane: bool| {
+            let mut indices = near.iter().filter(|near| near.1 == out_of_plane).map(|near| near.0);
+            indices.next().map_or(0..0, |first| first..indices.last().unwrap_or(first) + 1)
+        };
+        let Some(motions) = self.drive_at(x.into(), &(left_out(false), left_out(true))) else { return (0.0, 0.0) };
+        let Some(moving) = &self.cable.end else { return (0.0, 0.0) };
+
+        // Motions by the platform end, and in the near modes.
+        let mut along: Vec<f64> = motions.along.transfer.iter().map(|[e, n]| e.re * end[0] + n.re * end[1]).collect();
+        let mut sideways = motions.sideways.as_ref().map_or(0.0, |sideways| sideways.transfer[0][0].re * end[2]);
+        for (index, out_of_plane, amplitude) in near {
+            let motion = self.drive_in_mode(*index, *out_of_plane);
+            if *out_of_plane {
+                sideways += motion.iter().map(|phi| phi * amplitude).sum::<f64>();
+            } else {
+                along.iter_mut().zip(&motion).for_each(|(sum, phi)| *sum += phi * amplitude);
+            }
+        }
+
+        // Masses, and the imaginary part of what the drive has besides the undamped model, without the cable's damping.
+        let (mut mass, mut loss) = (moving.out_of_plane.map_or(0.0, |(_, mass)| mass) * sideways * sideways, 0.0);
+        if let Some(EndAlong { chain, .. }) = &moving.along {
+            let undamped = (Complex::from(x), Complex::from(2.0 * omega));
+            let losses = chain.beyond_undamped(omega.into(), undamped, 1.0);
+            for (j, z) in along.iter().enumerate() {
+                mass += chain.mass[(j, j)] * z * z;
+                loss += losses[j].0.im * z * z;
+            }
+        }
+        (mass, loss)
     }
 
     /// Motions of the drive in the clamped mode with this index, along the cable or sideways [1/√kg].

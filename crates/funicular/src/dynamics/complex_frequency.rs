@@ -86,7 +86,7 @@ impl Dynamics {
             }
             if let DynamicCable::CatenaryDynamic(form) = &term.form {
                 let left_out = form.near(square.re, NEAR_POLE_FRACTION);
-                if let Some(motions) = form.drive_at(square, &left_out) {
+                if let Some(motions) = form.drive_at(square, &left_out).filter(|_| form.has_drive_losses()) {
                     let losses = form.beyond_undamped(omega, losses);
                     let first_border = borders.len();
                     drives.push(DriveRows::new(term, form, &motions, &losses, (&near, first_border), square_slope));
