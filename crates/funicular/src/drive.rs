@@ -12,8 +12,10 @@
 mod anchor_end;
 mod arc;
 mod balance;
+mod friction;
 
 pub use anchor_end::AnchorEnd;
+pub use friction::DriveFriction;
 
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;

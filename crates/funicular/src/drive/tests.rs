@@ -51,7 +51,7 @@ fn cable(anchor: Anchor, axial_stiffness: f64) -> Cable {
 }
 
 fn pulley(radius: f64, entry_direction_w: Vec3) -> Pulley {
-    Pulley { name: "wheel".to_owned(), radius, entry_direction_w }
+    Pulley { name: "wheel".to_owned(), radius, entry_direction_w, friction: None }
 }
 
 /// Case with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched by

@@ -5,6 +5,7 @@
 //! in the plane of the wheel. The cable touches the wheel over the wrap angle β and leaves it at the exit point
 //! (docs/theory.md, equations (61) to (63)).
 
+use super::friction::PulleyFriction;
 use crate::math::{Vec3, any_normal};
 use std::f64::consts::TAU;
 
@@ -21,6 +22,8 @@ pub struct Pulley {
     pub radius: f64,
     /// Unit vector a along which the cable travels at the entry point, towards the platform; the swivel axis, world axes.
     pub entry_direction_w: Vec3,
+    /// Friction; `None` for a wheel without friction.
+    pub friction: Option<PulleyFriction>,
 }
 
 /// Place of a cable on a pulley: swivel angle and wrap angle.
@@ -60,6 +63,7 @@ impl Pulley {
     ///     name: "wheel".to_owned(),
     ///     radius: 0.5,
     ///     entry_direction_w: Vec3::z(), // the cable comes up the post
+    ///     friction: None,
     /// };
     /// // The cable goes over the wheel and straight down at twice the radius.
     /// let contact = pulley.contact(&Vec3::new(1.0, 0.0, -4.0));
