@@ -12,9 +12,11 @@
 mod anchor_end;
 mod arc;
 mod balance;
+mod chain;
 mod friction;
 
 pub use anchor_end::AnchorEnd;
+pub use chain::{DriveChain, Motor, Place};
 pub use friction::DriveFriction;
 
 use crate::catenary::Rope;
@@ -165,6 +167,18 @@ impl DriveAtRest {
             winch_yield: beyond.winch_yield,
             energy: beyond.energy + reference,
             end,
+        }
+    }
+}
+
+impl DriveAtRest {
+    /// Mass that the swivel of the anchor's pulley adds to the sideways motion of the exit point [kg]; zero without a
+    /// swivel.
+    pub(crate) fn swivel_mass(&self, anchor: &Anchor) -> f64 {
+        let distance = self.contact.as_ref().map_or(0.0, PulleyContact::distance_from_axis);
+        match &anchor.pulley {
+            Some(pulley) if distance > 0.0 => pulley.swivel_inertia / (distance * distance),
+            _ => 0.0,
         }
     }
 }

@@ -57,12 +57,7 @@ const ON_WHEEL: f64 = 1e-5;
 
 fn straight(row: &StraightOverPulley, source: &str) -> Vec<Comparison> {
     let anchor = Anchor {
-        pulley: Some(Pulley {
-            name: "wheel".to_owned(),
-            radius: row.radius_m,
-            entry_direction_w: Vec3::from(row.entry_direction).normalize(),
-            friction: None,
-        }),
+        pulley: Some(Pulley::new("wheel", row.radius_m, Vec3::from(row.entry_direction).normalize())),
         ..Anchor::from(Vec3::from(row.entry_point_m))
     };
     let end_w = Vec3::from(row.platform_point_m);

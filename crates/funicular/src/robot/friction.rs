@@ -33,12 +33,7 @@ impl PulleyFriction {
     /// use funicular::{math::Vec3, robot::{Pulley, PulleyFriction}};
     ///
     /// let bar = PulleyFriction::Sliding { coefficient: 0.15 };
-    /// let pulley = Pulley {
-    ///     name: "bar".to_owned(),
-    ///     radius: 0.01,
-    ///     entry_direction_w: Vec3::z(),
-    ///     friction: Some(bar),
-    /// };
+    /// let pulley = Pulley { friction: Some(bar), ..Pulley::new("bar", 0.01, Vec3::z()) };
     /// let contact = pulley.contact(&Vec3::new(0.02, 0.0, -4.0)); // half a turn
     /// assert!((bar.exponent(&contact) - 0.15 * std::f64::consts::PI).abs() < 1e-12);
     /// ```
