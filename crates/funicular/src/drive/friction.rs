@@ -3,7 +3,7 @@
 use super::DriveAtRest;
 use super::arc::{arc_nodes, stretch_of};
 use crate::catenary::space::HangingCable;
-use crate::robot::{Anchor, PulleyFriction};
+use crate::robot::{Anchor, PulleyContact, PulleyFriction};
 
 /// Cable with friction on its pulley, compared with the cable of equal free span without friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ impl DriveAtRest {
     /// # References
     /// docs/theory.md, equation (71).
     pub fn friction_exponent(&self, anchor: &Anchor) -> f64 {
-        self.friction(anchor).map_or(0.0, |(friction, contact)| friction.exponent(contact))
+        self.friction(anchor).map_or(0.0, |(friction, contact)| friction.exponent(contact.radius, contact.wrap))
     }
 
     /// Effect of friction beyond the exit point, with the free span held. `used` is the fraction of the friction that acts:
@@ -41,12 +41,12 @@ impl DriveAtRest {
             let potential = potential_exit + load_w.dot(&(exit - contact.offset_w(angle)));
             let stretch = stretch_of(potential, ea);
             let tension = 2.0 * potential / (1.0 + stretch);
-            let lost = lost_tension(tension, used * friction.exponent_from_exit(contact, angle));
+            let lost = lost_tension(tension, used * friction.exponent_from_exit(contact.radius, contact.wrap, angle));
             result.excess_length += arc * lost / (ea * stretch * (stretch - lost / ea));
         }
 
         // Drum side and winch.
-        let lost = lost_tension(self.tension_drum, used * friction.exponent(contact));
+        let lost = lost_tension(self.tension_drum, used * friction.exponent(contact.radius, contact.wrap));
         result.tension_drum -= lost;
         if let Some(winch) = &anchor.winch {
             let stretch = 1.0 + self.tension_drum / ea;
@@ -58,7 +58,7 @@ impl DriveAtRest {
     }
 
     /// Friction of the cable's pulley, and the place of the cable on it.
-    fn friction(&self, anchor: &Anchor) -> Option<(PulleyFriction, &crate::robot::PulleyContact)> {
+    fn friction(&self, anchor: &Anchor) -> Option<(PulleyFriction, &PulleyContact)> {
         let friction = anchor.pulley.as_ref()?.friction?;
         Some((friction, self.contact.as_ref()?))
     }

@@ -3,8 +3,6 @@
 //! Friction changes the tension over the pulley by a factor between e^−Θ and e^Θ. The friction exponent Θ depends on the
 //! kind of the friction (docs/theory.md, equation (71)).
 
-use super::pulley::PulleyContact;
-
 /// Friction of a pulley.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PulleyFriction {
@@ -26,27 +24,25 @@ pub enum PulleyFriction {
 }
 
 impl PulleyFriction {
-    /// Friction exponent Θ: the tension at the drum is at most e^Θ times, and at least e^−Θ times that without friction.
+    /// Friction exponent Θ of a wheel with this radius [m] that the cable touches over the wrap angle [rad]: the tension at
+    /// the drum is at most e^Θ times, and at least e^−Θ times that without friction.
     ///
     /// # Example
     /// ```
-    /// use funicular::{math::Vec3, robot::{Pulley, PulleyFriction}};
+    /// use funicular::robot::PulleyFriction;
     ///
     /// let bar = PulleyFriction::Sliding { coefficient: 0.15 };
-    /// let pulley = Pulley { friction: Some(bar), ..Pulley::new("bar", 0.01, Vec3::z()) };
-    /// let contact = pulley.contact(&Vec3::new(0.02, 0.0, -4.0)); // half a turn
-    /// assert!((bar.exponent(&contact) - 0.15 * std::f64::consts::PI).abs() < 1e-12);
+    /// let half_a_turn = std::f64::consts::PI;
+    /// assert!((bar.exponent(0.01, half_a_turn) - 0.15 * half_a_turn).abs() < 1e-15);
     /// ```
     ///
     /// # References
     /// docs/theory.md, equation (71).
-    pub fn exponent(&self, contact: &PulleyContact) -> f64 {
+    pub fn exponent(&self, wheel_radius: f64, wrap: f64) -> f64 {
         match *self {
-            Self::Sliding { coefficient } => coefficient * contact.wrap,
+            Self::Sliding { coefficient } => coefficient * wrap,
             Self::Efficiency(efficiency) => -efficiency.ln(),
-            Self::Bearing { coefficient, radius } => {
-                2.0 * coefficient * radius / contact.radius * (0.5 * contact.wrap).sin()
-            }
+            Self::Bearing { coefficient, radius } => 2.0 * coefficient * radius / wheel_radius * (0.5 * wrap).sin(),
         }
     }
 
@@ -55,10 +51,10 @@ impl PulleyFriction {
     /// A cable that slides changes its tension all along the arc. On a wheel that turns it sticks to the groove and changes
     /// its tension near the point at which it leaves the wheel. Then the whole arc has the tension of one of the two sides;
     /// the result is that of the drum side, which differs the more from the tension without friction.
-    pub(crate) fn exponent_from_exit(&self, contact: &PulleyContact, angle: f64) -> f64 {
+    pub(crate) fn exponent_from_exit(&self, wheel_radius: f64, wrap: f64, angle: f64) -> f64 {
         match *self {
-            Self::Sliding { coefficient } => coefficient * (contact.wrap - angle),
-            Self::Efficiency(_) | Self::Bearing { .. } => self.exponent(contact),
+            Self::Sliding { coefficient } => coefficient * (wrap - angle),
+            Self::Efficiency(_) | Self::Bearing { .. } => self.exponent(wheel_radius, wrap),
         }
     }
 }

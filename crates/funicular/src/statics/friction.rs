@@ -204,7 +204,7 @@ fn exponent(cable: &Cable, state: &CableState) -> f64 {
         None => {
             let friction = anchor.pulley.as_ref().and_then(|pulley| pulley.friction);
             let contact = anchor.contact(&state.attachment_w);
-            friction.zip(contact).map_or(0.0, |(friction, contact)| friction.exponent(&contact))
+            friction.zip(contact).map_or(0.0, |(friction, contact)| friction.exponent(contact.radius, contact.wrap))
         }
     }
 }

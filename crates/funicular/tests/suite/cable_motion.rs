@@ -7,7 +7,7 @@ use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{self, Port, Quantity, Signal};
-use funicular::robot::Damping;
+use funicular::robot::{Damping, WinchMode};
 
 const EXACT: Linearisation = Linearisation {
     cable_model: CableModel::CatenaryDynamic,

@@ -3,7 +3,7 @@
 use crate::library::at_rest;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::math::Vec3;
-use funicular::robot::Robot;
+use funicular::robot::{Robot, WinchMode};
 use funicular::statics::StaticModel;
 use funicular::warnings::{self, Warning};
 use std::f64::consts::TAU;

@@ -167,16 +167,28 @@ impl<const S: usize> DriveAt<S> {
         at
     }
 
-    /// Motion z per component of the platform end with the additional stiffness `delta` of the drive [N/m]:
-    /// `(1 + R Δ)⁻¹ T`. Not finite at a resonance of the drive without damping.
-    pub(crate) fn moved(&self, delta: &[Complex]) -> Vec<[Complex; S]> {
+    /// `(1 + R Δ)⁻¹`; not finite at a resonance of the drive without damping.
+    fn inverse(&self, delta: &[Complex]) -> CDMat {
         let count = delta.len();
         let one =
             CDMat::from_fn(count, count, |i, j| self.receptance[(i, j)] * delta[j] + if i == j { 1.0 } else { 0.0 });
-        let infinite = || CDMat::repeat(count, count, Complex::new(f64::INFINITY, 0.0));
-        let inverse = one.try_inverse().unwrap_or_else(infinite);
+        one.try_inverse().unwrap_or_else(|| CDMat::repeat(count, count, Complex::new(f64::INFINITY, 0.0)))
+    }
+
+    /// Motion z per component of the platform end with the additional stiffness `delta` of the drive [N/m]:
+    /// `(1 + R Δ)⁻¹ T`.
+    pub(crate) fn moved(&self, delta: &[Complex]) -> Vec<[Complex; S]> {
+        let (count, inverse) = (delta.len(), self.inverse(delta));
         let moved = |i: usize, s: usize| (0..count).map(|j| inverse[(i, j)] * self.transfer[j][s]).sum();
         (0..count).map(|i| std::array::from_fn(|s| moved(i, s))).collect()
+    }
+
+    /// Forces `Δ (1 + R Δ)⁻¹ z` of the additional stiffness `delta` of the drive [N/m], whose motion without them is
+    /// `free`.
+    pub(super) fn forces(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
+        let inverse = self.inverse(delta);
+        let moved = |i: usize| -> Complex { (0..delta.len()).map(|j| inverse[(i, j)] * free[j]).sum() };
+        (0..delta.len()).map(|i| delta[i] * moved(i)).collect()
     }
 
     /// Stiffness of the platform end that the additional stiffness `delta` of the drive adds [N/m]:

@@ -213,6 +213,8 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
         "position_gain_n_m_per_rad",
         "speed_gain_n_m_s_per_rad",
     ];
+    // Two stiffnesses are an error of their own.
+    let about_the_axis = about_the_axis.into_iter().skip(usize::from(section.get("stiffness_n_per_m").is_some()));
     let Some(key) = about_the_axis.into_iter().find(|key| section.get(key).is_some()) else { return Some(None) };
     if !section.mistyped(&["drum_radius_m"]) {
         reader

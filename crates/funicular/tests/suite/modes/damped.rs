@@ -4,7 +4,7 @@ use crate::library::{at_rest, independent_robot};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::modes;
-use funicular::robot::{Damping, Robot};
+use funicular::robot::{Damping, Robot, WinchMode};
 use funicular::statics::Equilibrium;
 
 /// Robot of reference/independent.json with a change of its damping, and its equilibrium.
