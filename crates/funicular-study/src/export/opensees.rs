@@ -14,6 +14,7 @@
 //! with funicular.
 
 use super::chain::Chain;
+use super::support::Support;
 use super::{first_frequencies, modes_below, one_line};
 use crate::at_rest::AtRest;
 use anyhow::Result;
@@ -64,6 +65,9 @@ struct CableData<'a> {
     unstrained_length: f64,
     bar_length: f64,
     nodes: Vec<[f64; 3]>,
+    /// Spring at the last joint that stands for pulley, drum side and winch; the joint is fixed without it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    support: Option<Support>,
 }
 
 /// Writes the script.
@@ -101,7 +105,7 @@ pub(crate) fn script(
         ));
     }
 
-    let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments)).collect::<Result<Vec<_>>>()?;
+    let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments, warnings)).collect::<Result<Vec<_>>>()?;
     let script = Script {
         segments,
         name: json(&robot.name)?,
@@ -122,15 +126,16 @@ pub(crate) fn script(
     Ok(script.render()? + "\n")
 }
 
-fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
+fn cable(at_rest: &AtRest, i: usize, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
     let (cable, state) = (&at_rest.robot.cables[i], &at_rest.equilibrium.cables[i]);
     let chain = Chain::of(&at_rest.robot, &at_rest.equilibrium, i, segments)?;
+    let load_w = at_rest.robot.line_load(i, &state.chord_w()).vector_w() * state.free_length();
     json(&CableData {
+        support: Support::of(&at_rest.robot, i, state, &chain, &load_w, warnings)?,
         name: &cable.name,
         attachment: state.attachment_w.into(),
         mass: cable.material.mass_per_length * state.free_length(),
-        load: (at_rest.robot.line_load(i, &state.chord_w()).vector_w() * (state.free_length() * chain.weight_factor))
-            .into(),
+        load: (load_w * chain.weight_factor).into(),
         axial_stiffness: cable.material.axial_stiffness,
         unstrained_length: state.free_length(),
         bar_length: chain.bar_length,
