@@ -555,3 +555,29 @@ pub(super) struct RobotWithWinches {
     pub(super) tension_drum_n: Vec<f64>,
     pub(super) stiffness_6x6: [[f64; 6]; 6],
 }
+
+/// Content of measured.json.
+pub(super) fn measured() -> Result<Measured> {
+    serde_json::from_str(include_str!("../../reference/measured.json")).context("measured.json")
+}
+
+/// Content of measured.json.
+#[derive(Deserialize)]
+pub(super) struct Measured {
+    pub(super) grab: ReferenceTable<MeasuredPose>,
+}
+
+/// Pose of a robot with measured natural frequencies.
+#[derive(Deserialize)]
+pub(super) struct MeasuredPose {
+    pub(super) experiment: usize,
+    pub(super) cables: usize,
+    pub(super) position_m: [f64; 3],
+    /// Angles of the rotation Rx(a) Ry(b) Rz(c).
+    pub(super) angles_xyz_rad: [f64; 3],
+    pub(super) lengths_m: Vec<f64>,
+    /// Frequencies of the source's model, ascending.
+    pub(super) model_hz: Vec<f64>,
+    /// Measured frequencies; `None` where no peak was found.
+    pub(super) measured_hz: Vec<Option<f64>>,
+}
