@@ -87,3 +87,65 @@ impl Support {
         }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use funicular::robot::State;
+    use funicular::statics::{self, Equilibrium, StaticModel};
+
+    /// Six cables over pulleys, with `axis` as the direction in which they enter, to winches that yield.
+    fn driven(axis: &str) -> (Robot, Equilibrium) {
+        let text = funicular_robots::YUAN2014_4MM
+            .replace("[[cables]]", "[[cables]]\npulley = \"wheel\"\nwinch = \"drum\"")
+            + &format!(
+                "\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = {axis}\n[winches.drum]\ndrum_side_length_m = 3.0\n\
+                 stiffness_n_per_m = 5e4\n"
+            );
+        let robot = Robot::from_toml(&text).unwrap();
+        let State::Lengths(lengths) = &robot.state else { panic!("given by lengths") };
+        let lengths: Vec<f64> = lengths.iter().map(|length| length + 3.1).collect();
+        let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+        (robot, rest)
+    }
+
+    fn supports(axis: &str, warnings: &mut Vec<String>) -> Vec<(Support, CableState)> {
+        let (robot, rest) = driven(axis);
+        let of = |(i, state): (usize, &CableState)| {
+            let chain = Chain::of(&robot, &rest, i, 40).unwrap();
+            let load_w = robot.gravity_w * (robot.cables[i].material.mass_per_length * state.free_length());
+            let support = Support::of(&robot, i, state, &chain, &load_w, warnings).unwrap();
+            (support.expect("the cable has a winch"), state.clone())
+        };
+        rest.cables.iter().enumerate().map(of).collect()
+    }
+
+    #[test]
+    fn the_spring_is_fixed_where_the_line_of_the_cable_meets_the_swivel_axis() {
+        let mut warnings = Vec::new();
+        let (robot, _) = driven("[0, 0, 1]");
+        for ((support, state), cable) in supports("[0, 0, 1]", &mut warnings).into_iter().zip(&robot.cables) {
+            let behind = Vec3::from(support.behind);
+            let entry_w = cable.anchor.reference_w();
+            // Weight on the wheel moves it by the weight of the arc over the tension, 3e-4 of its distance of 0.1 m.
+            assert!((behind - entry_w).xy().norm() < 1e-4, "{behind} and {entry_w}");
+            let contact = state.drive.as_ref().unwrap().contact.unwrap();
+            let distance = contact.radius * (0.5 * contact.wrap).tan();
+            assert!(((state.anchor_w - behind).norm() / distance - 1.0).abs() < 1e-3);
+            assert!((support.tension / state.tension_anchor - 1.0).abs() < 1e-4);
+
+            // In series: EA over arc and drum side, and the winch.
+            let compliance = (3.0 + contact.arc()) / cable.material.axial_stiffness + 1.0 / 5e4;
+            assert!((support.stiffness * compliance - 1.0).abs() < 1e-2, "{}", support.stiffness);
+            assert_eq!(support.held.len(), 1);
+        }
+        assert!(warnings.is_empty(), "{warnings:?}");
+    }
+
+    #[test]
+    fn a_tilted_swivel_axis_is_reported() {
+        let mut warnings = Vec::new();
+        supports("[0.3, 0, 1]", &mut warnings);
+        assert!(!warnings.is_empty() && warnings[0].contains("is left out"), "{warnings:?}");
+    }
+}

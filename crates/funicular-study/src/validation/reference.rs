@@ -578,6 +578,8 @@ pub(super) struct MeasuredPose {
     pub(super) lengths_m: Vec<f64>,
     /// Frequencies of the source's model, ascending.
     pub(super) model_hz: Vec<f64>,
+    /// Frequencies for fixed points instead of the pulleys, by a separate program, ascending.
+    pub(super) fixed_points_hz: Vec<f64>,
     /// Measured frequencies; `None` where no peak was found.
     pub(super) measured_hz: Vec<Option<f64>>,
 }
