@@ -12,6 +12,9 @@ pub const CAROCA: &str = include_str!("caroca.toml");
 /// CoGiRo: suspended, eight cables, 15 m x 11 m x 6 m.
 pub const COGIRO: &str = include_str!("cogiro.toml");
 
+/// CoGiRo with its pulleys and winches.
+pub const COGIRO_WINCHES: &str = include_str!("cogiro-winches.toml");
+
 /// Lucia of Expo 2015: suspended, eight cables.
 pub const EXPO2015_LUCIA: &str = include_str!("expo2015-lucia.toml");
 
@@ -49,9 +52,10 @@ pub const YUAN2014_4MM: &str = include_str!("yuan2014-4mm.toml");
 pub const YUAN2014_8MM: &str = include_str!("yuan2014-8mm.toml");
 
 /// All robots: name of the file without `.toml`, and text of the file.
-pub const ALL: [(&str, &str); 14] = [
+pub const ALL: [(&str, &str); 15] = [
     ("caroca", CAROCA),
     ("cogiro", COGIRO),
+    ("cogiro-winches", COGIRO_WINCHES),
     ("expo2015-lucia", EXPO2015_LUCIA),
     ("fast", FAST),
     ("grab-2-cables", GRAB_2_CABLES),

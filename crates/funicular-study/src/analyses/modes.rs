@@ -11,7 +11,7 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
-use funicular::robot::Robot;
+use funicular::robot::{Robot, WinchMode};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -149,11 +149,12 @@ pub const RIGID: &str = "rigid";
 /// # Errors
 /// Options that rigid cables do not have, sagging cables, or a platform without mass.
 pub fn with_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Result<(modes::Modes, Vec<String>)> {
-    let Model { cable_model, terms: Terms { assembly, in_plane_only } } = request.model;
+    let Model { cable_model, terms: Terms { assembly, in_plane_only, winches } } = request.model;
     let given = [
         (cable_model.is_some(), "cable_model", "the cables are rigid in every frequency range"),
         (assembly != Assembly::Consistent, "assembly", "their stiffness is the geometric stiffness alone"),
         (in_plane_only, "in_plane_only", "straight cables have no plane"),
+        (winches != WinchMode::AsGiven, "winches", "their winches are rigid"),
         (request.input.is_some(), "input", "responses are computed for cables that stretch"),
         (request.stations.is_some(), "stations", "rigid cables do not vibrate"),
     ];

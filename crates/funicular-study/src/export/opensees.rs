@@ -20,7 +20,7 @@ use crate::at_rest::AtRest;
 use anyhow::Result;
 use askama::Template;
 use funicular::math::{Mat3, Vec3};
-use funicular::robot::{Load, PlatformMotion, Robot};
+use funicular::robot::{Load, PlatformMotion, Robot, Winch};
 use serde::Serialize;
 
 /// Number of natural frequencies for the comparison, if no limit is given.
@@ -80,6 +80,16 @@ pub(crate) fn script(
     below_hz: Option<f64>,
     warnings: &mut Vec<String>,
 ) -> Result<String> {
+    let AtRest { robot, .. } = at_rest;
+    let exported = AtRest { robot: with_held_motors(robot), ..at_rest.clone() };
+    if exported.robot != *robot {
+        warnings.push(
+            "the script has neither the inertia of wheels, drums and motors nor the mass of drum sides nor the control of motors: its motors are held, \
+             and so are those of the frequencies to which it compares"
+                .to_owned(),
+        );
+    }
+    let at_rest = &exported;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let frequencies = match below_hz {
         None => first_frequencies(at_rest, FREQUENCIES, warnings)?,
@@ -141,6 +151,23 @@ fn cable(at_rest: &AtRest, i: usize, segments: usize, warnings: &mut Vec<String>
         bar_length: chain.bar_length,
         nodes: chain.nodes_w[1..].iter().map(|node| (*node).into()).collect(),
     })
+}
+
+/// Robot whose wheels, drums and motors have no inertia and whose motors are held, with the same equilibrium: a control
+/// that yields at rest becomes a part of the winch's stiffness.
+fn with_held_motors(robot: &Robot) -> Robot {
+    let mut held = robot.clone();
+    for anchor in held.cables.iter_mut().map(|cable| &mut cable.anchor) {
+        if let Some(pulley) = &mut anchor.pulley {
+            (pulley.inertia, pulley.swivel_inertia) = (0.0, 0.0);
+        }
+        if let Some(winch) = &mut anchor.winch {
+            let yields = winch.compliance() > 1.0 / winch.stiffness;
+            let stiffness = if yields { 1.0 / winch.compliance() } else { winch.stiffness };
+            *winch = Winch { stiffness, ..Winch::rigid(&winch.name, winch.drum_side_length) };
+        }
+    }
+    held
 }
 
 /// Estimate of the relative rounding error of the script's first frequency in double precision. The error comes from
