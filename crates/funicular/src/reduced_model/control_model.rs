@@ -10,9 +10,9 @@ use super::reference::{Maximum, Reference};
 use super::selection::{RemainingDifference, Size, chosen};
 use super::terms::{RealBlock, Term, terms};
 use super::{
-    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
+    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, check_cables,
+    viscous_damping_and_ratios,
 };
-use crate::cable::DynamicCable;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
 use crate::modes::{self, Kind};
@@ -157,9 +157,7 @@ pub fn control_model(
     outputs: &[(Signal, Quantity)],
     requested: RequestedStateSpace,
 ) -> Result<ControlModel, ReductionError> {
-    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
-        return Err(ReductionError::Model);
-    }
+    check_cables(robot, dynamics)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,
