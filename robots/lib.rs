@@ -12,11 +12,23 @@ pub const CAROCA: &str = include_str!("caroca.toml");
 /// CoGiRo: suspended, eight cables, 15 m x 11 m x 6 m.
 pub const COGIRO: &str = include_str!("cogiro.toml");
 
+/// CoGiRo with its pulleys and winches.
+pub const COGIRO_WINCHES: &str = include_str!("cogiro-winches.toml");
+
 /// Lucia of Expo 2015: suspended, eight cables.
 pub const EXPO2015_LUCIA: &str = include_str!("expo2015-lucia.toml");
 
 /// Feed cabin of the radio telescope FAST: six cables, 600 m.
 pub const FAST: &str = include_str!("fast.toml");
+
+/// GRAB prototype, University of Bologna: two cables over pulleys, measured frequencies.
+pub const GRAB_2_CABLES: &str = include_str!("grab-2-cables.toml");
+
+/// GRAB prototype, University of Bologna: three cables over pulleys, measured frequencies.
+pub const GRAB_3_CABLES: &str = include_str!("grab-3-cables.toml");
+
+/// GRAB prototype, University of Bologna: four cables over pulleys, measured frequencies.
+pub const GRAB_4_CABLES: &str = include_str!("grab-4-cables.toml");
 
 /// `IPAnema` 2: fully constrained, eight cables.
 pub const IPANEMA2: &str = include_str!("ipanema2.toml");
@@ -40,11 +52,15 @@ pub const YUAN2014_4MM: &str = include_str!("yuan2014-4mm.toml");
 pub const YUAN2014_8MM: &str = include_str!("yuan2014-8mm.toml");
 
 /// All robots: name of the file without `.toml`, and text of the file.
-pub const ALL: [(&str, &str); 11] = [
+pub const ALL: [(&str, &str); 15] = [
     ("caroca", CAROCA),
     ("cogiro", COGIRO),
+    ("cogiro-winches", COGIRO_WINCHES),
     ("expo2015-lucia", EXPO2015_LUCIA),
     ("fast", FAST),
+    ("grab-2-cables", GRAB_2_CABLES),
+    ("grab-3-cables", GRAB_3_CABLES),
+    ("grab-4-cables", GRAB_4_CABLES),
     ("ipanema2", IPANEMA2),
     ("kntu-planar", KNTU_PLANAR),
     ("nist-robocrane", NIST_ROBOCRANE),

@@ -36,8 +36,10 @@ BARS = 20
 class Case:
     """A robot with the load on it."""
 
-    def __init__(self, name, seconds=None, segments=BARS, robot=None, options=(), tilted=False):
+    def __init__(self, name, seconds=None, segments=BARS, robot=None, options=(), tilted=False, driven=False):
         self.name, self.robot, self.options, self.tilted = name, robot or name, list(options), tilted
+        # True for a robot with pulleys and winches, which only OpenSees has, as springs.
+        self.driven = driven
         # Time [s] that MoorDyn integrates (some periods of the lowest mode), None if MoorDyn cannot model the robot;
         # segments.
         self.seconds, self.segments = seconds, segments
@@ -48,6 +50,7 @@ PUSHED = ["--force-n=3,2,-1", "--load-point-m=0.1,0.05,0.02", "--moment-n-m=0.3,
 SHORT = [
     Case("yuan2014-4mm", 10.0), Case("cogiro", 4.0), Case("cogiro, loaded", robot="cogiro", options=LOADED),
     Case("kntu-planar, loaded", robot="kntu-planar", options=PUSHED), Case("kntu-planar, tilted", robot="kntu-planar", tilted=True),
+    Case("yuan2014-4mm, winches", robot="yuan2014-4mm", driven=True),
 ]  # fmt: skip
 ALL = [
     Case("yuan2014-4mm", 20.0), Case("cogiro", 10.0), Case("yuan2014-8mm", 20.0, 2 * BARS), Case("sap2000-8-cable-point-mass", 4.0),
@@ -81,6 +84,11 @@ class Robot:
             self.path = folder / "tilted.toml"
             self.path.write_text(tilted(self.file))
             self.file = tomllib.loads(self.path.read_text())
+        if case.driven:
+            text = driven(Path(self.path).read_text(), self.file)
+            self.path = folder / "driven.toml"
+            self.path.write_text(text)
+            self.file = tomllib.loads(text)
         self.statics = json.loads(self.run("statics", "--format", "json"))
         platform = self.file["platform"]
         motion = platform.get("motion", "rigid")
@@ -99,7 +107,8 @@ class Robot:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ])  # fmt: skip
         cables = self.file["cables"]
-        self.anchors = np.array([cable["anchor_m"] for cable in cables])
+        drives = [row.get("drive", {}) for row in self.statics["cables"]]
+        self.anchors = np.array([drive.get("exit_m", cable["anchor_m"]) for drive, cable in zip(drives, cables)])
         self.attachments = np.array([cable.get("attachment_m", [0.0, 0.0, 0.0]) for cable in cables])
         self.ropes = [self.file["materials"][cable["material"]] for cable in cables]
         rows = self.statics["cables"]
@@ -127,6 +136,19 @@ class Robot:
 
     def off(self, tensions):
         return np.abs(np.array(tensions) - self.tensions).max() / self.tensions.max()
+
+
+def driven(text, file):
+    """Leads every cable of a robot with lengths over a pulley to a winch that yields, 3 m from the pulley."""
+    for cable in file["cables"]:
+        length = cable["unstrained_length_m"]
+        # The arc is about twice the radius.
+        text = text.replace(f"unstrained_length_m = {length}", f"unstrained_length_m = {length + 3.1}")
+    text = text.replace("[[cables]]", '[[cables]]\npulley = "wheel"\nwinch = "drum"')
+    return text + (
+        "\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0, 0, 1]\n"
+        "\n[winches.drum]\ndrum_side_length_m = 3.0\nstiffness_n_per_m = 50e3\n"
+    )
 
 
 def tilted(file):
@@ -326,7 +348,7 @@ def main():
         folder = Path(name)
         for case in SHORT if options else ALL:
             robot = Robot(program, case, folder)
-            if robot.components:
+            if robot.components and not case.driven:
                 check_moorpy(robot, table)
             check_opensees(robot, folder, table)
             if case.seconds:

@@ -90,6 +90,7 @@ pub(crate) enum Command {
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv\n  \
         funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75\n  \
+        funicular modes robots/grab-3-cables.toml --static-model ideal --rigid-cables --below-hz 10\n  \
         funicular modes robots/cogiro.toml --below-hz 5 --figure-mode 3 -o shape.pdf")]
     Modes(ModesArgs),
     /// Frequency response of the platform or of points on cables, and its peaks
@@ -303,6 +304,12 @@ pub(crate) struct ModesArgs {
     pub(crate) tensions: TensionArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
+
+    /// Modes with cables that are straight, without mass and rigid in length: how a platform swings on fewer cables than
+    /// it has degrees of freedom; with --static-model ideal
+    #[arg(long, help_heading = "Model")]
+    pub(crate) rigid_cables: bool,
+
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
     #[command(flatten)]

@@ -130,9 +130,13 @@ impl PyAnalyses {
     /// damped
     ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
     ///     damping, and there are no eigenvalues.
+    /// rigid_cables
+    ///     Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free. The
+    ///     equilibrium has the static model `ideal` or `spring`.
     #[pyo3(signature = (
         below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, damped=true
+        assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, damped=true,
+        rigid_cables=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn modes(
@@ -150,6 +154,7 @@ impl PyAnalyses {
         winches: &str,
         platform_share: Option<Number>,
         damped: bool,
+        rigid_cables: bool,
     ) -> PyResult<ModesObject> {
         let keywords = ModesKeywords {
             below_hz,
@@ -164,6 +169,7 @@ impl PyAnalyses {
             winches,
             platform_share,
             damped,
+            rigid_cables,
         };
         Self::at(slf, |rest| vibration::modes(py, rest, keywords))
     }

@@ -114,6 +114,7 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) winches: &'a str,
     pub(crate) platform_share: Option<Number>,
     pub(crate) damped: bool,
+    pub(crate) rigid_cables: bool,
 }
 
 /// Keywords of `compare`.
@@ -141,6 +142,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         stations: keywords.stations.map(stations).transpose()?,
         platform_share: share(keywords.platform_share)?,
         damped: keywords.damped,
+        rigid_cables: keywords.rigid_cables,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,

@@ -3,6 +3,7 @@
 pub(crate) mod chain;
 pub(crate) mod moordyn;
 pub(crate) mod opensees;
+pub(crate) mod support;
 pub(crate) mod vtk;
 
 use crate::at_rest::AtRest;
@@ -40,7 +41,7 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     let mut warnings = Vec::new();
     let text = match to {
         ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
-        ExportFormat::Moordyn => moordyn::input(at_rest, segments)?,
+        ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
     };
     warnings.extend(at_rest.warnings(None));

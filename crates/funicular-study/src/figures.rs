@@ -9,6 +9,7 @@ pub(crate) mod axis;
 pub(crate) mod chart;
 mod contour;
 pub(crate) mod drawing;
+pub(crate) mod drive;
 mod font;
 pub(crate) mod hull;
 mod making;

@@ -158,6 +158,9 @@ pub struct ModesRequest {
     /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
     #[serde(default = "yes")]
     pub damped: bool,
+    /// Cables that are rigid in length: the motions that they leave free.
+    #[serde(default)]
+    pub rigid_cables: bool,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,

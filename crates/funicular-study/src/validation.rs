@@ -11,6 +11,7 @@ mod dynamics;
 mod exact;
 mod independent;
 mod markdown;
+mod measured;
 mod paper;
 mod reference;
 mod robots;
@@ -109,6 +110,7 @@ pub fn sections() -> Result<Vec<Section>> {
         exact::section(&published, &reference::exact()?, &independent)?,
         damped::section(&reference::damped()?, &independent)?,
         drives::section(&reference::drives()?)?,
+        measured::section(&reference::measured()?.grab)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,

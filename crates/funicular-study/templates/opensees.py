@@ -6,7 +6,9 @@ Written by `funicular export --to opensees`; needs openseespy from PyPI. SI unit
 Cables are chains of {{ segments }} equal corotational truss bars, weight in the joints, mass half consistent and half lumped.
 Such a chain cuts corners: its bars are a little shorter than the cable, and its weight differs a little, so that it pulls
 at the platform with the force of the cable. The platform consists of points with its mass, centre of mass and inertia on a
-frame of stiff bars. A guide holds each point along the normal of its plane; a moment is two couples of dead forces. The
+frame of stiff bars. A guide holds each point along the normal of its plane; a moment is two couples of dead forces. At
+a pulley or a winch a chain ends at the exit point. A pre-tensioned spring behind it stands for arc, drum side and winch:
+its stiffness is that of slip along the cable, its length gives the stiffness of the swivelling wheel. The
 relative difference of the frequencies falls with the square of the number of bars: `funicular export --segments`.
 """
 
@@ -28,7 +30,8 @@ SIZE = {{ size }}  # of the platform [m]
 TOUCHING = {{ touching|fmt("{:e}") }}  # points nearer than this count as one point [m]
 FRAME_STIFFNESS = {{ frame_stiffness|fmt("{:e}") }}  # of each bar of the platform [N/m]
 # Each cable from the platform to its anchor: mass [kg], weight and wind of the chain [N], EA [N], lengths [m], joints
-# [m] where the chain is in equilibrium.
+# [m] where the chain is in equilibrium; at a pulley or a winch the support of the last joint: fixed point of the spring
+# [m], stiffness [N/m], tension [N], directions in which the joint is held. Without a support the joint is fixed.
 CABLES = [
 {% for cable in cables -%}
 {{ "    " }}{{ cable }},
@@ -76,6 +79,29 @@ def bar(start, end, length, stiffness, mass):
     return tag
 
 
+def spring(start, end, stiffness, tension):
+    """Adds a bar between two nodes, with axial stiffness [N/m] and tension [N]."""
+    tag = len(ops.getEleTags()) + 1
+    modulus = stiffness * math.dist(ops.nodeCoord(start), ops.nodeCoord(end))
+    ops.uniaxialMaterial("Elastic", 2 * tag, modulus)
+    ops.uniaxialMaterial("InitStrainMaterial", 2 * tag + 1, 2 * tag, tension / modulus)
+    ops.element("corotTruss", tag, start, end, 1.0, 2 * tag + 1)
+
+
+def support(end, of):
+    """Holds the last joint of a cable: fixed, or behind a pulley or a winch by a spring and stiff bars without tension."""
+    if of is None:
+        ops.fix(end, 1, 1, 1)
+        return
+    behind = node(of["behind"])
+    ops.fix(behind, 1, 1, 1)
+    spring(end, behind, of["stiffness"], of["tension"])
+    for direction in of["held"]:
+        far = node([x + SIZE * e for x, e in zip(place(end), direction)])
+        ops.fix(far, 1, 1, 1)
+        spring(end, far, FRAME_STIFFNESS, 0.0)
+
+
 def add(where, tag, mass):
     where[tag] = where.get(tag, 0.0) + mass
 
@@ -114,7 +140,7 @@ for tag in points:
 cable_ends = []
 for cable, first in zip(CABLES, held):
     tags = [first] + [node(point) for point in cable["nodes"]]
-    ops.fix(tags[-1], 1, 1, 1)
+    support(tags[-1], cable.get("support"))
     mass = cable["mass"] / (len(tags) - 1)
     heavy = [force / (len(tags) - 1) for force in cable["load"]]
     half = [0.5 * force for force in heavy]

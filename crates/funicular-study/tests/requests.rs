@@ -79,7 +79,7 @@ fn requests() -> Vec<Value> {
                 &points,
                 &signals,
                 &share,
-                &json!({ "below_hz": 20.0, "stations": 21, "damped": false }),
+                &json!({ "below_hz": 20.0, "stations": 21, "damped": false, "rigid_cables": true }),
             ],
         ),
         of(

@@ -10,11 +10,13 @@ pub mod derivatives;
 mod fundamental;
 mod lowest;
 mod mac;
+mod rigid_cables;
 pub mod tracking;
 
 pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, PlatformModeError, lowest, lowest_with_platform};
 pub use mac::mac;
+pub use rigid_cables::{RigidCablesError, with_rigid_cables};
 
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
 

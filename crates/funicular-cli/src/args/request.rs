@@ -136,6 +136,7 @@ impl ModesArgs {
             stations: self.stations,
             platform_share: self.platform_share,
             damped: true,
+            rigid_cables: self.rigid_cables,
             state: self.state.request(),
             tensions: self.tensions.request(),
             model: self.model.request(),

@@ -137,7 +137,28 @@ fn drive_table(found: &Checked) -> String {
         }
         rows.row(row);
     }
-    format!("\n{rows}")
+    format!("\n{rows}{}", length_table(found))
+}
+
+/// Lengths counted from the drum and to the anchor point; empty without known lengths.
+fn length_table(found: &Checked) -> String {
+    if found.cables.iter().all(|cable| cable.length_parts.is_none()) {
+        return String::new();
+    }
+    let mut rows = Table::new(&["cable", "unstrained [m]", "to the anchor [m]", "beyond [m]"]);
+    for cable in &found.cables {
+        let parts = cable.length_parts.as_ref();
+        rows.row(vec![
+            cable.name.clone(),
+            decimals_or_none(cable.unstrained_length_m, 4),
+            decimals_or_none(parts.map(|parts| parts.to_anchor_m), 4),
+            decimals_or_none(parts.map(|parts| parts.beyond_anchor_m), 4),
+        ]);
+    }
+    format!(
+        "\n{rows}\nUnstrained lengths count from the drum. A length that was measured from the anchor point to the \
+         attachment needs the last column added.\n"
+    )
 }
 
 fn rope_table(found: &Checked) -> String {

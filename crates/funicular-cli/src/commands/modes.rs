@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, counted, decimals, short, significant};
-use funicular_study::analyses::modes::{ModeRow, Modes, Participation, strongest};
+use funicular_study::analyses::modes::{ModeRow, Modes, Participation, RIGID, strongest};
 
 impl Printed for Modes {
     fn text(&self) -> String {
@@ -89,6 +89,12 @@ fn certificate(found: &Modes) -> String {
         n => format!(" and {} without a frequency", counted(n, "unstable direction")),
     };
     let Modes { count_below, below_hz, .. } = found;
+    if found.models.cable_model == RIGID && found.certified {
+        return format!(
+            "Complete: rigid cables leave the platform {count_below} of its motions below {below_hz} Hz, the list has \
+             {listed}{unstable}."
+        );
+    }
     if found.certified {
         format!(
             "Certified: the Wittrick–Williams count below {below_hz} Hz is {count_below}, the list has {listed}\

@@ -496,3 +496,48 @@ fn rotating_pulleys_of_caspr_become_pulleys() {
         assert!(told.contains(message), "{told}");
     }
 }
+
+/// WireX's pulleys become pulleys of the robot file. The lengths are those of WireX's own formula, the sum of two arcs of
+/// cosines times the radius and the free length (doInverseKinematicsPulleyEx).
+#[test]
+fn pulleys_of_wirex_become_pulleys_with_its_lengths() {
+    // The frame of one base is turned: its z axis points to y.
+    let turned = r#"a13="0.000000" a23="0.000000" a33="1.000000" radius="0.050000""#;
+    let changed = Changed::of(
+        &["tripod.wcrfx"],
+        &[(turned, r#"a13="0.000000" a23="0.600000" a33="0.800000" radius="0.080000""#)],
+    );
+    let text = changed.imported(&["--pose", "0.1,-0.05,1.5"]);
+    assert!(text.contains("radius_m = 0.08\nentry_direction = [0.0, 0.6, 0.8]"), "{text}");
+    assert_eq!(text.matches("\n[pulleys.").count(), 2, "{text}");
+    assert!(text.contains("<winch>") && !text.contains("the pulleys at the base"), "{text}");
+
+    let robot = json("check", &text, &[]);
+    let rest = json("statics", &text, &["--static-model", "ideal"]);
+    for (i, cable) in robot["cables"].as_array().unwrap().iter().enumerate() {
+        let (radius, axis) = if i == 0 { (0.08, [0.0, 0.6, 0.8]) } else { (0.05, [0.0, 0.0, 1.0]) };
+        let [base, platform] = ["anchor_m", "attachment_m"].map(|key| numbers(&cable[key]));
+        let reach: Vec<f64> = [0.1, -0.05, 1.5].iter().zip(&platform).zip(&base).map(|((r, p), b)| r + p - b).collect();
+        let along: f64 = reach.iter().zip(axis).map(|(x, a)| x * a).sum();
+        let across = (reach.iter().map(|x| x * x).sum::<f64>() - along * along).sqrt();
+        let to_center = (across - radius).hypot(along);
+        let free = (to_center * to_center - radius * radius).sqrt();
+        let length = ((free / to_center).acos() + (along / to_center).acos()) * radius + free;
+        let ours = rest["cables"][i]["unstrained_length_m"].as_f64().unwrap();
+        assert!((ours - length).abs() < 1e-12, "cable {i}: {ours} m against {length} m");
+    }
+
+    // Radius that WireX writes for pulleys of unknown size, and damaged values.
+    let unknown = Changed::of(&["tripod.wcrfx"], &[(r#"radius="0.050000""#, r#"radius="0.100000""#)]).import(&[]);
+    assert!(stderr(&unknown).contains("of unknown size"), "{}", stderr(&unknown));
+    for (wrong, message) in [
+        (r#"a33="1.000000" radius="-0.050000""#, "attribute `radius` of <base> is -0.05 m, it must be positive"),
+        (r#"a33="0.000000" radius="0.050000""#, "`a13` `a23` `a33`, has no length"),
+    ] {
+        let output = Changed::of(&["tripod.wcrfx"], &[(r#"a33="1.000000" radius="0.050000""#, wrong)]).import(&[]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    }
+    let without = Changed::of(&["tripod.wcrfx"], &[(r#" radius="0.050000""#, "")]).imported(&[]);
+    assert!(json("check", &without, &[])["cables"][0].get("pulley").is_none());
+}

@@ -1,6 +1,6 @@
 //! `modes`: the list, its part in responses, shapes of cables.
 
-use super::{close, csv, json, number, numbers, succeed};
+use super::{close, csv, json, number, numbers, robot, run, stderr, succeed};
 
 #[test]
 fn modes_below_20_hz_are_147_and_certified() {
@@ -91,4 +91,55 @@ fn the_first_platform_mode_is_the_first_of_the_list_with_the_share() {
     }
     let text = succeed(&["modes", &cogiro, "--below-hz", "3"]);
     assert!(text.contains("No mode below 3 Hz has at least 50 %") && text.contains("raise --below-hz"), "{text}");
+}
+
+#[test]
+fn a_platform_on_few_rigid_cables_swings_in_the_motions_that_they_leave_free() {
+    for (cables, free) in [(2, 4), (3, 3), (4, 2)] {
+        let file = robot(&format!("grab-{cables}-cables.toml"));
+        let rigid = ["modes", &file, "--static-model", "ideal", "--rigid-cables", "--below-hz", "10"];
+        let found = json(&rigid);
+        let modes = found["modes"].as_array().unwrap();
+        assert_eq!((modes.len(), &found["cable_model"], &found["certified"]), (free, &"rigid".into(), &true.into()));
+        let text = succeed(&rigid);
+        assert!(text.contains(&format!("rigid cables leave the platform {free} of its motions below 10 Hz")), "{text}");
+
+        // Stiff springs come near: the difference falls with their compliance.
+        let stiff = "materials.rope.axial_stiffness_n=2e7";
+        let springs = json(&[
+            "modes",
+            &file,
+            "--static-model",
+            "spring",
+            "--cable-model",
+            "catenary-static",
+            "--set",
+            stiff,
+            "--below-hz",
+            "10",
+        ]);
+        for (rigid, elastic) in modes.iter().zip(springs["modes"].as_array().unwrap()) {
+            let [rigid, elastic] = [rigid, elastic].map(|mode| number(&mode["frequency_hz"]));
+            assert!(close(rigid / elastic, 1.0, 1e-5), "{rigid} Hz and {elastic} Hz");
+        }
+    }
+
+    let file = robot("grab-2-cables.toml");
+    let figure = tempfile::tempdir().unwrap();
+    let path = figure.path().join("shape.svg");
+    let shape = ["--rigid-cables", "--static-model", "ideal", "--figure-mode", "1", "-o", path.to_str().unwrap()];
+    succeed(&[&["modes", &file, "--below-hz", "10"], &shape[..]].concat());
+    assert!(std::fs::read_to_string(&path).unwrap().contains("Mode 1: "));
+    for (more, says) in [
+        ("", "choose the static model `ideal`"),
+        ("--static-model ideal --cable-model spring", "--rigid-cables does not go with --cable-model"),
+        ("--static-model ideal --assembly without-geometric-stiffness", "--rigid-cables does not go with --assembly"),
+        ("--static-model ideal --in-plane-only", "--rigid-cables does not go with --in-plane-only"),
+        ("--static-model ideal --input fz --output az", "--rigid-cables does not go with --input"),
+        ("--static-model ideal --stations 5", "--rigid-cables does not go with --stations"),
+    ] {
+        let options: Vec<&str> = more.split_whitespace().collect();
+        let output = run(&[&["modes", &file, "--rigid-cables", "--below-hz", "5"], &options[..]].concat());
+        assert!(output.status.code() == Some(2) && stderr(&output).contains(says), "{more}: {}", stderr(&output));
+    }
 }

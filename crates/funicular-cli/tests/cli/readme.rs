@@ -87,6 +87,35 @@ fn commands_that_the_pages_show_without_output_run() {
 }
 
 /// Keys and options that the glossary names exist: a word of the program that changes has to change there.
+/// The listing of docs/pulleys.md, with a platform and a rope, is a robot whose only cable runs as it says.
+#[test]
+fn the_listing_of_pulleys_and_winches_is_read_and_rests() {
+    let page = fs::read_to_string(root().join("docs/pulleys.md")).unwrap();
+    let (_, after) = page.split_once("```toml\n").expect("the page has a listing");
+    let (listing, _) = after.split_once(END).expect("the listing ends");
+    let robot = format!(
+        "name = \"listing\"\n[platform]\nmass_kg = 20.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\ncenter_of_mass_m = [0.0, 0.0, 0.0]\n\
+         [materials.rope]\naxial_stiffness_n = 251e3\nmass_kg_per_m = 0.067\n{listing}"
+    );
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let output = super::run_with(&[arguments, &["--format", "json"]].concat(), &robot);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        serde_json::from_str(stdout(&output)).unwrap()
+    };
+
+    let checked = json(&["check", "-"]);
+    let cable = &checked["cables"][0];
+    assert_eq!((&cable["pulley"]["name"], &cable["winch"]["name"]), (&"wheel".into(), &"drum".into()));
+    let rest = json(&["statics", "-", "--lengths-m", "6.0"]);
+    let drive = &rest["cables"][0]["drive"];
+    let of = |key: &str| drive[key].as_f64().unwrap();
+    // Up from the winch, over the wheel and down again.
+    assert!((of("wrap_deg") - 180.0).abs() < 0.1, "{drive}");
+    let sum = of("free_length_m") + of("arc_length_m") + of("drum_side_length_m");
+    assert!((sum - 6.0).abs() < 1e-9, "{drive}");
+    assert!((of("winch_yield_m") - of("tension_drum_n") / 50e3).abs() < 1e-12, "{drive}");
+}
+
 #[test]
 fn the_glossary_names_options_and_keys_that_exist() {
     let glossary = fs::read_to_string(root().join("docs/glossary.md")).unwrap();

@@ -254,6 +254,7 @@ fn commands_follow_cables_over_pulleys() {
     };
 
     assert!(printed(&["check", "-"]).contains("entry direction"));
+    lengths_to_the_anchors_hold_the_pose_without_pulleys(&robot, &library);
     let statics = printed(&["statics", "-"]);
     assert!(statics.contains("wrap [°]") && statics.contains("Stable"), "{statics}");
     let header = printed(&["statics", "-", "--format", "csv"]).lines().next().unwrap().to_owned();
@@ -276,8 +277,13 @@ fn commands_follow_cables_over_pulleys() {
         "csv",
     ]);
     assert!(rows.contains("tension_drum_1_n") && rows.contains("wrap_max_deg"), "{rows}");
-    assert!(printed(&["report", "-", "--below-hz", "2", "-o", "-"]).contains("Tensions and sag"));
-    assert!(printed(&["export", "-", "--to", "moordyn"]).contains("Fixed"));
+    let page = printed(&["report", "-", "--below-hz", "2", "-o", "-"]);
+    assert!(page.contains("tension, drum") && page.contains("exit points held") && page.contains("drum of cable"));
+    let moordyn = run_with(&["export", "-", "--to", "moordyn"], &robot);
+    assert!(stdout(&moordyn).contains("Pulleys and winches are left out"), "{}", stdout(&moordyn));
+    assert!(stderr(&moordyn).contains("MoorDyn has no pulleys and no winches: the lines of the cables 1, 2, 3"));
+    let opensees = printed(&["export", "-", "--to", "opensees", "--segments", "2"]);
+    assert_eq!(opensees.matches("\"support\":{\"behind\":").count(), 6, "{opensees}");
 
     // An attachment inside a wheel, and a cable of half its length.
     let inside = run_with(&["statics", "-", "--pose", "0,0,1", "--set", "pulleys.wheel.radius_m=5"], &robot);
@@ -285,4 +291,29 @@ fn commands_follow_cables_over_pulleys() {
     assert!(stderr(&inside).contains("inside the wheel of its pulley"), "{}", stderr(&inside));
     let short = run_with(&["statics", "-", "--set", "cables.1.unstrained_length_m=4.5"], &robot);
     assert!(stderr(&short).contains("strain of cable"), "{}", stderr(&short));
+}
+
+/// The lengths to the anchors that `check` lists are those that hold the pose of the robot without its pulleys, but for the
+/// radius of the wheels.
+fn lengths_to_the_anchors_hold_the_pose_without_pulleys(driven: &str, fixed: &str) {
+    let json = |arguments: &[&str], robot: &str| -> Value {
+        let output = run_with(&[arguments, &["--format", "json"]].concat(), robot);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        serde_json::from_str(stdout(&output)).unwrap()
+    };
+    let rest = json(&["statics", "-"], driven);
+    let [position, angles] = ["position_m", "roll_pitch_yaw_deg"].map(|key| numbers(&rest["pose"][key]));
+    let pose: Vec<String> = position.iter().chain(&angles).map(f64::to_string).collect();
+    let held = json(&["statics", "-", &format!("--pose={}", pose.join(","))], fixed);
+
+    let checked = json(&["check", "-"], driven);
+    for (cable, held) in checked["cables"].as_array().unwrap().iter().zip(held["cables"].as_array().unwrap()) {
+        let parts = &cable["length_parts"];
+        let [to_anchor, beyond] = ["to_anchor_m", "beyond_anchor_m"].map(|key| number(&parts[key]));
+        assert!((to_anchor + beyond - number(&cable["unstrained_length_m"])).abs() < 1e-12, "{cable}");
+        // Directions differ by the radius over the length, 0.05 m over 7 m, and so do tensions, stretch and sag.
+        assert!((to_anchor - number(&held["unstrained_length_m"])).abs() < 2e-3, "{cable}");
+        assert!(beyond > 3.0 && beyond < 3.2, "drum side, and the way around the wheel: {cable}");
+    }
+    assert!(json(&["check", "-"], fixed)["cables"][0].get("length_parts").is_none());
 }

@@ -159,7 +159,7 @@ class Analyses:
         NoSolutionError
             The equilibrium is indifferent.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
@@ -181,6 +181,9 @@ class Analyses:
         damped
             Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
             damping, and there are no eigenvalues.
+        rigid_cables
+            Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free. The
+            equilibrium has the static model `ideal` or `spring`.
         """
     def receptance(self, /, hz: ArrayLike, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128]:
         """

@@ -6,6 +6,7 @@ use funicular::math::rotation;
 use funicular::robot::{
     Cable, Damping, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits, Winch, Wind,
 };
+use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
 use serde::Serialize;
 
@@ -146,12 +147,35 @@ pub struct CheckedCable {
     pub winch: Option<CheckedWinch>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
+    /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
+    /// are unknown or have no equilibrium.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_parts: Option<LengthParts>,
     /// Tension limits of the cable, or else of its rope.
     #[serde(flatten)]
     pub limits: CheckedLimits,
     /// Load per length besides weight and wind; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_n_per_m: Option<[f64; 3]>,
+}
+
+/// Unstrained length of a cable at rest, as it is counted with a pulley or a winch and without them.
+#[derive(Serialize)]
+pub struct LengthParts {
+    /// Unstrained length from the attachment to the anchor point, if the cable ended there with the same tension.
+    pub to_anchor_m: f64,
+    /// Length that pulley and drum side add: the unstrained length of the file less `to_anchor_m`.
+    pub beyond_anchor_m: f64,
+}
+
+impl LengthParts {
+    fn of(cable: &Cable, state: &CableState) -> Option<Self> {
+        state.drive.as_ref()?;
+        let stretch = 1.0 + state.tension_anchor / cable.material.axial_stiffness;
+        let to_anchor = (cable.anchor.reference_w() - state.attachment_w).norm();
+        let to_anchor_m = state.free_length() + (to_anchor - state.chord()) / stretch;
+        Some(Self { to_anchor_m, beyond_anchor_m: state.unstrained_length - to_anchor_m })
+    }
 }
 
 /// Pulley of a cable.
@@ -270,6 +294,10 @@ pub fn run(robot: Robot) -> Checked {
         State::Lengths(lengths) => Some(lengths),
         State::Pose(_) | State::Unknown => None,
     };
+    // Lengths can only be divided where the platform rests.
+    let driven = robot.cables.iter().any(|cable| !cable.anchor.is_fixed());
+    let rest = lengths.filter(|_| driven);
+    let rest = rest.and_then(|lengths| statics::forward(&robot, lengths, StaticModel::Catenary, None).ok());
     let cables = robot
         .cables
         .iter()
@@ -282,6 +310,7 @@ pub fn run(robot: Robot) -> Checked {
             pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
             winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
             unstrained_length_m: lengths.map(|lengths| lengths[i]),
+            length_parts: rest.as_ref().and_then(|rest| LengthParts::of(cable, &rest.cables[i])),
             limits: CheckedLimits::of(cable.limits()),
             load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
         })

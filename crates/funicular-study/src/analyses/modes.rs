@@ -4,14 +4,14 @@ use super::cable::Axes;
 use super::shared::Models;
 use super::{found, frf};
 use crate::at_rest::{self, AtRest};
-use crate::request;
+use crate::request::{self, Model, Terms};
 use crate::signals::{Input, Output};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
-use funicular::dynamics::Dynamics;
+use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
-use funicular::robot::Robot;
+use funicular::robot::{Robot, WinchMode};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -141,6 +141,54 @@ pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
     about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
 }
 
+/// Name of the cable model of rigid cables in results.
+pub const RIGID: &str = "rigid";
+
+/// Modes of a robot on rigid cables.
+///
+/// # Errors
+/// Options that rigid cables do not have, sagging cables, or a platform without mass.
+pub fn with_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Result<(modes::Modes, Vec<String>)> {
+    let Model { cable_model, terms: Terms { assembly, in_plane_only, winches } } = request.model;
+    let given = [
+        (cable_model.is_some(), "cable_model", "the cables are rigid in every frequency range"),
+        (assembly != Assembly::Consistent, "assembly", "their stiffness is the geometric stiffness alone"),
+        (in_plane_only, "in_plane_only", "straight cables have no plane"),
+        (winches != WinchMode::AsGiven, "winches", "their winches are rigid"),
+        (request.input.is_some(), "input", "responses are computed for cables that stretch"),
+        (request.stations.is_some(), "stations", "rigid cables do not vibrate"),
+    ];
+    if let Some((_, key, reason)) = given.into_iter().find(|(given, ..)| *given) {
+        bail!("⟪rigid_cables⟫ does not go with ⟪{key}⟫, because {reason}: leave out one of the two");
+    }
+    let found = modes::with_rigid_cables(&at_rest.robot, &at_rest.equilibrium, request.below_hz)
+        .map_err(|error| anyhow!("⟪rigid_cables⟫: {error}"))?;
+    Ok((found, at_rest.warnings(None)))
+}
+
+/// Result of `modes` with rigid cables.
+fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
+    let (found, mut warnings) = with_rigid_cables(at_rest, request)?;
+    warnings.extend(found.caveat());
+    let robot = &at_rest.robot;
+    Ok(Modes {
+        robot: robot.name.clone(),
+        below_hz: request.below_hz,
+        models: Models { cable_model: RIGID, ..Models::of(at_rest, Linearisation::default()) },
+        count_below: found.count_below,
+        certified: found.certified,
+        unstable_directions: found.unstable_directions,
+        damped_certified: None,
+        platform_share: request.platform_share,
+        first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
+        cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+        participation: None,
+        stations: Vec::new(),
+        modes: found.modes.into_iter().map(ModeRow::from).collect(),
+        warnings,
+    })
+}
+
 /// Computes the natural frequencies of a robot at equilibrium. The state of the request is not used.
 ///
 /// # Errors
@@ -148,6 +196,9 @@ pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
 pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
     request::check_positive("below_hz", request.below_hz)?;
     request::check_fraction("platform_share", request.platform_share)?;
+    if request.rigid_cables {
+        return about_rigid_cables(at_rest, request);
+    }
     let pair = pair(request)?;
     let signals = signals(&at_rest.robot, pair.as_ref(), request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);

@@ -21,6 +21,7 @@ struct MoorDynFile {
     shortened: f64,
     heavier: f64,
     body_axes: &'static str,
+    driven: bool,
     damping: bool,
     types: Vec<LineType>,
     body: Option<BodyRow>,
@@ -62,9 +63,19 @@ struct LineRow {
 ///
 /// # Errors
 /// A slack cable, or a feature that MoorDyn lacks: guides, loads, massless lines, gravity in another direction than −z.
-pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
+pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
+    let driven: Vec<&str> =
+        (robot.cables.iter().filter(|cable| !cable.anchor.is_fixed())).map(|cable| cable.name.as_str()).collect();
+    if !driven.is_empty() {
+        warnings.push(format!(
+            "MoorDyn has no pulleys and no winches: the lines of the cables {} end at the exit points, which do not move. \
+             Arc, drum side and winch are left out, so that the file has the equilibrium of the robot, and a higher \
+             stiffness",
+            driven.join(", ")
+        ));
+    }
     let mut types = Vec::new();
     let body = match robot.platform.motion {
         PlatformMotion::Rigid => Some(Frame::of(at_rest)),
@@ -121,6 +132,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize) -> Result<String> {
             Some(frame) if frame.axes_p != Mat3::identity() => "principal axes of inertia",
             _ => "axes of the platform frame",
         },
+        driven: !driven.is_empty(),
         damping: !robot.cables.iter().all(|cable| undamped(&cable.material)),
         types,
         body: body.map(|frame| frame.row),

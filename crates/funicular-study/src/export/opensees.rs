@@ -14,12 +14,13 @@
 //! with funicular.
 
 use super::chain::Chain;
+use super::support::Support;
 use super::{first_frequencies, modes_below, one_line};
 use crate::at_rest::AtRest;
 use anyhow::Result;
 use askama::Template;
 use funicular::math::{Mat3, Vec3};
-use funicular::robot::{Load, PlatformMotion, Robot};
+use funicular::robot::{Load, PlatformMotion, Robot, Winch};
 use serde::Serialize;
 
 /// Number of natural frequencies for the comparison, if no limit is given.
@@ -64,6 +65,9 @@ struct CableData<'a> {
     unstrained_length: f64,
     bar_length: f64,
     nodes: Vec<[f64; 3]>,
+    /// Spring at the last joint that stands for pulley, drum side and winch; the joint is fixed without it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    support: Option<Support>,
 }
 
 /// Writes the script.
@@ -76,6 +80,16 @@ pub(crate) fn script(
     below_hz: Option<f64>,
     warnings: &mut Vec<String>,
 ) -> Result<String> {
+    let AtRest { robot, .. } = at_rest;
+    let exported = AtRest { robot: with_held_motors(robot), ..at_rest.clone() };
+    if exported.robot != *robot {
+        warnings.push(
+            "the script has neither the inertia of wheels, drums and motors nor the mass of drum sides nor the control of motors: its motors are held, \
+             and so are those of the frequencies to which it compares"
+                .to_owned(),
+        );
+    }
+    let at_rest = &exported;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let frequencies = match below_hz {
         None => first_frequencies(at_rest, FREQUENCIES, warnings)?,
@@ -101,7 +115,7 @@ pub(crate) fn script(
         ));
     }
 
-    let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments)).collect::<Result<Vec<_>>>()?;
+    let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments, warnings)).collect::<Result<Vec<_>>>()?;
     let script = Script {
         segments,
         name: json(&robot.name)?,
@@ -122,20 +136,38 @@ pub(crate) fn script(
     Ok(script.render()? + "\n")
 }
 
-fn cable(at_rest: &AtRest, i: usize, segments: usize) -> Result<String> {
+fn cable(at_rest: &AtRest, i: usize, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
     let (cable, state) = (&at_rest.robot.cables[i], &at_rest.equilibrium.cables[i]);
     let chain = Chain::of(&at_rest.robot, &at_rest.equilibrium, i, segments)?;
+    let load_w = at_rest.robot.line_load(i, &state.chord_w()).vector_w() * state.free_length();
     json(&CableData {
+        support: Support::of(&at_rest.robot, i, state, &chain, &load_w, warnings)?,
         name: &cable.name,
         attachment: state.attachment_w.into(),
         mass: cable.material.mass_per_length * state.free_length(),
-        load: (at_rest.robot.line_load(i, &state.chord_w()).vector_w() * (state.free_length() * chain.weight_factor))
-            .into(),
+        load: (load_w * chain.weight_factor).into(),
         axial_stiffness: cable.material.axial_stiffness,
         unstrained_length: state.free_length(),
         bar_length: chain.bar_length,
         nodes: chain.nodes_w[1..].iter().map(|node| (*node).into()).collect(),
     })
+}
+
+/// Robot whose wheels, drums and motors have no inertia and whose motors are held, with the same equilibrium: a control
+/// that yields at rest becomes a part of the winch's stiffness.
+fn with_held_motors(robot: &Robot) -> Robot {
+    let mut held = robot.clone();
+    for anchor in held.cables.iter_mut().map(|cable| &mut cable.anchor) {
+        if let Some(pulley) = &mut anchor.pulley {
+            (pulley.inertia, pulley.swivel_inertia) = (0.0, 0.0);
+        }
+        if let Some(winch) = &mut anchor.winch {
+            let yields = winch.compliance() > 1.0 / winch.stiffness;
+            let stiffness = if yields { 1.0 / winch.compliance() } else { winch.stiffness };
+            *winch = Winch { stiffness, ..Winch::rigid(&winch.name, winch.drum_side_length) };
+        }
+    }
+    held
 }
 
 /// Estimate of the relative rounding error of the script's first frequency in double precision. The error comes from

@@ -7,6 +7,7 @@ use super::space::{Shape, Space};
 use super::style::{self, GREEN, GREY, ORANGE, Symbol, VERMILION};
 use super::{Choice, Figure, Kind};
 use crate::Watch;
+use crate::analyses::modes::with_rigid_cables;
 use crate::analyses::{compare, frf, statics};
 use crate::at_rest::{self, AtRest};
 use crate::request::{self, Request};
@@ -73,10 +74,16 @@ fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<Made> {
 fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Choice) -> Result<Made> {
     request::check_positive("below_hz", of.below_hz)?;
     let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
-    let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
-    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, of.below_hz)?;
-    modes::check_count(&dynamics, of.below_hz, modes::MAX_MODES)?;
-    let found = modes::below(&dynamics, of.below_hz);
+    let (dynamics, found, mut warnings) = if of.rigid_cables {
+        let (found, warnings) = with_rigid_cables(&at_rest, of)?;
+        (None, found, warnings)
+    } else {
+        let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
+        let (dynamics, warnings) = at_rest.dynamics(linearisation, of.below_hz)?;
+        modes::check_count(&dynamics, of.below_hz, modes::MAX_MODES)?;
+        let found = modes::below(&dynamics, of.below_hz);
+        (Some(dynamics), found, warnings)
+    };
     warnings.extend(found.caveat());
     let Some(number) = choice.mode else {
         return Ok(chart(spectrum(&at_rest.robot.name, &found), warnings));
@@ -94,7 +101,7 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Choice
             found.modes.len()
         );
     };
-    let moved = moved(&at_rest, &dynamics, mode)?;
+    let moved = moved(&at_rest, dynamics.as_ref(), mode)?;
     let head = vec![format!(
         "Mode {number}: {} Hz, {}; dashed: at equilibrium",
         decimals(mode.frequency_hz, 3),
@@ -152,8 +159,8 @@ const PER_HALF_WAVE: f64 = 12.0;
 const MIN_STATIONS: usize = 65;
 const MAX_STATIONS: usize = 2001;
 
-/// Shape of the robot in a mode, enlarged so that the motion is visible.
-fn moved(at_rest: &AtRest, dynamics: &Dynamics, mode: &Mode) -> Result<Shape> {
+/// Shape of the robot in a mode, enlarged so that the motion is visible. Without `dynamics` the cables stay straight.
+fn moved(at_rest: &AtRest, dynamics: Option<&Dynamics>, mode: &Mode) -> Result<Shape> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let half_waves = equilibrium
         .cables
@@ -167,17 +174,23 @@ fn moved(at_rest: &AtRest, dynamics: &Dynamics, mode: &Mode) -> Result<Shape> {
     let count = ((PER_HALF_WAVE * half_waves).min(1e6) as usize).clamp(MIN_STATIONS, MAX_STATIONS);
     let fractions: Vec<f64> = (0..count).map(|k| k as f64 / (count - 1) as f64).collect();
 
+    let s = mode.shape;
+    let (shift, turn) = (Vec3::new(s[0], s[1], s[2]), Vec3::new(s[3], s[4], s[5]));
+    let rigid = |p: Vec3| shift + turn.cross(&(p - equilibrium.pose.position_w));
+
     let (mut points, mut motions) = (Vec::new(), Vec::new());
-    for i in 0..robot.cables.len() {
+    for (i, state) in equilibrium.cables.iter().enumerate() {
+        let Some(dynamics) = dynamics else {
+            points.push(vec![state.attachment_w, state.anchor_w]);
+            motions.push(vec![rigid(state.attachment_w), Vec3::zeros()]);
+            continue;
+        };
         let stations = CableStations::new(robot, equilibrium, dynamics, i, &fractions, false)?;
         let axes = [stations.axes.e, stations.axes.n, stations.axes.b];
         let world = |u: [f64; 3]| axes[0] * u[0] + axes[1] * u[1] + axes[2] * u[2];
         motions.push(stations.in_mode(dynamics, mode).into_iter().map(world).collect::<Vec<Vec3>>());
         points.push(stations.points_w);
     }
-    let s = mode.shape;
-    let (shift, turn) = (Vec3::new(s[0], s[1], s[2]), Vec3::new(s[3], s[4], s[5]));
-    let rigid = |p: Vec3| shift + turn.cross(&(p - equilibrium.pose.position_w));
     let corners: Vec<Vec3> = equilibrium.cables.iter().map(|state| state.attachment_w).collect();
     let centre = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
 

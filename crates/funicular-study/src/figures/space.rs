@@ -2,6 +2,7 @@
 
 use super::axis::{nice_step, round_numbers};
 use super::drawing::{Align, BLACK, Colour, Drawing, Label, Point, Stroke};
+use super::drive::DriveLines;
 use super::hull::faces;
 use super::style::{AXIS_WIDTH, BLUE, CURVE_WIDTH, GREY, Type, VERMILION, around};
 use super::view::{EYE, extent, joined, ranges, sides};
@@ -15,6 +16,8 @@ pub(crate) struct Space {
     pub(crate) title: String,
     rest: Shape,
     moved: Option<Shape>,
+    /// Pulleys and drums at rest.
+    drives: Vec<DriveLines>,
     /// Names of the cables at their anchors, and the sides on which they stand.
     names: Vec<(String, &'static str)>,
     /// Corners of each face of the platform.
@@ -62,7 +65,9 @@ impl Space {
         let reach = extent(&anchors);
         let places = sides(&anchors, reach);
         let labels = joined(&anchors, &names, &places, reach);
-        let points: Vec<Vec3> = rest.cables.iter().flatten().chain(&rest.corners).chain(&anchors).copied().collect();
+        let drives = DriveLines::all(&robot.cables, &equilibrium.cables);
+        let points = rest.cables.iter().flatten().chain(&rest.corners).chain(&anchors).copied();
+        let points: Vec<Vec3> = points.chain(drives.iter().flat_map(DriveLines::points)).collect();
         Self {
             title: robot.name.clone(),
             faces: faces(&rest.corners),
@@ -70,6 +75,7 @@ impl Space {
             names: labels.into_iter().zip(places).collect(),
             rest,
             moved,
+            drives,
             head,
         }
     }
@@ -86,6 +92,7 @@ impl Space {
             drawing.text(label, [0.5 * size, (1.1 + 1.35 * k as f64) * size], Align::Start, fitting, BLACK);
         }
         self.draw_scales(&mut drawing, &view, style);
+        self.draw_drives(&mut drawing, &view, style);
 
         if let Some(moved) = &self.moved {
             let grey = Stroke { colour: GREY, width: 0.5, dashes: vec![2.5, 1.8] };
@@ -141,6 +148,22 @@ impl Space {
             let [x, y] = view.at(shape.mass_centre);
             let diamond = vec![[x - half, y], [x, y - half], [x + half, y], [x, y + half]];
             drawing.areas(vec![diamond], Some(VERMILION), Some(Stroke::solid(BLACK, 0.3)));
+        }
+    }
+
+    /// Wheels, and the cable from the exit points to the drums.
+    fn draw_drives(&self, drawing: &mut Drawing, view: &View, style: &Type) {
+        let flat = |line: &[Vec3]| line.iter().map(|p| view.at(*p)).collect::<Vec<Point>>();
+        for drive in &self.drives {
+            drawing.areas(vec![flat(&drive.wheel)], None, Some(Stroke::solid(GREY, AXIS_WIDTH)));
+            drawing.line(flat(&drive.path), Stroke::solid(BLUE, 0.5 * CURVE_WIDTH));
+            if let Some(drum) = drive.drum {
+                let half = 0.17 * style.size;
+                let [x, y] = view.at(drum);
+                let square =
+                    vec![[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]];
+                drawing.areas(vec![square], Some(GREY), None);
+            }
         }
     }
 

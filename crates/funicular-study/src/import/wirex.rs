@@ -5,7 +5,7 @@
 //! A. Pott, Cable-Driven Parallel Robots, Springer 2018. The attributes have the meaning that WireX itself gives
 //! them (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
 
-use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState, listed};
+use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftPulley, DraftRope, DraftState, listed};
 use super::xml::{Xml, children, tag};
 use crate::text::clean;
 use anyhow::{Result, bail};
@@ -20,6 +20,9 @@ const DEFAULT_MOMENTS: Vec3 = Vec3::new(2.0, 3.0, 4.0);
 
 /// Centre of gravity that WireX writes for a robot whose centre is unknown [m].
 const DEFAULT_CENTER: Vec3 = Vec3::new(0.0, 1.0, 0.2);
+
+/// Radius that WireX gives pulleys of unknown size [m].
+const DEFAULT_PULLEY_RADIUS: f64 = 0.1;
 
 /// Plausible densities of a rope: mass per volume of the enclosing cylinder [kg/m³]. A loose fibre rope has 500, a
 /// steel strand 6000, solid steel 7850. A value outside means that mass or diameter has another meaning.
@@ -54,13 +57,16 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     }
     let motion = motion(xml, robot)?;
     let rope = rope(xml, root, &mut assumed, &mut lost)?;
-    let cables = cables(xml, root, robot, &rope, &mut lost)?;
+    let cables = cables(xml, root, robot, &rope, &mut assumed, &mut lost)?;
     let platform = platform(xml, robot, motion, &mut assumed)?;
     if children(robot, "application").next().is_some() {
         lost.push("<application>, its load and its limits".to_owned());
     }
-    if children(root, "winch").next().is_some() {
-        lost.push("<winch>: motors, drums, limits of speed".to_owned());
+    if let Some(winch) = children(root, "winch").next() {
+        lost.push(format!(
+            "<winch>: motors, drums{}, limits of speed; the file does not say how far the drums are from the pulleys",
+            drum(xml, winch)?
+        ));
     }
     let name = clean(robot.attribute("name").unwrap_or_default());
     Ok(Draft {
@@ -213,12 +219,48 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
     Ok(rope)
 }
 
-fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<String>) -> Result<Vec<DraftCable>> {
+/// Radius of the drum of a winch as a remark; empty if the file does not give it.
+fn drum(xml: &Xml, winch: Node) -> Result<String> {
+    let Some(drum) = children(winch, "drum").next() else { return Ok(String::new()) };
+    let radius = xml.optional_attribute_number(drum, "r_drum")?.filter(|radius| *radius > 0.0);
+    Ok(radius.map_or_else(String::new, |radius| format!(" (radius {radius} m)")))
+}
+
+/// Swivelling pulley of a `<base>`; `None` without a radius. The swivel axis is the z axis of the frame of the base, and
+/// the cable enters along it. WireX counts lengths from the point of the base.
+fn pulley(xml: &Xml, base: Node) -> Result<Option<DraftPulley>> {
+    let Some(radius) = xml.optional_attribute_number(base, "radius")?.filter(|radius| *radius != 0.0) else {
+        return Ok(None);
+    };
+    if radius < 0.0 {
+        bail!(xml.error(base, format!("attribute `radius` of <base> is {radius} m, it must be positive")));
+    }
+
+    // Without a complete third column the frame is that of the world, as in WireX.
+    let column = ["a13", "a23", "a33"].map(|name| xml.optional_attribute_number(base, name));
+    let [x, y, z] = column;
+    let entry_direction_w = match (x?, y?, z?) {
+        (Some(x), Some(y), Some(z)) => Vec3::new(x, y, z),
+        _ => Vec3::z(),
+    };
+    if entry_direction_w == Vec3::zeros() {
+        bail!(xml.error(base, "the z axis of <base>, `a13` `a23` `a33`, has no length".to_owned()));
+    }
+    Ok(Some(DraftPulley { radius, entry_direction_w }))
+}
+
+fn cables(
+    xml: &Xml,
+    root: Node,
+    robot: Node,
+    rope: &DraftRope,
+    assumed: &mut Vec<String>,
+    lost: &mut Vec<String>,
+) -> Result<Vec<DraftCable>> {
     let geometry = xml.required(robot, "geometry")?;
     let minimum = children(root, "cable").next().map(|node| xml.optional_attribute_number(node, "minimum_load"));
     let minimum = minimum.transpose()?.flatten().filter(|limit| *limit > 0.0);
     let mut cables = Vec::new();
-    let mut radii: Vec<f64> = Vec::new();
     for chain in geometry.children().filter(Node::is_element) {
         if tag(chain) != "chain" {
             // WireX ignores it, too.
@@ -226,11 +268,6 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
             continue;
         }
         let base = xml.required(chain, "base")?;
-        if let Some(radius) = xml.optional_attribute_number(base, "radius")?.filter(|radius| *radius != 0.0)
-            && !radii.contains(&radius)
-        {
-            radii.push(radius);
-        }
         cables.push(DraftCable {
             name: clean(chain.attribute("id").unwrap_or_default()),
             anchor_w: xml.attribute_vector(base)?,
@@ -238,17 +275,16 @@ fn cables(xml: &Xml, root: Node, robot: Node, rope: &DraftRope, lost: &mut Vec<S
             rope: rope.clone(),
             limits: [minimum, max_force(xml, root, chain)?],
             unstrained_length: None,
-            pulley: None,
+            pulley: pulley(xml, base)?,
         });
     }
     if cables.is_empty() {
         bail!(xml.error(geometry, "<geometry> has no <chain>: the robot has no cables"));
     }
-    if !radii.is_empty() {
-        let radii: Vec<String> = radii.iter().map(f64::to_string).collect();
-        lost.push(format!(
-            "the pulleys at the base, of radius {} m: each cable ends at the point of its <base>",
-            radii.join(", ")
+    if cables.iter().any(|cable| cable.pulley.is_some_and(|pulley| pulley.radius == DEFAULT_PULLEY_RADIUS)) {
+        assumed.push(format!(
+            "the pulleys of radius {DEFAULT_PULLEY_RADIUS} m: the radius is in the file, but WireX writes it for pulleys of \
+             unknown size; `radius_m` of [pulleys] gives another"
         ));
     }
     Ok(cables)

@@ -48,6 +48,11 @@ pub const KEYS: &[(&str, &str)] = &[
         "damped",
         "compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping",
     ),
+    (
+        "rigid_cables",
+        "modes of a robot on straight cables without mass and rigid in length, of the motions that they leave free; with \
+         the static model `ideal` or `spring`",
+    ),
     ("platform", "compare the modes of the platform alone"),
     ("platform_share", "minimum fraction of the kinetic energy in the platform for a mode of the platform"),
     ("payload_center_m", "centre of mass of the payload, platform frame [m]"),

@@ -584,3 +584,31 @@ pub(super) struct FrictionHalfWidths {
     pub(super) translation_m: [f64; 3],
     pub(super) rotation_rad: [f64; 3],
 }
+
+/// Content of measured.json.
+pub(super) fn measured() -> Result<Measured> {
+    serde_json::from_str(include_str!("../../reference/measured.json")).context("measured.json")
+}
+
+/// Content of measured.json.
+#[derive(Deserialize)]
+pub(super) struct Measured {
+    pub(super) grab: ReferenceTable<MeasuredPose>,
+}
+
+/// Pose of a robot with measured natural frequencies.
+#[derive(Deserialize)]
+pub(super) struct MeasuredPose {
+    pub(super) experiment: usize,
+    pub(super) cables: usize,
+    pub(super) position_m: [f64; 3],
+    /// Angles of the rotation Rx(a) Ry(b) Rz(c).
+    pub(super) angles_xyz_rad: [f64; 3],
+    pub(super) lengths_m: Vec<f64>,
+    /// Frequencies of the source's model, ascending.
+    pub(super) model_hz: Vec<f64>,
+    /// Frequencies for fixed points instead of the pulleys, by a separate program, ascending.
+    pub(super) fixed_points_hz: Vec<f64>,
+    /// Measured frequencies; `None` where no peak was found.
+    pub(super) measured_hz: Vec<Option<f64>>,
+}

@@ -61,3 +61,8 @@ fn what_the_paper_prints_of_itself_follows_where_it_can() {
 fn cables_over_pulleys_and_on_winches_rest_as_in_other_programs() {
     check(super::drives::section(&drives().unwrap()));
 }
+
+#[test]
+fn a_robot_with_few_cables_swings_as_its_makers_computed_and_measured() {
+    check(super::measured::section(&crate::validation::reference::measured().unwrap().grab));
+}

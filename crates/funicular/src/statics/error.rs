@@ -51,10 +51,10 @@ pub enum StaticsError {
         /// Value [m].
         value: f64,
     },
-    /// The number of ideal cables differs from the degrees of freedom.
+    /// More ideal cables than degrees of freedom.
     #[error(
-        "{} for {dof} degrees of freedom: forward statics of `ideal` cables needs exactly {dof}; `spring` \
-         and `catenary` cables may be fewer or more",
+        "{} for {dof} degrees of freedom: forward statics of `ideal` cables has no answer for more than {dof}; choose \
+         the static model `spring` or `catenary`",
         crate::counted(*cables, "cable")
     )]
     CableCount {
@@ -65,8 +65,7 @@ pub enum StaticsError {
     },
     /// Fewer cables than degrees of freedom cannot hold a given pose.
     #[error(
-        "{} for {dof} degrees of freedom cannot hold a given pose: with `spring` and `catenary` cables there is a \
-         nearest pose that they can hold, with `ideal` cables there is none",
+        "{} for {dof} degrees of freedom cannot hold every pose: there is a nearest pose that they can hold",
         crate::counted(*cables, "cable")
     )]
     InverseCableCount {

@@ -22,13 +22,13 @@ const MAX_ITERATIONS: usize = 5000;
 ///
 /// `spring` and `catenary`, any number of cables: minimises the potential energy of cables and platform by Newton's
 /// method with shifted stiffness. So it finds a stable equilibrium if there is one near, or an indifferent one.
-/// `ideal`, as many cables as degrees of freedom: closes the lengths; all tensions have to be positive. `start` is the
-/// start pose; without it the search begins at the pose at which straight cables of these lengths come closest to
+/// `ideal`, as many cables as degrees of freedom: closes the lengths; all tensions have to be positive. `ideal`, fewer
+/// cables: a stable or indifferent equilibrium as well. `start` is the start pose; without it the search begins at the pose at which straight cables of these lengths come closest to
 /// closing.
 ///
 /// # Errors
-/// [`StaticsError`]: lengths that do not fit the robot; ideal cables whose number differs from the degrees of freedom
-/// or that would need negative tension; a start out of a planar platform's plane; no equilibrium within
+/// [`StaticsError`]: lengths that do not fit the robot; more ideal cables than degrees of freedom, or ideal cables that
+/// would need negative tension; a start out of a planar platform's plane; no equilibrium within
 /// [`RESIDUAL_LIMIT`], or, where rounding of stiff cables leaves more, within [`MAX_RESIDUAL_OF_ROUNDING`].
 ///
 /// # Example
@@ -48,7 +48,7 @@ pub fn forward(
 ) -> Result<Equilibrium, StaticsError> {
     check_lengths(robot, lengths)?;
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    if model == StaticModel::Ideal && cables != dof {
+    if model == StaticModel::Ideal && cables > dof {
         return Err(StaticsError::CableCount { cables, dof });
     }
     if let Some(start) = start {
@@ -56,6 +56,9 @@ pub fn forward(
     }
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     match model {
+        StaticModel::Ideal if cables < dof => ideal::forward_of_few(robot, lengths, pose, |lengths, start| {
+            descend_to_equilibrium(robot, lengths, StaticModel::Spring, start)
+        }),
         StaticModel::Ideal => ideal::forward(robot, lengths, pose),
         StaticModel::Spring | StaticModel::Catenary => descend_to_equilibrium(robot, lengths, model, pose),
     }

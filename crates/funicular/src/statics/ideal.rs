@@ -88,6 +88,66 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
     Ok(collect(robot, pose, &tensions, iterations))
 }
 
+/// Maximum number of rounds of [`forward_of_few`], a guard: a round leaves about the strain of the cables as a fraction of
+/// the gap, so that two to six are observed.
+const MAX_ROUNDS: usize = 60;
+
+/// Minimum ratio of an unstrained length in one round to that before, so that lengths stay positive.
+const MIN_SHORTENED: f64 = 0.5;
+
+/// Forward statics of fewer ideal cables than degrees of freedom: the platform hangs as low as its cables allow.
+///
+/// `springs` solves the problem for straight cables that stretch: from unstrained lengths [m] and a start to a stable
+/// equilibrium. The unstrained lengths are shortened until the stretched cables have the given lengths. Rigid cables of
+/// these lengths then have the equilibrium, too, since the forces of straight cables do not depend on their stiffness.
+/// It is stable for rigid cables if it is for cables that stretch.
+///
+/// # References
+/// docs/theory.md, section 14.
+pub(super) fn forward_of_few(
+    robot: &Robot,
+    lengths: &[f64],
+    start: Pose,
+    springs: impl Fn(&[f64], Pose) -> Result<Equilibrium, StaticsError>,
+) -> Result<Equilibrium, StaticsError> {
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let mut unstrained = lengths.to_vec();
+    let (mut pose, mut iterations, mut relative) = (start, 0, f64::INFINITY);
+
+    for _ in 0..MAX_ROUNDS {
+        // Rest of the cables that stretch.
+        let rest = springs(&unstrained, pose)?;
+        pose = rest.pose;
+        iterations += rest.iterations;
+
+        // Lengths that are missing; a slack cable may be longer than its path.
+        let gaps = robot.cables.iter().zip(&rest.cables).zip(lengths).map(|((cable, state), length)| {
+            let gap = length - cable.straight_length(&pose);
+            if state.is_slack() { gap.min(0.0) } else { gap }
+        });
+        let gaps: Vec<f64> = gaps.collect();
+        let before = relative;
+        relative = gaps.iter().fold(0.0, |most: f64, gap| most.max(gap.abs())) / longest;
+
+        // End where they are closed as well as rounding allows.
+        if relative <= CLOSED || (relative <= NEARLY_CLOSED && relative >= before) {
+            let tensions: Vec<f64> = rest.cables.iter().map(|cable| cable.tension_platform).collect();
+            let mut found = collect(robot, pose, &tensions, iterations);
+            for (state, length) in found.cables.iter_mut().zip(lengths) {
+                state.unstrained_length = *length;
+            }
+            return Ok(found);
+        }
+
+        for (length, gap) in unstrained.iter_mut().zip(gaps) {
+            *length = (*length + gap).max(MIN_SHORTENED * *length);
+        }
+    }
+
+    let p = pose.position_w;
+    Err(StaticsError::NotConverged { iterations, residual: relative, limit: NEARLY_CLOSED, x: p.x, y: p.y, z: p.z })
+}
+
 /// Rounding of a tension relative to the largest one: a cable with zero tension gets the wrong sign in about half of
 /// all cases. The condition number of the balance, which is up to 1e10, may cause more; then the pose is nearly
 /// singular.

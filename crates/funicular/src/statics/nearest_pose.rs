@@ -10,6 +10,7 @@ use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
 use super::forward::forward;
+use super::ideal;
 use super::limits::TensionRange;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
@@ -93,7 +94,8 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 /// nearest by [`pose_distance`], among the poses around the one reached from the first guess of lengths.
 ///
 /// # Errors
-/// [`StaticsError`]: ideal cables, a pose out of a planar platform's plane, coinciding ends, or no convergence.
+/// [`StaticsError`]: more ideal cables than degrees of freedom, a pose out of a planar platform's plane,
+/// coinciding ends, or no convergence.
 ///
 /// # Example
 /// ```
@@ -125,7 +127,14 @@ pub fn nearest_equilibrium(
 ) -> Result<NearestEquilibrium, StaticsError> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if model == StaticModel::Ideal {
-        return Err(StaticsError::InverseCableCount { cables, dof });
+        if cables > dof {
+            return Err(StaticsError::CableCount { cables, dof });
+        }
+        // Straight cables hold the same poses with the same tensions, whether they stretch or not.
+        let NearestEquilibrium { equilibrium, distance } = nearest_equilibrium(robot, requested, StaticModel::Spring)?;
+        let tensions: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.tension_platform).collect();
+        let equilibrium = ideal::collect(robot, equilibrium.pose, &tensions, equilibrium.iterations);
+        return Ok(NearestEquilibrium { equilibrium, distance });
     }
     robot.platform.motion.check(requested)?;
 

@@ -116,7 +116,9 @@ fn every_robot_of_the_library_has_a_certified_list_of_modes() {
             let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), below_hz).unwrap();
             let found = modes::below(&dynamics, below_hz);
             assert!(found.certified, "{name} below {below_hz} Hz");
-            if found.modes.len() >= 12 {
+            // Cables without mass have no modes of their own.
+            let massless = robot.cables.iter().all(|cable| cable.material.mass_per_length == 0.0);
+            if found.modes.len() >= if massless { robot.platform.motion.count() } else { 12 } {
                 break;
             }
             below_hz *= 2.0;

@@ -2,6 +2,7 @@
 
 mod damped;
 mod first;
+mod rigid_cables;
 mod tracking;
 
 use crate::random::any_robot;

@@ -1,6 +1,7 @@
 //! Figures of the robot in space, to scale and with hanging cables.
 
 use super::{Figure, colour, plain, rounded};
+use crate::figures::drive::DriveLines;
 use crate::figures::view::{EYE, extent, joined, polygon, ranges, sides};
 use funicular::math::Vec3;
 use funicular::robot::Robot;
@@ -41,16 +42,43 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     for state in &equilibrium.cables {
         points.extend(curve(state, state.free_length()));
     }
+    let mut driven = "";
+    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
+        let Some(lines) = DriveLines::of(cable, state) else { continue };
+        driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if the \
+                  cable came to its pulley in a straight line.";
+        let hover = format!("cable {}<extra></extra>", plain(&cable.name));
+        data.push(cable_line(i, &lines.path, &hover));
+        data.push(wheel(&lines.wheel));
+        data.extend(lines.drum.map(|drum| {
+            let hover = format!("drum of cable {}<extra></extra>", plain(&cable.name));
+            json!({
+                "type": "scatter3d", "mode": "markers", "x": rounded(&[drum.x]), "y": rounded(&[drum.y]), "z": rounded(&[drum.z]),
+                "marker": {"color": "#777777", "symbol": "square", "size": 4}, "hovertemplate": hover,
+            })
+        }));
+        points.extend(lines.points());
+    }
     let scene = scene(&points, true, WIDE);
     Figure::new(
         "figure-robot",
         400,
-        "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-         cables' names; dark body: the platform, spanned by the attachments. Drag to rotate, scroll to zoom, point at \
-         a cable for its length and tension.",
+        format!(
+            "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
+             cables' names; dark body: the platform, spanned by the attachments.{driven} Drag to rotate, scroll to zoom, \
+             point at a cable for its length and tension."
+        ),
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
+}
+
+/// Rim of a wheel.
+fn wheel(rim: &[Vec3]) -> Value {
+    let [x, y, z] = coordinates(rim);
+    json!({
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 3}, "hoverinfo": "skip",
+    })
 }
 
 /// Figure of the platform and the first part of its cables.

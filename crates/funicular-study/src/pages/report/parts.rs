@@ -9,9 +9,9 @@ use crate::pages::table::{PageTable, fixed, listed, significant};
 use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison, Criterion};
-use funicular::dynamics::Linearisation;
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::{Kind, Mode, Modes};
-use funicular::robot::Robot;
+use funicular::robot::{Anchor, Robot};
 use funicular::statics::{Equilibrium, StaticModel, drag_stiffness, tangent_with_drag};
 use serde_json::{Value, json};
 
@@ -105,6 +105,113 @@ pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
         ]);
     }
     Some(table)
+}
+
+/// Table of pulleys and winches at equilibrium; `None` if all cables end at fixed points.
+pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<PageTable> {
+    if robot.cables.iter().all(|cable| cable.anchor.is_fixed()) {
+        return None;
+    }
+    let mut table = PageTable::new(
+        "table-drives",
+        "Pulleys and winches. Wrap: angle over which the cable touches its wheel. The unstrained length of a cable is the \
+         sum of its free span, the arc on the wheel and the drum side."
+            .to_owned(),
+        &[
+            "<cable",
+            "<pulley",
+            "<winch",
+            "wrap|°",
+            "tension, exit|N",
+            "tension, drum|N",
+            "free span|m",
+            "arc|m",
+            "drum side|m",
+            "<exit point|m",
+        ],
+    );
+    for (cable, row) in robot.cables.iter().zip(&equilibrium.cables) {
+        let name = |name: Option<&String>| name.map_or_else(|| NONE.to_owned(), Clone::clone);
+        let contact = row.drive.as_ref().and_then(|drive| drive.contact);
+        let wrap = contact.or_else(|| cable.anchor.contact(&row.attachment_w)).map(|contact| contact.wrap.to_degrees());
+        let [arc, drum_side] = match &row.drive {
+            Some(drive) => [drive.arc_length, drive.drum_side_length],
+            // Ideal cables.
+            None => {
+                [row.unstrained_length - row.chord() - cable.anchor.drum_side_length(), cable.anchor.drum_side_length()]
+            }
+        };
+        let free = row.unstrained_length - arc - drum_side;
+        let exit = row.anchor_w;
+        table.row(vec![
+            cable.name.clone(),
+            name(cable.anchor.pulley.as_ref().map(|pulley| &pulley.name)),
+            name(cable.anchor.winch.as_ref().map(|winch| &winch.name)),
+            wrap.map_or_else(|| NONE.to_owned(), |wrap| fixed(wrap, 2)),
+            fixed(row.tension_anchor, 3),
+            fixed(row.tension_drum(), 3),
+            fixed(free, 4),
+            fixed(arc, 4),
+            fixed(drum_side, 4),
+            format!("{}, {}, {}", fixed(exit.x, 4), fixed(exit.y, 4), fixed(exit.z, 4)),
+        ]);
+    }
+    Some(table)
+}
+
+/// Maximum number of modes in the table with held exit points.
+const MAX_HELD: usize = 10;
+
+/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points,
+/// or if there are none with held exit points.
+///
+/// A cable that cannot slip at its exit point is a robot with more constraints, so that no frequency is lower.
+pub(crate) fn held_table(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    linearisation: Linearisation,
+    found: &Modes,
+) -> Option<PageTable> {
+    let held = modes_with_held_exits(robot, equilibrium, linearisation, found.below_hz)?;
+    let mut table = PageTable::new(
+        "table-held",
+        "First natural frequencies with pulleys and winches, and at the same equilibrium with the exit points held, so that \
+         the cables neither slip there nor move sideways. Both lists are ascending; the n-th frequency with held exit points \
+         is never lower."
+            .to_owned(),
+        &["no.", "with drives|Hz", "exit points held|Hz", "difference|%"],
+    );
+    for (i, mode) in found.modes.iter().take(MAX_HELD).enumerate() {
+        let other = held.get(i);
+        table.row(vec![
+            (i + 1).to_string(),
+            fixed(mode.frequency_hz, 4),
+            other.map_or_else(|| format!("above {}", found.below_hz), |hz| fixed(*hz, 4)),
+            other.map_or_else(|| NONE.to_owned(), |hz| fixed(100.0 * (hz / mode.frequency_hz - 1.0), 2)),
+        ]);
+    }
+    Some(table)
+}
+
+/// Natural frequencies below a limit [Hz] with every cable held at its exit point; `None` if all cables end at fixed
+/// points, or if the robot cannot be linearised.
+fn modes_with_held_exits(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    linearisation: Linearisation,
+    below_hz: f64,
+) -> Option<Vec<f64>> {
+    if equilibrium.cables.iter().all(|state| state.drive.is_none()) {
+        return None;
+    }
+    let (mut robot, mut equilibrium) = (robot.clone(), equilibrium.clone());
+    for (cable, state) in robot.cables.iter_mut().zip(&mut equilibrium.cables) {
+        cable.anchor = Anchor::from(state.anchor_w);
+        state.unstrained_length = state.free_length();
+        state.drive = None;
+    }
+    let dynamics = Dynamics::about(&robot, &equilibrium, linearisation, below_hz).ok()?;
+    Some(funicular::modes::below(&dynamics, below_hz).modes.iter().map(|mode| mode.frequency_hz).collect())
 }
 
 /// Names of the cables, escaped for plotly.
