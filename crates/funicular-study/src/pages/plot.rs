@@ -171,8 +171,8 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
             rows.rows
         ));
     }
-    if !rows.words.is_empty() {
-        notes.push(format!("no figure for {}: the values are words, not numbers", rows.words.join(", ")));
+    if !rows.requested_words.is_empty() {
+        notes.push(format!("no figure for {}: the values are words, not numbers", rows.requested_words.join(", ")));
     }
     notes
 }
