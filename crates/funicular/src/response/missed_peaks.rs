@@ -84,6 +84,8 @@ struct Between {
     hz: f64,
     /// Index of the next higher frequency of the grid.
     above: usize,
+    /// Number of predictions before it.
+    round: usize,
     row: Vec<Measured>,
 }
 
@@ -120,9 +122,10 @@ impl Grid<'_> {
         once(end(above - 1)).chain(between).chain(once(end(above))).collect()
     }
 
-    /// Frequencies [Hz] of peaks that three neighbouring values predict, and that are higher than the values beside them.
-    fn predicted(&self, all: &[Between]) -> Vec<f64> {
-        let is_new = |response: usize, hz: f64, height: f64| {
+    /// Frequencies [Hz] of peaks that three neighbouring values predict, one of them from the last round, and that are
+    /// higher than the values beside them.
+    fn predicted(&self, all: &[Between], round: usize) -> Vec<f64> {
+        let is_higher = |response: usize, hz: f64, height: f64| {
             let above = self.above(hz);
             // Another peak of the interval may be higher: the values on either side count.
             let next = all.partition_point(|place| place.hz < hz);
@@ -134,12 +137,22 @@ impl Grid<'_> {
 
         let mut found: Vec<(f64, f64)> = Vec::new();
         for group in all.chunk_by(|a, b| a.above == b.above) {
+            // Place i of the group is value i + 1 of its curve.
+            let is_new = |i: usize| group.get(i).is_some_and(|place| place.round == round);
+            let begins =
+                |begin: &usize| begin.checked_sub(1).is_some_and(is_new) || is_new(*begin) || is_new(begin + 1);
+            let begins: Vec<usize> = (0..group.len()).filter(begins).collect();
+            if begins.is_empty() {
+                continue;
+            }
+
             for response in 0..self.values.len() {
-                for three in self.curve(response, group).windows(3) {
+                let curve = self.curve(response, group);
+                for three in begins.iter().map(|begin| &curve[*begin..*begin + 3]) {
                     let Some(model) = OnePole::through([three[0], three[1], three[2]]) else { continue };
                     let (hz, height) = model.top();
                     let is_near = (hz - three[1].0).abs() <= MAX_PREDICTED * 0.5 * (three[2].0 - three[0].0);
-                    if is_near && self.has_inside(hz) && height.is_finite() && is_new(response, hz, height) {
+                    if is_near && self.has_inside(hz) && height.is_finite() && is_higher(response, hz, height) {
                         found.push((hz, model.pole.im.abs()));
                     }
                 }
@@ -161,17 +174,18 @@ impl Grid<'_> {
         let places = resonances.flat_map(|r| PLACES.map(|k| r.hz + k * r.half_width));
         let mut next: Vec<f64> = places.filter(|hz| self.has_inside(*hz)).collect();
         let mut all: Vec<Between> = Vec::with_capacity(next.len());
-        for _ in 0..=MAX_PREDICTIONS {
+        for round in 0..=MAX_PREDICTIONS {
             if next.is_empty() {
                 break;
             }
             let rows = evaluate(&next)?;
-            all.extend(next.iter().zip(rows).map(|(hz, row)| Between { hz: *hz, above: self.above(*hz), row }));
+            let new = next.iter().zip(rows);
+            all.extend(new.map(|(hz, row)| Between { hz: *hz, above: self.above(*hz), round, row }));
 
             all.retain(|place| self.hz[place.above] > place.hz);
             all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
             all.dedup_by(|b, a| b.hz - a.hz <= 0.0);
-            next = self.predicted(&all);
+            next = self.predicted(&all, round);
         }
         Ok(all)
     }
