@@ -408,7 +408,7 @@ impl PyRobot {
     ///     The robot has a value that no usual robot has; once per call, before the rows are computed.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
         tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
@@ -427,6 +427,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
         up_to_hz: Option<Number>,
         platform_share: Option<Number>,
         payload_center_m: Option<Numbers>,
@@ -464,7 +465,7 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        let model = model(cable_model, assembly, in_plane_only)?;
+        let model = model(cable_model, assembly, in_plane_only, winches)?;
         let point = each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
@@ -486,7 +487,7 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
         tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
@@ -504,6 +505,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
         up_to_hz: Option<Number>,
         platform_share: Option<Number>,
         payload_center_m: Option<Numbers>,
@@ -541,7 +543,7 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        let model = model(cable_model, assembly, in_plane_only)?;
+        let model = model(cable_model, assembly, in_plane_only, winches)?;
         let point = each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
 

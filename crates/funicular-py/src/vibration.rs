@@ -69,9 +69,10 @@ pub(crate) fn stiffness(
     cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
+    winches: &str,
 ) -> PyResult<Stiffness> {
     let (frequencies, one) = at_hz.map_or(Ok((vec![0.0], true)), |hz| hz.frequencies_of("at_hz"))?;
-    let model = model(cable_model, assembly, in_plane_only)?;
+    let model = model(cable_model, assembly, in_plane_only, winches)?;
     let matrices = py.detach(|| analyses::stiffness::matrices(&of.at_rest, model, &frequencies));
     let all = flat(&matrices.map_err(|error| errors::dynamics(&error))?);
     Ok(match (one, frequencies[..] == [0.0]) {
@@ -108,6 +109,7 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
     pub(crate) platform_share: Option<Number>,
     pub(crate) damped: bool,
 }
@@ -120,6 +122,7 @@ pub(crate) struct CompareKeywords<'a> {
     pub(crate) tolerance: Option<Number>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
@@ -138,7 +141,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         damped: keywords.damped,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
     let at_rest = Arc::clone(&of.at_rest);
@@ -161,7 +164,7 @@ pub(crate) fn compare<'py>(
         tolerance: keywords.tolerance.map_or(Ok(TOLERANCE), |tolerance| tolerance.value("tolerance"))?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        terms: terms(keywords.assembly, keywords.in_plane_only)?,
+        terms: terms(keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;
@@ -175,14 +178,18 @@ pub(crate) fn cable<'py>(
     hz: Numbers,
     cable_model: Option<&str>,
     in_plane_only: bool,
+    winches: &str,
 ) -> PyResult<TextKeyed<'py>> {
     let (frequency_hz, one) = hz.frequencies()?;
     if one || frequency_hz.is_empty() {
         return Err(errors::input("`hz` is no row of frequencies: give a list with at least one frequency".to_owned()));
     }
     let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
-    let found = py
-        .detach(|| cable::about(&of.at_rest, cable::RequestedCable { name, frequency_hz, cable_model, in_plane_only }));
+    let winches = named("winches", winches)?;
+    let found = py.detach(|| {
+        let requested = cable::RequestedCable { name, frequency_hz, cable_model, in_plane_only, winches };
+        cable::about(&of.at_rest, requested)
+    });
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
@@ -266,6 +273,7 @@ pub(crate) struct PairKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
@@ -276,7 +284,7 @@ pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: Pai
         inputs: input.names(),
         outputs: output.names(),
         points: points(keywords.input_point_m, keywords.output_point_m)?,
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
     let found = py.detach(|| {
@@ -326,9 +334,10 @@ pub(crate) fn receptance(
     cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
+    winches: &str,
 ) -> PyResult<Tensor<Complex64>> {
     let (frequencies, _) = hz.frequencies()?;
-    let model = model(cable_model, assembly, in_plane_only)?;
+    let model = model(cable_model, assembly, in_plane_only, winches)?;
     let linearisation = at_rest::linearisation(&model, of.at_rest.equilibrium.model);
     let dynamics = py.detach(|| of.at_rest.dynamics(linearisation, highest(&frequencies)));
     let (dynamics, _) = dynamics.map_err(|error| errors::study(&error))?;

@@ -59,6 +59,7 @@ pub(crate) struct ReduceKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeywords<'_>) -> PyResult<ReducedObject> {
@@ -74,7 +75,7 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
         damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible_in_steps(py, move |watch| analyses::reduce::about(&at_rest, &request, watch))?;
@@ -113,6 +114,7 @@ pub(crate) struct StateSpaceKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 pub(crate) fn state_space(
@@ -133,7 +135,7 @@ pub(crate) fn state_space(
         damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible_in_steps(py, move |watch| analyses::control_model::about(&at_rest, &request, watch))?;
@@ -206,6 +208,7 @@ pub(crate) struct PageKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
     pub(crate) platform_share: Option<Number>,
 }
 
@@ -224,7 +227,7 @@ pub(crate) fn report(
         platform_share: share(keywords.platform_share)?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
     let state = joined(&[&serde_json::to_value(&of.state), &serde_json::to_value(&of.tensions)])?;

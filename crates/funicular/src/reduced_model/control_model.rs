@@ -11,9 +11,9 @@ use super::selection::{RemainingDifference, Size, chosen};
 use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
-    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
+    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, check_cables,
+    viscous_damping_and_ratios,
 };
-use crate::cable::DynamicCable;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
 use crate::modes::{self, Kind};
@@ -170,9 +170,7 @@ pub fn control_model(
     report: &mut dyn FnMut(usize) -> bool,
 ) -> Result<ControlModel, ReductionError> {
     let mut steps = Steps::new(report);
-    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
-        return Err(ReductionError::Model);
-    }
+    check_cables(robot, dynamics)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,
@@ -391,7 +389,7 @@ impl Chosen {
                 states: size,
                 frequency_hz: term.value.norm() / TAU,
                 damping_ratio: -term.value.re / term.value.norm(),
-                kind: (!term.is_residual).then(|| Kind::of(term.platform)),
+                kind: (!term.is_residual).then(|| Kind::of(term.platform, 0.0)),
                 platform_energy_fraction: term.platform,
                 contribution: term.size,
             });

@@ -12,7 +12,7 @@ use funicular::cable::catenary_dynamic::CatenaryDynamicError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{DMat, Vec3};
 use funicular::modes::{self, Modes};
-use funicular::robot::{Damping, Pose};
+use funicular::robot::{Damping, Pose, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel, StaticsError};
 use robots::{Kind, Sample};
 use std::collections::BTreeMap;
@@ -23,6 +23,7 @@ const CATENARY_DYNAMIC: Linearisation = Linearisation {
     cable_model: CableModel::CatenaryDynamic,
     assembly: funicular::dynamics::Assembly::Consistent,
     in_plane_only: false,
+    winches: WinchMode::AsGiven,
 };
 
 /// Bound of the bars' error at the highest frequency, from which their number is chosen.
